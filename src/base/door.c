@@ -306,6 +306,23 @@ wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
     return WT_OK;
 }
 
+wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (flow->child < 0)
+        return unexpected(flow, "less", err);
+    while (status == WT_OK && flow->how == COMING) {
+        collect(flow, ANSWER_BUFFER + sizeof(wt_error));
+        /* The error at the end is not a part of it. */
+        const size_t n = flow->length > sizeof(wt_error) ? flow->length - sizeof(wt_error) : 0;
+        status = n > 0 ? sink(user, flow->bytes, n, err) : WT_OK;
+        flow->length -= n;
+        flow->taken += n;
+        memmove(flow->bytes, flow->bytes + n, flow->length);
+    }
+    return status == WT_OK ? judge(flow, err) : status;
+}
+
 wt_status door_end(door_flow *flow, wt_error *err)
 {
     if (flow->child < 0)

@@ -59,6 +59,9 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
 /* The next n bytes; WT_E_CORRUPT if there are not so many. After a failure there is nothing more.
  */
 wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err) WT_NODISCARD;
+/* Hands on what is left to say, piece by piece, up to its end. */
+typedef wt_status door_sink(void *user, const void *piece, size_t n, wt_error *err);
+wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err) WT_NODISCARD;
 /* Fails if what was left to say is more than nothing, or an error. */
 wt_status door_end(door_flow *flow, wt_error *err) WT_NODISCARD;
 void door_close(door_flow *flow); /* also before the end; accepts NULL */

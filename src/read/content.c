@@ -69,7 +69,7 @@ static wt_status recognised(const choice *c, size_t i, bool *yes)
     status = detect_reader(c->formats, input, c->options->format, c->kinds, &reader, &why);
     if (status == WT_OK && c->options->format != NULL) {
         const unsigned char *bytes = NULL;
-        file_peek peek = {.whole = true, .name = c->file};
+        file_peek peek = {.whole = true, .name = c->file, .input = input};
         status = wt_input_bytes(input, &bytes, &peek.length, c->err);
         peek.bytes = bytes;
         *yes = status == WT_OK && reader->detect(reader, &peek).answer == ANSWER_YES;

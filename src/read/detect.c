@@ -158,12 +158,13 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
             open[n_open++] = formats_reader(formats, i);
     size_t want = FIRST_PEEK;
     while (n_open > 0) {
-        file_peek peek = {.name = wt_input_name(input)};
-        status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
-        if (status != WT_OK)
-            break;
+        file_peek peek = {.name = wt_input_name(input), .input = input};
         size_t need = 0, still_open = 0;
         for (size_t i = 0; i < n_open; i++) {
+            /* The one before may have looked elsewhere. */
+            status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
+            if (status != WT_OK)
+                break;
             const recognition answer = open[i]->detect(open[i], &peek);
             if (answer.answer == ANSWER_NO_MEMORY)
                 status = wt_fail(err, WT_E_MEMORY, "no memory to detect the format");

@@ -32,6 +32,7 @@ typedef struct file_peek {
     size_t length;
     bool whole;
     const char *name;       /* as the user wrote it; for messages only */
+    wt_input *input;        /* for a detector that must look far behind; the bytes may move then */
     struct text_peek *text; /* what the text readers made of it for each other; text_peek_free */
 } file_peek;
 

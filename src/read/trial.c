@@ -83,7 +83,7 @@ static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_o
     text_file file;
     const file_reader *reader = NULL;
     wt_input *content = NULL;
-    file_peek peek = {.whole = true, .name = wt_input_name(sample)};
+    file_peek peek = {.whole = true, .name = wt_input_name(sample), .input = sample};
     options.format = wt_formats_get(alone, 0)->id;
     wt_status status = find_reader(alone, sample, &options, 0, &reader, &content, err);
     if (status == WT_OK)

@@ -73,7 +73,7 @@ static const char *ask_each(const small_file *f, wt_input *input)
         recognition r = {.answer = ANSWER_MORE, .need = 4096};
         for (bool whole = false; r.answer == ANSWER_MORE && !whole;) {
             wt_error err = WT_ERROR_INIT;
-            file_peek peek = {.name = wt_input_name(input)};
+            file_peek peek = {.name = wt_input_name(input), .input = input};
             bench_check(wt_input_peek(input, r.need, &peek.bytes, &peek.length, &peek.whole, &err),
                         &err);
             r = reader->detect(reader, &peek);

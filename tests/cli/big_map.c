@@ -1,12 +1,10 @@
 /* What a map costs in memory: a small and a large one, told, fitted and converted in every
  * direction. Peak memory, carried on to 65,536 curves, must stay below 100 MB, and moduli and files
  * must be the same to the last digit whichever way they came.
- * Usage: big_map PROGRAM WORK files|text|blocks [CURVES [SAMPLES]]: one map of so many curves, of
- * so many samples in each of two segments, instead, whose peaks are printed.
+ * Usage: big_map PROGRAM WORK NAME [CURVES [SAMPLES]]: the trial of this name; one map
+ * of so many curves, of so many samples in each of two segments, instead, whose peaks are printed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "writers/jpk_writer.h"
-#include "writers/nanoscope_writer.h"
-#include "writers/nid_writer.h"
+#include "big_map_files.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -22,166 +20,11 @@
 
 #define BARE "-q", "--no-provenance"
 #define MAP "map.jpk-force-map"
-enum { ASKED = 65536, MOST_MB = 100, KINDS = 64, MOST_SAMPLES = 200, MOST_CALLS = 12 };
+enum { ASKED = 65536, MOST_MB = 100, MOST_CALLS = 12 };
 
 extern char **environ;
 
-static const double modulus = 4e6, radius = 1e-6, contact = 0.6e-6, spring_constant = 2;
-
-static double height[2][KINDS][MOST_SAMPLES], force[2][KINDS][MOST_SAMPLES];
 static size_t n_bad;
-
-static double noise(void)
-{
-    static unsigned long long state = 2026;
-    double sum = 0;
-    for (int i = 0; i < 12; i++) {
-        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-        sum += (double)(state >> 11) / 9007199254740992.0;
-    }
-    return sum - 6;
-}
-
-/* Curves of a paraboloid on a half space. */
-static void make_kinds(size_t n)
-{
-    for (size_t c = 0; c < KINDS; c++)
-        for (size_t way = 0; way < 2; way++)
-            for (size_t i = 0; i < n; i++) {
-                const double at = (double)(way == 0 ? i : n - 1 - i) / (double)(n - 1);
-                const double position = 1e-6 * at, depth = fmax(position - contact, 0);
-                const double pushed = 4. / 3 * modulus / 0.75 * sqrt(radius) * pow(depth, 1.5);
-                force[way][c][i] = pushed + 1e-9 * noise();
-                height[way][c][i] = -(position + pushed / spring_constant);
-            }
-}
-
-static void write_map(size_t n, size_t samples)
-{
-    static jpk_writer_segment segments[KINDS][2];
-    jpk_writer_curve *const curves = calloc(n, sizeof *curves);
-    jpk_writer_file file = jpk_writer_defaults();
-    const long side = (long)ceil(sqrt((double)n));
-    if (curves == NULL)
-        abort();
-    for (size_t i = 0; i < 2 * (size_t)KINDS; i++)
-        segments[i / 2][i % 2] = (jpk_writer_segment){.style = i % 2 == 0 ? "extend" : "retract",
-                                                      .n = samples,
-                                                      .duration = 0.5,
-                                                      .height = height[i % 2][i / 2],
-                                                      .force = force[i % 2][i / 2]};
-    for (size_t i = 0; i < n; i++)
-        curves[i] = (jpk_writer_curve){i, 1e-6 * (double)(i % (size_t)side),
-                                       1e-6 * (double)(i / (size_t)side), 2, segments[i % KINDS]};
-    file.path = MAP;
-    file.map = true;
-    file.n_curves = n;
-    file.curves = curves;
-    file.columns = file.rows = side;
-    file.spring_constant = spring_constant;
-    file.sensitivity = 60e-9;
-    file.stored = true;
-    if (jpk_write(&file) != 0)
-        abort();
-    free(curves);
-}
-
-/* The values of all curves, way in and way out one behind the other, or `way` alone. */
-static double *all_values(size_t n, size_t samples, int way,
-                          double value(size_t kind, size_t way, size_t i, size_t samples))
-{
-    const size_t ways = way < 0 ? 2 : 1;
-    double *const values = calloc(n * ways * samples, sizeof *values);
-    if (values == NULL)
-        abort();
-    for (size_t c = 0, at = 0; c < n; c++)
-        for (size_t w = 0; w < ways; w++)
-            for (size_t i = 0; i < samples; i++)
-                values[at++] = value(c % KINDS, way < 0 ? w : (size_t)way, i, samples);
-    return values;
-}
-
-static double height_of(size_t kind, size_t way, size_t i, size_t samples)
-{
-    (void)samples;
-    return height[way][kind][i];
-}
-
-static double force_of(size_t kind, size_t way, size_t i, size_t samples)
-{
-    (void)samples;
-    return force[way][kind][i];
-}
-
-/* Where the piezo and not the tip moves evenly: the depth that balances the lever, by bisection,
- * and the noise of the kind. */
-static double volts_of(size_t kind, size_t way, size_t i, size_t samples)
-{
-    const double at = (double)(way == 0 ? i + 1 : samples - i) / (double)samples;
-    const double pressed = 1e-6 * at - contact;
-    double low = 0, high = fmax(pressed, 0);
-    for (int k = 0; k < 60; k++) {
-        const double depth = (low + high) / 2;
-        const double pushed = 4. / 3 * modulus / 0.75 * sqrt(radius) * pow(depth, 1.5);
-        *(depth + pushed / spring_constant < pressed ? &low : &high) = depth;
-    }
-    const double still = force[0][kind][i * 37 % (samples / 2)];
-    return (fmax(pressed, 0) - low + still / spring_constant) / 60e-9;
-}
-
-static void write_blocks(size_t n, size_t samples)
-{
-    double *const volts = all_values(n, samples, -1, volts_of);
-    const nanoscope_writer_channel channel = {"Deflection Error", "Sens. DeflSens", 3e-4, volts};
-    const nanoscope_writer_file spm = {.path = "map.spm",
-                                       .volume = true,
-                                       .side = (size_t)lrint(sqrt((double)n)),
-                                       .n_in = samples,
-                                       .n_out = samples,
-                                       .width = 4,
-                                       .ramp_volts = 100,
-                                       .z_sensitivity = 10,
-                                       .deflection_sensitivity = 60,
-                                       .spring_constant = spring_constant,
-                                       .rate = 200,
-                                       .n_channels = 1,
-                                       .channels = &channel};
-    if (nanoscope_write(&spm) != 0)
-        abort();
-    free(volts);
-    static const char *const names[] = {"Spec forward", "Spec backward"};
-    nid_writer_channel channels[2][2];
-    nid_writer_group groups[2];
-    nid_writer_file nid = nid_writer_defaults();
-    for (int way = 0; way < 2; way++) {
-        channels[way][0] = (nid_writer_channel){
-            0, "Deflection", "N", -1e-5, 2e-5, 32, all_values(n, samples, way, force_of)};
-        channels[way][1] = (nid_writer_channel){
-            1, "Z-Axis", "m", -1e-5, 2e-5, 32, all_values(n, samples, way, height_of)};
-        groups[way] = (nid_writer_group){.name = names[way],
-                                         .points = samples,
-                                         .lines = n,
-                                         .x_name = "Z",
-                                         .x_unit = "m",
-                                         .y_name = "Curve",
-                                         .y_unit = "",
-                                         .x_range = 1e-6,
-                                         .y_range = 1,
-                                         .n_channels = 2,
-                                         .channels = channels[way]};
-    }
-    nid.path = "map.nid";
-    nid.n_groups = 2;
-    nid.groups = groups;
-    nid.spring_constant = spring_constant;
-    nid.forward_time = nid.backward_time = 0.5;
-    nid.forward_points = nid.backward_points = samples;
-    nid.forward_range = 1e-6;
-    if (nid_write(&nid) != 0)
-        abort();
-    for (size_t i = 0; i < 4; i++)
-        free((void *)channels[i / 2][i % 2].values);
-}
 
 /* A process that writes what is in a file into a pipe, whose other end is returned. */
 static int feed(const char *path, pid_t *writer)
@@ -239,15 +82,27 @@ static double peak(const char *program, const char *const *arguments)
 
 #define INDENT "indent", BARE, "--tip", "paraboloid:radius=1um", "--threads", "1"
 #define CONVERT "convert", BARE
+/* Not every format holds a spring constant. */
+#define FIT INDENT, "--spring-constant", "2N/m"
 /* What is done one after the other, and which files must be alike afterwards. */
 typedef struct trial {
     const char *name;
     void (*write)(size_t n, size_t samples); /* the map or the maps */
     size_t small, large, samples;
-    const char *calls[MOST_CALLS][12];
-    const char *moduli[3];   /* that are those of moduli.tsv */
+    const char *calls[MOST_CALLS][14];
+    const char *moduli[4];   /* that are those of moduli.tsv */
+    const char *only_moduli; /* of one that has other files and numbers of curves, or NULL */
     const char *files[2][2]; /* byte for byte */
 } trial;
+
+/* A file of one format in every direction. */
+#define ONE_FILE(map, n)                                                                           \
+    .small = 1536, .large = 4096, .samples = (n),                                                  \
+    .calls = {{FIT, map, "-o", "moduli.tsv"},        {"info", map},                                \
+              {CONVERT, map, "-o", "map.h5"},        {CONVERT, map, "-o", "map.tsv"},              \
+              {FIT, "map.h5", "-o", "h5.tsv"},       {FIT, "map.tsv", "-o", "text.tsv"},           \
+              {CONVERT, "map.tsv", "-o", "text.h5"}, {FIT, "text.h5", "-o", "text-h5.tsv"}},       \
+    .moduli = {"h5.tsv", "text.tsv", "text-h5.tsv"}
 
 static const trial trials[] = {
     {.name = "files",
@@ -295,6 +150,23 @@ static const trial trials[] = {
                {CONVERT, "map.nid", "-o", "nid.h5"},
                {INDENT, "nid.h5", "-o", "nid-h5.tsv"}},
      .moduli = {"h5.tsv"}},
+    {.name = "lines", .write = write_lines, ONE_FILE("map.nid", 200)},
+    {.name = "studio_1", .write = write_studio_1, ONE_FILE("map.nhf", 100)},
+    {.name = "studio_2", .write = write_studio_2, ONE_FILE("map.nhf", 100)},
+    {.name = "park", .write = write_park, ONE_FILE("map.tiff", 200)},
+    {.name = "waves",
+     .write = write_waves,
+     .small = 1536,
+     .large = 4096,
+     .samples = 200,
+     .calls = {{INDENT, "map.zip", "-o", "moduli.tsv"},
+               {"info", "map.zip"},
+               {CONVERT, "map.zip", "-o", "map.h5"},
+               {CONVERT, "map.zip", "-o", "map.tsv"},
+               {INDENT, "map.h5", "-o", "h5.tsv"},
+               {INDENT, "map.waves", "-o", "waves.tsv"}},
+     .moduli = {"h5.tsv"},
+     .only_moduli = "waves.tsv"},
 };
 enum { TRIALS = sizeof trials / sizeof *trials };
 
@@ -324,7 +196,7 @@ static size_t find_column(FILE *in, const char *name)
 
 /* The rows of moduli agree, and are moduli, apart from the name of the file and what only one
  * format says. */
-static void compare(const char *name, size_t n)
+static void compare(const char *name, bool only_moduli, size_t n)
 {
     static char a[4096], b[4096];
     FILE *const x = fopen("moduli.tsv", "r"), *const y = fopen(name, "r");
@@ -338,7 +210,9 @@ static void compare(const char *name, size_t n)
         for (size_t column = 0; p != NULL && q != NULL; column++) {
             char *const u = strsep(&p, "\t"), *const v = strsep(&q, "\t");
             if (column == modulus_column)
-                agree = agree && fabs(strtod(u, NULL) - modulus) < 0.2 * modulus;
+                agree = agree && fabs(strtod(u, NULL) - MAP_MODULUS) < 0.2 * MAP_MODULUS;
+            if (only_moduli && column != modulus_column)
+                continue;
             if (strstr(u, "map.") == NULL && strcmp(u, v) != 0) {
                 if (agree && n_bad < 5)
                     (void)fprintf(stderr, "%s, row %zu, column %zu: %s, not %s\n", name, i, column,
@@ -391,7 +265,9 @@ static void run(const char *program, const trial *t, size_t n, double peaks[MOST
     for (size_t i = 0; i < MOST_CALLS && t->calls[i][0] != NULL; i++)
         peaks[i] = peak(program, t->calls[i]);
     for (size_t i = 0; t->moduli[i] != NULL; i++)
-        compare(t->moduli[i], n);
+        compare(t->moduli[i], false, n);
+    if (t->only_moduli != NULL)
+        compare(t->only_moduli, true, n);
     for (size_t i = 0; i < 2 && t->files[i][0] != NULL; i++)
         compare_bytes(t->files[i]);
 }
@@ -401,7 +277,8 @@ static void tell(const char *const *call)
     for (; *call != NULL; call++)
         if (strcmp(*call, "-q") == 0 || strcmp(*call, "--no-provenance") == 0)
             continue;
-        else if (strcmp(*call, "--tip") == 0 || strcmp(*call, "--threads") == 0)
+        else if (strcmp(*call, "--tip") == 0 || strcmp(*call, "--threads") == 0 ||
+                 strcmp(*call, "--spring-constant") == 0)
             call++;
         else if (strcmp(*call, "-o") != 0)
             (void)printf("%s ", *call);

@@ -66,8 +66,12 @@ static inline void describe(const file_reader *reader, const uint8_t *data, size
 
 static inline void detect(const file_reader *reader, const uint8_t *data, size_t size)
 {
-    file_peek peek = {.bytes = data, .length = size, .whole = true, .name = "fuzz"};
+    wt_input *input = NULL;
+    if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
+        abort();
+    file_peek peek = {.bytes = data, .length = size, .whole = true, .name = "fuzz", .input = input};
     const recognition r = reader->detect(reader, &peek);
+    wt_input_close(input);
     if (r.answer == ANSWER_YES && (r.score < 1 || r.score > 100))
         abort();
 }

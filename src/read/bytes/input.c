@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/input.h"
+#include "data/hdf5_bytes.h"
 #include "read/bytes/scratch.h"
 
 #include <errno.h>
@@ -318,9 +319,15 @@ wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *e
     return WT_E_IO;
 }
 
-int input_file(const wt_input *input)
+wt_status input_hdf5(wt_input *input, hdf5_bytes *bytes, wt_error *err)
 {
-    return input->expected > 0 && !input->whole ? input->fd : -1;
+    *bytes = (hdf5_bytes){.file = -1};
+    wt_status status = wt_input_size(input, &bytes->size, err);
+    if (status != WT_OK || (input->expected > 0 && !input->whole)) {
+        bytes->file = input->fd;
+        return status;
+    }
+    return wt_input_bytes(input, &bytes->bytes, &bytes->size, err);
 }
 
 wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,

@@ -13,8 +13,10 @@ wt_status input_own(char *bytes, size_t length, const char *name, wt_input **inp
 wt_status input_of_file(int file, size_t size, const char *name, wt_input **input,
                         wt_error *err) WT_NODISCARD;
 
-/* The descriptor of a file that is not yet read as a whole, or -1; of the input. */
-int input_file(const wt_input *input);
+/* Where HDF5 finds the bytes (data/hdf5_bytes.h): in the input, which must outlive them, or in its
+ * file if that is not yet read as a whole. */
+struct hdf5_bytes;
+wt_status input_hdf5(wt_input *input, struct hdf5_bytes *bytes, wt_error *err) WT_NODISCARD;
 
 /* What was unpacked from it; closed with it. */
 void input_keep(wt_input *input, wt_input *content);

@@ -4,6 +4,7 @@
 #include "read/bytes/scratch.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Read together, if less is asked for. */
 #define AHEAD ((size_t)64 * 1024)
@@ -63,4 +64,21 @@ void window_close(input_window *w)
 {
     free(w->bytes);
     *w = (input_window){0};
+}
+
+bool input_has(wt_input *input, const char *words)
+{
+    const size_t length = strlen(words);
+    input_window w;
+    bool found = false;
+    wt_status status = window_open(&w, input, NULL);
+    for (size_t at = 0; status == WT_OK && !found && w.size - at >= length;) {
+        const unsigned char *bytes = NULL;
+        const size_t left = w.size - at, n = left < AHEAD ? left : AHEAD;
+        status = window_bytes(&w, at, n, &bytes, NULL);
+        found = status == WT_OK && memmem(bytes, n, words, length) != NULL;
+        at += n - length + 1; /* what begins in one piece may end in the next */
+    }
+    window_close(&w);
+    return found;
 }

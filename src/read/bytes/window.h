@@ -19,4 +19,7 @@ wt_status window_bytes(input_window *window, size_t at, size_t n, const unsigned
                        wt_error *err);
 void window_close(input_window *window);
 
+/* Whether these words stand anywhere in it; false if it cannot be read. */
+bool input_has(wt_input *input, const char *words);
+
 #endif

@@ -7,6 +7,8 @@
 #include "data/hdf5_scope.h"
 #include "data/store.h"
 #include "read/bytes/input.h"
+#include "read/bytes/spool.h"
+#include "read/bytes/window.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -112,30 +114,76 @@ hid_t hdf5_open_data(hid_t parent, const char *name)
     return open_object(parent, name, H5I_DATASET);
 }
 
-double *hdf5_values(hid_t data, size_t size, size_t *n)
+/* What is packed in pieces is unpacked piece by piece: one must fit into what is kept unpacked, or
+ * it is unpacked for every row. */
+hid_t hdf5_open_rows(hid_t parent, const char *name)
 {
-    double *values = NULL;
+    enum { KEPT = 1 << 20 };
+    const hid_t data = hdf5_open_data(parent, name);
+    const hid_t creation = data >= 0 ? H5Dget_create_plist(data) : -1;
+    const hid_t type = data >= 0 ? H5Dget_type(data) : -1;
+    const size_t width = type >= 0 ? H5Tget_size(type) : 0;
+    hsize_t piece = 0;
+    hid_t again = -1;
+    if (width > 0 && H5Pget_layout(creation) == H5D_CHUNKED &&
+        H5Pget_chunk(creation, 1, &piece) == 1 && piece < SIZE_MAX / width &&
+        piece * width > KEPT) {
+        const size_t size = (size_t)piece * width;
+        const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
+        hdf5_close(data); /* while it is open, what it keeps cannot be changed */
+        if (access >= 0 &&
+            H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, size, 1.0) >= 0)
+            again = H5Dopen2(parent, name, access);
+        hdf5_close(access);
+    } else {
+        again = data;
+    }
+    hdf5_close(type);
+    hdf5_close(creation);
+    return again;
+}
+
+size_t hdf5_count(hid_t data, size_t size)
+{
     const hid_t creation = H5Dget_create_plist(data);
     const hid_t space = H5Dget_space(data);
     const hid_t type = H5Dget_type(data);
     const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
     const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
     const H5D_layout_t layout = creation >= 0 ? H5Pget_layout(creation) : H5D_LAYOUT_ERROR;
-    if ((class == H5T_FLOAT || class == H5T_INTEGER) && points > 0 &&
+    const bool good =
+        (class == H5T_FLOAT || class == H5T_INTEGER) && points > 0 &&
         H5Sget_simple_extent_ndims(space) == 1 &&
         (layout == H5D_CHUNKED || layout == H5D_CONTIGUOUS || layout == H5D_COMPACT) &&
-        H5Pget_external_count(creation) == 0 && (size_t)points / UNPACKED_MAX <= size) {
-        values = calloc((size_t)points, sizeof *values);
-        if (values != NULL &&
-            H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
-            free(values);
-            values = NULL;
-        }
-        *n = (size_t)points;
-    }
+        H5Pget_external_count(creation) == 0 && (size_t)points / UNPACKED_MAX <= size;
     hdf5_close(type);
     hdf5_close(space);
     hdf5_close(creation);
+    return good ? (size_t)points : 0;
+}
+
+bool hdf5_rows(hid_t data, size_t from, size_t n, double *values)
+{
+    const hsize_t start = from, count = n;
+    const hid_t all = H5Dget_space(data);
+    const hid_t space = H5Screate_simple(1, &count, NULL);
+    const bool good = all >= 0 && space >= 0 &&
+                      H5Sselect_hyperslab(all, H5S_SELECT_SET, &start, NULL, &count, NULL) >= 0 &&
+                      H5Dread(data, H5T_NATIVE_DOUBLE, space, all, H5P_DEFAULT, values) >= 0;
+    hdf5_close(space);
+    hdf5_close(all);
+    return good;
+}
+
+double *hdf5_values(hid_t data, size_t size, size_t *n)
+{
+    const size_t count = hdf5_count(data, size);
+    double *values = count > 0 ? calloc(count, sizeof *values) : NULL;
+    *n = count > 0 ? count : *n;
+    if (values != NULL && !hdf5_rows(data, 0, count, values)) {
+        free(values);
+        values = NULL;
+    }
     return values;
 }
 
@@ -160,30 +208,44 @@ recognition hdf5_recognise(const file_peek *peek, const char *words)
     if (peek->length < sizeof signature - 1 ||
         memcmp(peek->bytes, signature, sizeof signature - 1) != 0)
         return match;
-    if (memmem(peek->bytes, peek->length, words, strlen(words)) != NULL) {
+    if (memmem(peek->bytes, peek->length, words, strlen(words)) != NULL ||
+        (!peek->whole && !is_own(peek) && input_has(peek->input, words))) {
         match.answer = ANSWER_YES;
         match.score = 85;
-    } else if (!peek->whole && !is_own(peek)) {
-        match.answer = ANSWER_MORE;
-        match.need = 4 * peek->length;
     }
     return match;
 }
 
+typedef struct text_sink {
+    spool text;
+    const char *name;
+} text_sink;
+
+static wt_status take_text(void *user, const void *piece, size_t n, wt_error *err)
+{
+    text_sink *to = user;
+    return spool_add(&to->text, piece, n, to->name, err);
+}
+
 wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text, wt_error *err)
 {
-    const unsigned char *bytes = NULL;
-    size_t length = 0, n = 0;
-    char *answer = NULL;
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    hdf5_bytes from = {.bytes = NULL};
+    text_sink to = {.name = wt_input_name(input)};
+    door_flow *flow = NULL;
+    wt_status status = input_hdf5(input, &from, err);
     if (status != WT_OK)
         return status;
-    door_limits limits = door_limits_of(length);
+    door_limits limits = door_limits_of(from.size);
     /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
      */
-    limits.answer = ((size_t)16 << 20) + 24 * length; /* numbers may be packed */
-    limits.cpu_time = 2 + (unsigned)(length >> 20);
-    status = hdf5_door_read(&(hdf5_bytes){.bytes = bytes, .size = length}, &limits, reading,
-                            &answer, &n, err);
-    return status == WT_OK ? input_own(answer, n, wt_input_name(input), text, err) : status;
+    limits.answer = ((size_t)16 << 20) + 24 * from.size; /* numbers may be packed */
+    limits.cpu_time = 2 + (unsigned)(from.size >> 20);
+    status = hdf5_door_begin(&from, &limits, reading, &flow, err);
+    if (status == WT_OK)
+        status = door_pour(flow, take_text, &to, err);
+    door_close(flow);
+    if (status == WT_OK)
+        return spool_input(&to.text, to.name, text, err);
+    spool_drop(&to.text);
+    return status;
 }

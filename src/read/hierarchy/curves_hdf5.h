@@ -23,6 +23,13 @@ bool hdf5_link(hid_t group, size_t i, char name[HDF5_NAME]);
  * if it is none. */
 hid_t hdf5_open_group(hid_t parent, const char *name);
 hid_t hdf5_open_data(hid_t parent, const char *name);
+/* As hdf5_open_data, of numbers that are read row by row. */
+hid_t hdf5_open_rows(hid_t parent, const char *name);
+/* How many numbers a data set of one dimension has; 0 if it is none or has more than a file of
+ * `size` bytes can hold. */
+size_t hdf5_count(hid_t data, size_t size);
+/* Numbers [from, from + n), which are there. */
+bool hdf5_rows(hid_t data, size_t from, size_t n, double *values);
 /* All numbers of a data set of one dimension, new; NULL if it is none or has more than a file of
  * `size` bytes can hold. */
 double *hdf5_values(hid_t data, size_t size, size_t *n);

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/jpk/jpk.h"
+#include "read/bytes/window.h"
 #include "read/facts.h"
 
 #include <math.h>
@@ -12,7 +13,8 @@
 
 static bool contains(const file_peek *peek, const char *text)
 {
-    return memmem(peek->bytes, peek->length, text, strlen(text)) != NULL;
+    return memmem(peek->bytes, peek->length, text, strlen(text)) != NULL ||
+           (!peek->whole && input_has(peek->input, text));
 }
 
 /* Names of entries stand unpacked in the archive; a name this long does not come about by chance in
@@ -26,9 +28,6 @@ static recognition detect(const file_reader *self, file_peek *peek)
     if (contains(peek, "/segment-header.properties")) {
         match.answer = ANSWER_YES;
         match.score = 95;
-    } else if (!peek->whole) {
-        match.answer = ANSWER_MORE;
-        match.need = 4 * peek->length;
     } else if (contains(peek, "data-image.") && contains(peek, "header.properties")) {
         match.answer = ANSWER_UNSUPPORTED;
         snprintf(match.reason, sizeof match.reason, "a JPK file without force curves");

@@ -39,9 +39,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
 static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
 {
     wt_result *result = NULL;
-    hdf5_bytes from = {.file = input_file(input)};
-    wt_status status = from.file >= 0 ? wt_input_size(input, &from.size, err)
-                                      : wt_input_bytes(input, &from.bytes, &from.size, err);
+    hdf5_bytes from;
+    wt_status status = input_hdf5(input, &from, err);
     if (status == WT_OK)
         status = store_read_bytes(&from, wt_input_name(input), &result, err);
     return status == WT_OK ? map_open(&from, result, map, err) : status;

@@ -43,7 +43,7 @@ static void clear(measurement *m)
 {
     for (size_t s = 0; s < m->n_segments; s++) {
         for (size_t c = 0; c < m->segments[s].n_channels; c++)
-            free(m->segments[s].channels[c].values);
+            nhf_channel_close(&m->segments[s].channels[c]);
         free(m->segments[s].sizes);
     }
     free(m->x);
@@ -120,14 +120,12 @@ static wt_status read_segment(const nhf_file *f, hid_t group, const char *place,
     for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name) && s->n_channels < CHANNELS;
          i++) {
         nhf_channel *c = &s->channels[s->n_channels];
-        const hid_t data = hdf5_open_data(group, name);
-        if (data >= 0 && nhf_channel_read(f, data, c, &problem)) {
+        if (nhf_channel_open(f, group, name, c, &problem)) {
             if (s->n_channels++ == 0)
-                (void)hdf5_text(data, "dataset_block_size_source", source);
+                (void)hdf5_text(c->data, "dataset_block_size_source", source);
             if (c->n != s->channels[0].n)
                 problem = "channels of different length";
         }
-        hdf5_close(data);
         if (problem != NULL)
             status = bad(place, problem, "a type and a linear calibration that are known", err);
     }
@@ -210,29 +208,38 @@ static double rise(const double *values, size_t n)
     return n > first ? values[n - 1] - values[first] : 0;
 }
 
+static wt_status unreadable(wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "the numbers of a channel cannot be read");
+    wt_error_expected(err, "as many as the file says");
+    return WT_E_CORRUPT;
+}
+
 /* Whether heights fall towards the sample is known from other programs only: the first way in
  * tells.
  */
-static void turn_heights(measurement *m)
+static wt_status turn_heights(measurement *m, wt_error *err)
 {
     double way = 0;
     for (size_t s = 0; s < m->n_segments && way == 0; s++)
         for (size_t c = 0; c < m->segments[s].n_channels; c++) {
-            const nhf_channel *channel = &m->segments[s].channels[c];
+            nhf_channel *channel = &m->segments[s].channels[c];
             const size_t n = m->segments[s].n_curves > 0 ? (size_t)m->segments[s].sizes[0] : 0;
-            if (m->segments[s].kind == WT_SEGMENT_APPROACH && channel->quantity == WT_Q_HEIGHT)
-                way = rise(channel->values, n);
+            if (m->segments[s].kind != WT_SEGMENT_APPROACH || channel->quantity != WT_Q_HEIGHT)
+                continue;
+            if (!nhf_channel_take(channel, 0, n))
+                return unreadable(err);
+            way = rise(channel->values, n);
         }
     for (size_t s = 0; s < m->n_segments && way > 0; s++)
-        for (size_t c = 0; c < m->segments[s].n_channels; c++) {
-            const nhf_channel *channel = &m->segments[s].channels[c];
-            for (size_t i = 0; channel->quantity == WT_Q_HEIGHT && i < channel->n; i++)
-                channel->values[i] = -channel->values[i];
-        }
+        for (size_t c = 0; c < m->segments[s].n_channels; c++)
+            if (m->segments[s].channels[c].quantity == WT_Q_HEIGHT)
+                m->segments[s].channels[c].factor *= -1;
+    return WT_OK;
 }
 
 /* Each segment has its own columns and its own time, which begins at 0; a curve has one. */
-static void print_curve(measurement *m, size_t number, size_t curve, FILE *out)
+static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *out, wt_error *err)
 {
     double end = 0;
     bool begun = false;
@@ -245,23 +252,26 @@ static void print_curve(measurement *m, size_t number, size_t curve, FILE *out)
                            .cantilever = m->cantilever,
                            .n_columns = s->n_channels};
         for (size_t c = 0; c < s->n_channels; c++) {
-            double *values = s->channels[c].values;
+            if (!nhf_channel_take(&s->channels[c], s->from, n))
+                return unreadable(err);
+            double *const values = s->channels[c].values;
             text.columns[c].quantity = s->channels[c].quantity;
             text.columns[c].values = values;
             if (s->channels[c].quantity != WT_Q_TIME || n == 0)
                 continue;
-            const double shift = values[s->from] < end ? end : 0;
+            const double shift = values[0] < end ? end : 0;
             for (size_t k = 0; k < n; k++)
-                values[s->from + k] += shift;
-            end = values[s->from + n - 1];
+                values[k] += shift;
+            end = values[n - 1];
         }
         if (n > 0) {
             (begun ? curve_text_names : curve_text_begin)(out, &text);
-            curve_text_rows(out, &text, s->kind, s->from, n, false);
+            curve_text_rows(out, &text, s->kind, 0, n, false);
             begun = true;
         }
         s->from += n;
     }
+    return WT_OK;
 }
 
 static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
@@ -291,9 +301,9 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
             strncmp(type, "spectroscopy", 12) == 0)
             status = read_measurement(&f, group, &m, err);
         if (status == WT_OK)
-            turn_heights(&m);
+            status = turn_heights(&m, err);
         for (size_t curve = 0; status == WT_OK && curve < m.n_curves; curve++)
-            print_curve(&m, number++, curve, out);
+            status = print_curve(&m, number++, curve, out, err);
         clear(&m);
         hdf5_close(group);
     }

@@ -10,6 +10,7 @@
 #ifndef WT_READ_NHF_H
 #define WT_READ_NHF_H
 
+#include "read/force_source.h"
 #include "read/hierarchy/curves_hdf5.h"
 
 typedef struct nhf_file {
@@ -19,16 +20,25 @@ typedef struct nhf_file {
     hid_t calibration; /* group of the nodes; -1 if there is none */
 } nhf_file;
 
-/* Numbers of a channel in the SI unit of its quantity. */
+/* A channel of all curves, of which one is at hand. */
 typedef struct nhf_channel {
     wt_quantity quantity;
-    double *values;
-    size_t n;
+    hid_t data;
+    size_t n;             /* numbers of all curves */
+    double missing;       /* the number that stands for none, or NaN */
+    force_linear scaling; /* from what is stored */
+    double factor;        /* from its unit to that of the quantity; negative if it is turned */
+    double *values;       /* [room] of the curve */
+    size_t room;
 } nhf_channel;
 
-/* The channel of a segment whose name is known and whose numbers and unit are understood; false if
- * it is none of them. What it is instead is said in *problem if it hinders. */
-bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *channel, const char **problem);
+/* The channel of a segment whose name is known and whose numbers and unit are understood, to be
+ * closed; false if it is none of them. What it is instead is said in *problem if it hinders. */
+bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *channel,
+                      const char **problem);
+/* Has numbers [from, from + n), which are there, at hand; false if they cannot be read. */
+bool nhf_channel_take(nhf_channel *channel, size_t from, size_t n);
+void nhf_channel_close(nhf_channel *channel);
 /* Lateral positions in metres, new; NULL if what the numbers mean is not understood. */
 double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n);
 

@@ -179,24 +179,49 @@ static bool is_wanted(const char *name)
            strcmp(name, "Time") == 0;
 }
 
-bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *c, const char **problem)
+bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *c,
+                      const char **problem)
 {
-    char name[HDF5_TEXT], unit[HDF5_TEXT];
+    char title[HDF5_TEXT], unit[HDF5_TEXT];
     element_type type;
-    force_linear scaling = {1, 0};
-    double missing = (double)NAN, factor = 1;
-    (void)hdf5_text(data, f->old ? "name" : "signal_name", name);
-    if (!is_wanted(name))
-        return false;
-    if (!find_type(f, data, &type, &missing) || !find_scaling(f, data, &type, &scaling, unit))
+    *c = (nhf_channel){.data = hdf5_open_rows(segment, name), .scaling = {1, 0}};
+    const bool wanted = c->data >= 0 &&
+                        hdf5_text(c->data, f->old ? "name" : "signal_name", title) &&
+                        is_wanted(title);
+    if (!wanted)
+        ; /* nothing of it hinders */
+    else if (!find_type(f, c->data, &type, &c->missing) ||
+             !find_scaling(f, c->data, &type, &c->scaling, unit))
         *problem = "the calibration of a channel is not understood";
-    else if (!find_quantity(name, unit, &c->quantity, &factor))
+    else if (!find_quantity(title, unit, &c->quantity, &c->factor))
         *problem = "the unit of a channel is not understood";
-    else if ((c->values = hdf5_values(data, f->size, &c->n)) == NULL)
+    else if ((c->n = hdf5_count(c->data, f->size)) == 0)
         *problem = "the numbers of a channel cannot be read";
-    else
-        to_units(c->values, c->n, missing, factor, scaling);
-    return c->values != NULL;
+    if (c->n == 0)
+        nhf_channel_close(c);
+    return c->n > 0;
+}
+
+bool nhf_channel_take(nhf_channel *c, size_t from, size_t n)
+{
+    if (n > c->room) {
+        double *const values = realloc(c->values, n * sizeof *values);
+        if (values == NULL)
+            return false;
+        c->values = values;
+        c->room = n;
+    }
+    if (n > 0 && !hdf5_rows(c->data, from, n, c->values))
+        return false;
+    to_units(c->values, n, c->missing, c->factor, c->scaling);
+    return true;
+}
+
+void nhf_channel_close(nhf_channel *c)
+{
+    hdf5_close(c->data);
+    free(c->values);
+    *c = (nhf_channel){.data = -1};
 }
 
 /* Counts have a type and a calibration like those of a channel; without them a double is metres. */

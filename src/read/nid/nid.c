@@ -8,6 +8,9 @@
 #include <math.h>
 #include <string.h>
 
+/* What is not seen of a header this long is seen where it is read. */
+#define LONG_HEADER ((size_t)1 << 18)
+
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     static const char first[] = "[DataSet]";
@@ -16,12 +19,15 @@ static recognition detect(const file_reader *self, file_peek *peek)
     if (peek->length < sizeof first - 1 || memcmp(peek->bytes, first, sizeof first - 1) != 0)
         return match;
     if (memmem(peek->bytes, peek->length, "GroupCount=", 11) == NULL) {
-        match.answer = peek->whole ? ANSWER_NO : ANSWER_MORE;
+        match.answer = peek->whole || peek->length >= LONG_HEADER ? ANSWER_NO : ANSWER_MORE;
     } else if (memmem(peek->bytes, peek->length, "\n#!", 3) != NULL) {
         match.answer = ANSWER_YES;
         match.score = 95;
-    } else if (!peek->whole) {
+    } else if (!peek->whole && peek->length < LONG_HEADER) {
         match.answer = ANSWER_MORE;
+    } else if (!peek->whole) {
+        match.answer = ANSWER_YES;
+        match.score = 95;
     } else {
         match.answer = ANSWER_UNSUPPORTED;
         snprintf(match.reason, sizeof match.reason,

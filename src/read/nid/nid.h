@@ -20,17 +20,18 @@ typedef struct nid_item {
     const char *value;
 } nid_item;
 
+typedef struct nid_lengths nid_lengths;
 typedef struct nid_header {
     nid_item *items; /* [n] sorted by section, key; of equal ones the first is kept */
     size_t n;
+    nid_lengths *lengths; /* [n_lengths] for nid_line_length */
+    size_t n_lengths;
     char *text; /* UTF-8 */
     bool latin1;
     size_t data; /* offset of the first block */
 } nid_header;
 
-bool nid_header_ends(const unsigned char *bytes, size_t length);
-wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header *header,
-                          wt_error *err);
+wt_status nid_header_read(wt_input *input, nid_header *header, wt_error *err);
 void nid_header_clear(nid_header *header);
 /* NULL if there is none. */
 const char *nid_get(const nid_header *header, const char *section, const char *key);
@@ -39,6 +40,10 @@ double nid_number(const nid_header *header, const char *section, const char *key
 /* A whole number from 0 to `most`; false if missing or anything else. */
 bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,
                size_t *count);
+/* Samples of a line of a channel (LineDim7Points), in version 3; false if missing or not
+ * understood.
+ */
+bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n);
 /* "D[48]*[N/m]": the number in the SI unit of the quantity; NaN if missing or of another unit. */
 double nid_typed(const nid_header *header, const char *section, const char *key,
                  wt_quantity quantity);

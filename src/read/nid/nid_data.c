@@ -16,7 +16,6 @@
 #define MAX_GROUPS 256
 #define MAX_SLOTS 256
 #define MAX_SIDE ((size_t)1 << 30)
-#define FIRST_PEEK ((size_t)1 << 16)
 
 static const char *text_or_empty(const char *text)
 {
@@ -131,22 +130,6 @@ static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
     return WT_OK;
 }
 
-/* The header may be any part of the file: more is looked at until it ends. */
-static wt_status read_header(wt_input *input, nid_header *header, wt_error *err)
-{
-    const unsigned char *bytes = NULL;
-    size_t n = 0;
-    bool whole = false;
-    wt_status status = WT_OK;
-    for (size_t want = FIRST_PEEK; status == WT_OK;
-         want = want > SIZE_MAX / 4 ? SIZE_MAX : 4 * want) {
-        status = wt_input_peek(input, want, &bytes, &n, &whole, err);
-        if (status == WT_OK && (whole || nid_header_ends(bytes, n)))
-            break;
-    }
-    return status == WT_OK ? nid_header_read(bytes, n, header, err) : status;
-}
-
 static wt_status open_windows(nid_file *file, wt_input *input, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -162,7 +145,7 @@ wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
 {
     size_t length = 0;
     *file = (nid_file){.name = wt_input_name(input)};
-    wt_status status = read_header(input, &file->header, err);
+    wt_status status = nid_header_read(input, &file->header, err);
     if (status == WT_OK)
         status = wt_input_size(input, &length, err);
     if (status == WT_OK)

@@ -152,13 +152,17 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
     if (c->version < 3 || *n == 0)
         return WT_OK;
     snprintf(key, sizeof key, "LineDim%zuPoints", line);
-    if (nid_count(&file->header, c->section, key, c->points, n))
+    const bool known = nid_line_length(&file->header, c->section, line, n);
+    if (known && *n <= c->points)
         return WT_OK;
     wt_fail(err, WT_E_CORRUPT, "length of a line is missing or not understood");
     wt_error_place(err, "[%s] %s", c->section, key);
     wt_error_expected(err, "a whole number up to %zu", c->points);
     const char *found = nid_get(&file->header, c->section, key);
-    wt_error_found(err, "%s", found != NULL ? found : "nothing");
+    if (known)
+        wt_error_found(err, "%zu", *n);
+    else
+        wt_error_found(err, "%s", found != NULL ? found : "nothing");
     return WT_E_CORRUPT;
 }
 
@@ -223,6 +227,11 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     return status;
 }
 
+static void seek(wt_force_source *base, size_t index)
+{
+    ((nid_source *)base)->line = index;
+}
+
 static void close_source(wt_force_source *base)
 {
     nid_file_close(&((nid_source *)base)->file);
@@ -251,4 +260,5 @@ const force_stream nid_force = {.size = sizeof(nid_source),
                                 .open = open_source,
                                 .next = next_curve,
                                 .decode = decode,
+                                .seek = seek,
                                 .close = close_source};

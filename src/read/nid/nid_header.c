@@ -4,6 +4,7 @@
  */
 #include "read/nid/nid.h"
 
+#include "base/array.h"
 #include "base/number.h"
 #include "base/utf8.h"
 
@@ -45,6 +46,101 @@ static int by_name_and_place(const void *a, const void *b)
     return order != 0 ? order : x->key < y->key ? -1 : x->key > y->key;
 }
 
+/* ---- lengths of lines ----------------------------------------------------------------------- */
+
+/* "LineDim7Points=400" stands there for every line of every channel: kept as a number. */
+struct nid_lengths {
+    size_t number; /* of the section in the file */
+    const char *section;
+    uint32_t *points; /* [n] of the first lines */
+    size_t n;
+};
+
+/* The digits at the beginning of a text, too few to overflow; how many. */
+static size_t read_digits(const char *text, size_t n, uint32_t *value)
+{
+    enum { MOST_DIGITS = 9 };
+    size_t i = 0;
+    for (*value = 0; i < n && text[i] >= '0' && text[i] <= '9'; i++) {
+        if (i == MOST_DIGITS)
+            return 0;
+        *value = 10 * *value + (uint32_t)(text[i] - '0');
+    }
+    return i;
+}
+
+static bool begins(const char *text, size_t n, const char *with)
+{
+    const size_t length = strlen(with);
+    return n >= length && memcmp(text, with, length) == 0;
+}
+
+/* What is out of turn stays a line among the others. */
+static bool add_length(nid_header *header, size_t section, uint32_t line, uint32_t points,
+                       bool *taken)
+{
+    nid_lengths *list = header->n_lengths > 0 ? &header->lengths[header->n_lengths - 1] : NULL;
+    if (list == NULL || list->number != section) {
+        list = array_grow(header->lengths, header->n_lengths, sizeof *list);
+        if (list == NULL)
+            return false;
+        header->lengths = list;
+        list += header->n_lengths++;
+        *list = (nid_lengths){.number = section, .section = ""};
+    }
+    *taken = line == list->n;
+    uint32_t *const grown =
+        *taken ? array_grow(list->points, list->n, sizeof *grown) : list->points;
+    if (*taken && grown == NULL)
+        return false;
+    list->points = grown;
+    if (*taken)
+        list->points[list->n++] = points;
+    return true;
+}
+
+/* Takes what is said of a line of a channel: how many samples it has, and where they are, which is
+ * not used. False if there is no memory. */
+static bool take_length(nid_header *header, size_t section, const char *line, size_t n, bool *taken)
+{
+    static const char first[] = "LineDim", last[] = "Points=";
+    const size_t begin = sizeof first - 1, end = sizeof last - 1;
+    uint32_t number = 0, points = 0;
+    if (!begins(line, n, first))
+        return true;
+    const size_t digits = read_digits(line + begin, n - begin, &number);
+    const char *const key = line + begin + digits;
+    const size_t left = n - begin - digits;
+    if (digits == 0)
+        return true;
+    *taken = begins(key, left, "Min=") || begins(key, left, "Range=");
+    if (begins(key, left, last) && left > end &&
+        read_digits(key + end, left - end, &points) == left - end)
+        return add_length(header, section, number, points, taken);
+    return true;
+}
+
+bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n)
+{
+    char key[48];
+    for (size_t i = 0; i < header->n_lengths; i++)
+        if (strcmp(header->lengths[i].section, section) == 0 && line < header->lengths[i].n) {
+            *n = header->lengths[i].points[line];
+            return true;
+        }
+    snprintf(key, sizeof key, "LineDim%zuPoints", line);
+    return nid_count(header, section, key, UINT32_MAX, n);
+}
+
+/* ---- all lines ------------------------------------------------------------------------------ */
+
+static void name_section(nid_header *header, size_t number, const char *name)
+{
+    for (size_t i = 0; i < header->n_lengths; i++)
+        if (header->lengths[i].number == number)
+            header->lengths[i].section = name;
+}
+
 static void parse_line(nid_header *header, char *line, const char **section)
 {
     size_t n = strlen(line);
@@ -66,7 +162,7 @@ static void parse_line(nid_header *header, char *line, const char **section)
 
 static wt_status parse(nid_header *header, wt_error *err)
 {
-    size_t lines = 1;
+    size_t lines = 1, n_sections = 0;
     for (const char *p = header->text; *p != '\0'; p++)
         lines += *p == '\n';
     header->items = calloc(lines, sizeof *header->items);
@@ -76,9 +172,12 @@ static wt_status parse(nid_header *header, wt_error *err)
     char *line = header->text;
     while (line != NULL) {
         char *end = strchr(line, '\n');
+        const bool is_section = line[0] == '[';
         if (end != NULL)
             *end++ = '\0';
         parse_line(header, line, &section);
+        if (is_section)
+            name_section(header, ++n_sections, section);
         line = end;
     }
     qsort(header->items, header->n, sizeof *header->items, by_name_and_place);
@@ -90,29 +189,104 @@ static wt_status parse(nid_header *header, wt_error *err)
     return WT_OK;
 }
 
-bool nid_header_ends(const unsigned char *bytes, size_t length)
+/* The lines to be parsed. */
+typedef struct header_lines {
+    unsigned char *bytes;
+    size_t n, room, n_sections;
+} header_lines;
+
+static bool keep_line(header_lines *lines, const char *line, size_t n)
 {
-    return memmem(bytes, length, "\n#!", 3) != NULL;
+    if (n > lines->room - lines->n) {
+        const size_t room = 2 * lines->room + n;
+        unsigned char *const bytes = realloc(lines->bytes, room);
+        if (bytes == NULL)
+            return false;
+        lines->bytes = bytes;
+        lines->room = room;
+    }
+    memcpy(lines->bytes + lines->n, line, n);
+    lines->n += n;
+    return true;
 }
 
-wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header *header,
-                          wt_error *err)
+/* Takes the whole lines of a piece; *used: so many bytes of it. *end: the data come next. */
+static wt_status take_lines(nid_header *header, header_lines *lines, const char *piece, size_t n,
+                            size_t *used, bool *end, wt_error *err)
 {
-    *header = (nid_header){0};
-    const unsigned char *end = memmem(bytes, length, "\n#!", 3);
-    if (end == NULL) {
-        wt_fail(err, WT_E_CORRUPT, "the header has no end");
-        wt_error_expected(err, "a line that begins with #!");
-        return WT_E_CORRUPT;
+    size_t at = 0;
+    const char *stop = piece;
+    while (n - at >= 2 && !*end && stop != NULL) {
+        const char *const line = piece + at;
+        *end = header->data + at > 0 && memcmp(line, "#!", 2) == 0;
+        stop = *end ? NULL : memchr(line, '\n', n - at);
+        if (stop == NULL)
+            break;
+        size_t length = (size_t)(stop - line);
+        bool taken = false;
+        at += length + 1;
+        if (memchr(line, '\0', length) != NULL)
+            return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
+        lines->n_sections += line[0] == '[';
+        const size_t whole = length + 1;
+        while (length > 0 && (line[length - 1] == '\r' || line[length - 1] == ' '))
+            length--;
+        if (!take_length(header, lines->n_sections, line, length, &taken) ||
+            (!taken && !keep_line(lines, line, whole)))
+            return wt_fail(err, WT_E_MEMORY, "no memory for the header");
     }
-    size_t n = (size_t)(end - bytes) + 1;
-    if (memchr(bytes, '\0', n) != NULL)
-        return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
-    header->latin1 = utf8_check((const char *)bytes, n) < n;
-    header->data = n + 2;
-    header->text = to_utf8(bytes, n, header->latin1);
-    wt_status status = header->text != NULL ? parse(header, err)
-                                            : wt_fail(err, WT_E_MEMORY, "no memory for the header");
+    *used = at;
+    return WT_OK;
+}
+
+static wt_status no_end(wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "the header has no end");
+    wt_error_expected(err, "a line that begins with #!");
+    return WT_E_CORRUPT;
+}
+
+/* The header may be any part of the file, but no line of it is long. */
+static wt_status read_lines(input_window *from, nid_header *header, header_lines *lines,
+                            wt_error *err)
+{
+    static const size_t piece = (size_t)1 << 20;
+    bool end = false;
+    while (!end) {
+        const unsigned char *bytes = NULL;
+        const size_t left = from->size - header->data, n = left < piece ? left : piece;
+        size_t used = 0;
+        wt_status status = window_bytes(from, header->data, n, &bytes, err);
+        if (status == WT_OK)
+            status = take_lines(header, lines, (const char *)bytes, n, &used, &end, err);
+        if (status != WT_OK)
+            return status;
+        header->data += used;
+        if (used == 0 && !end)
+            return no_end(err);
+    }
+    header->data += 2;
+    return WT_OK;
+}
+
+wt_status nid_header_read(wt_input *input, nid_header *header, wt_error *err)
+{
+    input_window from;
+    header_lines lines = {.bytes = NULL};
+    *header = (nid_header){0};
+    wt_status status = window_open(&from, input, err);
+    if (status == WT_OK)
+        status = read_lines(&from, header, &lines, err);
+    window_close(&from);
+    if (status == WT_OK) {
+        header->latin1 = utf8_check((const char *)lines.bytes, lines.n) < lines.n;
+        header->text = to_utf8(lines.bytes, lines.n, header->latin1);
+        status =
+            header->text != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for the header");
+    }
+    free(lines.bytes);
+    if (status == WT_OK)
+        status = parse(header, err);
     if (status != WT_OK)
         nid_header_clear(header);
     return status;
@@ -120,6 +294,9 @@ wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header 
 
 void nid_header_clear(nid_header *header)
 {
+    for (size_t i = 0; i < header->n_lengths; i++)
+        free(header->lengths[i].points);
+    free(header->lengths);
     free(header->items);
     free(header->text);
     *header = (nid_header){0};

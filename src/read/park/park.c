@@ -8,6 +8,7 @@
  */
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
+#include "read/bytes/window.h"
 #include "read/facts.h"
 #include "read/force_source.h"
 #include "read/reader.h"
@@ -38,7 +39,9 @@ typedef struct park_channel {
 
 typedef struct park_file {
     const char *name;
-    const unsigned char *data; /* of the block */
+    input_window window;
+    size_t data;                /* where the block of samples begins */
+    const unsigned char *curve; /* its samples, until the next one is taken */
     park_channel channels[CHANNELS];
     size_t n_channels, n_samples, n_curves;
 } park_file;
@@ -46,39 +49,60 @@ typedef struct park_file {
 /* ---- the file ---------------------------------------------------------------------------------
  */
 
-/* The bytes of a tag; false if it is not there or points behind the end. */
-static bool find_tag(const unsigned char *bytes, size_t length, uint16_t tag,
-                     const unsigned char **data, size_t *n)
+/* Where the bytes of a tag are. */
+typedef struct park_tag {
+    size_t from, n;
+    bool there;
+} park_tag;
+
+/* A tag that points behind the end is none. */
+static void take_entry(const unsigned char *entry, size_t at, size_t length, park_tag *tag)
 {
     static const unsigned char widths[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
-    const size_t at = le32(bytes + 4);
-    if (at < 8 || at > length - 2)
-        return false;
-    const size_t entries = le16(bytes + at);
-    if (entries > (length - at - 2) / ENTRY)
-        return false;
-    for (size_t i = 0; i < entries; i++) {
-        const unsigned char *entry = bytes + at + 2 + ENTRY * i;
-        const size_t type = le16(entry + 2), count = le32(entry + 4);
-        if (le16(entry) != tag || type >= sizeof widths)
-            continue;
-        const size_t size = widths[type] * count, from = le32(entry + 8);
-        *n = size;
-        if (size > 4 && (from > length || size > length - from))
-            return false;
-        *data = size <= 4 ? entry + 8 : bytes + from;
-        return true;
+    const size_t type = le16(entry + 2), count = le32(entry + 4);
+    if (tag->n > 0 || tag->there || type >= sizeof widths)
+        return;
+    tag->n = widths[type] * count;
+    tag->from = tag->n <= 4 ? at + 8 : le32(entry + 8);
+    tag->there = tag->from <= length && tag->n <= length - tag->from;
+}
+
+/* The tags of Park in the directory of the file. */
+typedef struct park_tags {
+    park_tag magic, header, samples;
+} park_tags;
+
+static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    *tags = (park_tags){.magic = {.n = 0}};
+    wt_status status = w->size < 10 ? WT_OK : window_bytes(w, 4, 4, &bytes, err);
+    const size_t at = bytes != NULL ? le32(bytes) : 0;
+    if (status != WT_OK || at < 8 || at > w->size - 2)
+        return status;
+    status = window_bytes(w, at, 2, &bytes, err);
+    const size_t entries = status == WT_OK ? le16(bytes) : 0;
+    if (entries > (w->size - at - 2) / ENTRY)
+        return WT_OK;
+    if (status == WT_OK)
+        status = window_bytes(w, at + 2, ENTRY * entries, &bytes, err);
+    for (size_t i = 0; status == WT_OK && i < entries; i++) {
+        const unsigned char *const entry = bytes + ENTRY * i;
+        const size_t place = at + 2 + ENTRY * i;
+        if (le16(entry) == TAG_MAGIC && le32(entry + 8) == magic)
+            take_entry(entry, place, w->size, &tags->magic);
+        else if (le16(entry) == TAG_SPECTROSCOPY)
+            take_entry(entry, place, w->size, &tags->header);
+        else if (le16(entry) == TAG_SAMPLES)
+            take_entry(entry, place, w->size, &tags->samples);
     }
-    return false;
+    return status;
 }
 
 /* Picture of Park whose directory is there. */
-static bool is_park(const unsigned char *bytes, size_t length)
+static bool is_park(const park_tags *tags)
 {
-    const unsigned char *tag = NULL;
-    size_t n = 0;
-    return length >= 10 && memcmp(bytes, "II*\0", 4) == 0 &&
-           find_tag(bytes, length, TAG_MAGIC, &tag, &n) && n == 4 && le32(tag) == magic;
+    return tags->magic.there && tags->magic.n == 4;
 }
 
 /* UTF-16 that is ASCII. */
@@ -118,21 +142,16 @@ static wt_status fail(wt_error *err, wt_status status, const char *message, cons
     return status;
 }
 
-static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
+static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
 {
-    const unsigned char *bytes = NULL, *header = NULL;
-    size_t length = 0, n = 0, block = 0;
-    *f = (park_file){.name = wt_input_name(input)};
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    const unsigned char *header = NULL;
+    const size_t block = tags->samples.n;
+    if (tags->header.n < HEADER || !tags->samples.there)
+        return fail(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
+    const wt_status status = window_bytes(&f->window, tags->header.from, HEADER, &header, err);
     if (status != WT_OK)
         return status;
-    if (!is_park(bytes, length))
-        return fail(err, WT_E_CORRUPT, "damaged directory of tags", "a TIFF file of Park Systems");
-    if (!find_tag(bytes, length, TAG_SPECTROSCOPY, &header, &n))
-        return fail(err, WT_E_EMPTY, "the picture holds no force curve",
-                    "the tag 50438 of spectroscopy");
-    if (n < HEADER || !find_tag(bytes, length, TAG_SAMPLES, &f->data, &block))
-        return fail(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
+    f->data = tags->samples.from;
     f->n_channels = le32(header + COUNTS);
     f->n_samples = le32(header + COUNTS + 8);
     f->n_curves = le32(header + COUNTS + 12);
@@ -149,20 +168,44 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
     return WT_OK;
 }
 
-static const unsigned char *samples_of(const park_file *f, const park_channel *c, size_t curve,
-                                       size_t from)
+static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
 {
-    return f->data + 4 * ((curve * f->n_channels + c->number) * f->n_samples + from);
+    park_tags tags = {.magic = {.n = 0}};
+    *f = (park_file){.name = wt_input_name(input)};
+    wt_status status = window_open(&f->window, input, err);
+    if (status == WT_OK)
+        status = find_tags(&f->window, &tags, err);
+    if (status != WT_OK)
+        return status;
+    if (!is_park(&tags))
+        return fail(err, WT_E_CORRUPT, "damaged directory of tags", "a TIFF file of Park Systems");
+    if (!tags.header.there)
+        return fail(err, WT_E_EMPTY, "the picture holds no force curve",
+                    "the tag 50438 of spectroscopy");
+    return read_header(f, &tags, err);
+}
+
+/* Has the samples of a curve at hand. */
+static wt_status take_curve(park_file *f, size_t curve, wt_error *err)
+{
+    const size_t size = 4 * f->n_channels * f->n_samples;
+    return window_bytes(&f->window, f->data + curve * size, size, &f->curve, err);
+}
+
+/* Of the curve at hand. */
+static const unsigned char *samples_of(const park_file *f, const park_channel *c, size_t from)
+{
+    return f->curve + 4 * (c->number * f->n_samples + from);
 }
 
 /* Samples from `from` on, up to `n`, until the time rises no more. */
-static size_t measured(const park_file *f, size_t curve, size_t from, size_t n)
+static size_t measured(const park_file *f, size_t from, size_t n)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
         if (c->quantity != WT_Q_TIME)
             continue;
-        const unsigned char *time = samples_of(f, c, curve, from);
+        const unsigned char *time = samples_of(f, c, from);
         size_t valid = 1;
         while (valid < n && float32(le32(time + 4 * valid)) > float32(le32(time + 4 * valid - 4)))
             valid++;
@@ -172,21 +215,21 @@ static size_t measured(const park_file *f, size_t curve, size_t from, size_t n)
 }
 
 /* A channel that is the same everywhere is that of a sensor that the instrument does not have. */
-static bool constant(const park_file *f, const park_channel *c, size_t curve)
+static bool constant(const park_file *f, const park_channel *c)
 {
-    const unsigned char *values = samples_of(f, c, curve, 0);
+    const unsigned char *values = samples_of(f, c, 0);
     for (size_t i = 1; i < f->n_samples; i++)
         if (memcmp(values, values + 4 * i, 4) != 0)
             return false;
     return true;
 }
 
-static force_facts facts_of(const park_file *f, size_t curve, size_t half)
+static force_facts facts_of(const park_file *f, size_t half)
 {
     const size_t n = f->n_samples / 2;
     force_facts facts = {.kind = half == 0 ? WT_SEGMENT_APPROACH : WT_SEGMENT_RETRACT,
                          .index = half,
-                         .n_points = measured(f, curve, half * n, n),
+                         .n_points = measured(f, half * n, n),
                          .duration = (double)NAN,
                          .velocity = (double)NAN,
                          .setpoint = (double)NAN,
@@ -196,8 +239,7 @@ static force_facts facts_of(const park_file *f, size_t curve, size_t half)
                          .n_offers = 5};
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
-        if (c->quantity == WT_Q_NONE ||
-            (c->quantity == WT_Q_MEASURED_HEIGHT && constant(f, c, curve)))
+        if (c->quantity == WT_Q_NONE || (c->quantity == WT_Q_MEASURED_HEIGHT && constant(f, c)))
             continue;
         force_add_signal(&facts, (force_signal){.quantity = c->quantity,
                                                 .name = c->name,
@@ -222,9 +264,9 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 {
     const park_source *s = (const park_source *)base;
     (void)err;
-    const size_t missing = samples_decode(SAMPLE_FLOAT32, false,
-                                          samples_of(&s->file, signal->channel, s->curve, s->from),
-                                          n, scaling.multiplier, scaling.offset, values);
+    const size_t missing =
+        samples_decode(SAMPLE_FLOAT32, false, samples_of(&s->file, signal->channel, s->from), n,
+                       scaling.multiplier, scaling.offset, values);
     if (missing > 0)
         wt_parselog_add(base->log, WT_WARNING, base->name, signal->name,
                         "%zu samples are not finite numbers and left out", missing);
@@ -238,8 +280,9 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     if (s->curve == s->file.n_curves)
         return WT_END;
     curve->index = s->curve;
+    status = take_curve(&s->file, s->curve, err);
     for (size_t half = 0; half < 2 && status == WT_OK; half++) {
-        const force_facts facts = facts_of(&s->file, s->curve, half);
+        const force_facts facts = facts_of(&s->file, half);
         s->from = half * (s->file.n_samples / 2);
         if (force_wants_segment(base, facts.kind))
             status = force_add_segment(base, &facts, curve, err);
@@ -265,27 +308,45 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     return status;
 }
 
-static const force_stream park_force = {
-    .size = sizeof(park_source), .open = open_source, .next = next_curve, .decode = decode};
+static void seek(wt_force_source *base, size_t index)
+{
+    ((park_source *)base)->curve = index;
+}
+
+static void close_source(wt_force_source *base)
+{
+    window_close(&((park_source *)base)->file.window);
+}
+
+static const force_stream park_force = {.size = sizeof(park_source),
+                                        .open = open_source,
+                                        .next = next_curve,
+                                        .decode = decode,
+                                        .seek = seek,
+                                        .close = close_source};
 
 /* ---- the descriptor ---------------------------------------------------------------------------
  */
 
+/* The directory may stand at the end. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    const unsigned char *tag = NULL;
-    size_t n = 0;
     recognition match = {.answer = ANSWER_NO};
+    park_tags tags = {.magic = {.n = 0}};
+    input_window window;
     (void)self;
     if (peek->length < 10 || memcmp(peek->bytes, "II*\0", 4) != 0)
         return match;
-    if (!peek->whole) {
-        match.answer = ANSWER_MORE; /* the directory may stand at the end */
-        match.need = SIZE_MAX;
-    } else if (is_park(peek->bytes, peek->length)) {
+    const wt_status status = window_open(&window, peek->input, NULL) == WT_OK
+                                 ? find_tags(&window, &tags, NULL)
+                                 : WT_E_IO;
+    window_close(&window);
+    if (status == WT_E_MEMORY) {
+        match.answer = ANSWER_NO_MEMORY;
+    } else if (is_park(&tags)) {
         match.answer = ANSWER_YES;
         match.score = 90;
-        if (!find_tag(peek->bytes, peek->length, TAG_SPECTROSCOPY, &tag, &n)) {
+        if (!tags.header.there) {
             match.answer = ANSWER_UNSUPPORTED;
             snprintf(match.reason, sizeof match.reason,
                      "a picture of Park Systems without force curves: export it as text");
@@ -301,16 +362,20 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     (void)self;
     (void)log;
     wt_status status = open_file(input, &file, facts->err);
-    if (status != WT_OK)
+    if (status == WT_OK)
+        status = take_curve(&file, 0, facts->err);
+    if (status != WT_OK) {
+        window_close(&file.window);
         return status;
+    }
     facts_add(facts, "curves", "", "points", "%zu", file.n_curves);
     for (size_t half = 0; half < 2; half++) {
-        const force_facts read = facts_of(&file, 0, half);
+        const force_facts read = facts_of(&file, half);
         facts_add(facts, half == 0 ? "segment 0" : "segment 1", "", "Time Stamp",
                   "%s, %zu points of the first curve measured, %zu stored",
                   wt_segment_kind_name(read.kind), read.n_points, file.n_samples / 2);
     }
-    const force_facts read = facts_of(&file, 0, 0);
+    const force_facts read = facts_of(&file, 0);
     for (size_t i = 0; i < file.n_channels; i++) {
         const park_channel *c = &file.channels[i];
         const wt_quantity q = force_read_as(&read, options, c);
@@ -320,6 +385,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
                                                         : "not read");
     }
     force_describe_calibration(&read, options, "", "", facts);
+    window_close(&file.window);
     return WT_OK;
 }
 
