@@ -6,6 +6,7 @@
 #include "near.h"
 #include "params/sections.h"
 
+#include <limits.h>
 #include <stdalign.h>
 #include <stdlib.h>
 #include <string.h>
@@ -356,7 +357,7 @@ static bool is_refused_call(size_t k, const wt_param *p, double value)
     }
     const double *list = &value;
     const size_t one = 1;
-    const unsigned narrow = value > 0 ? (unsigned)value : 0;
+    const unsigned narrow = value > 0 && value < UINT_MAX ? (unsigned)value : 0;
     const uint64_t wide = narrow;
     unsigned char old[sizeof(wt_estimate)];
     memcpy(old, structure + p->offset, p->size);
