@@ -199,6 +199,27 @@ WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
 WT_API wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work,
                                wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- images of a spot ------------------------------------------------------------------------ */
+
+typedef struct wt_spot_job {
+    wt_tip tip;
+    double depth;          /* indentation that it reached [m] */
+    double x, y;           /* in the coordinates of the image [m]; NaN = its middle (default) */
+    double position_error; /* [m]; NaN = one contact radius (default) */
+    double largest_effect; /* of roughness on the contact area that is still fine; default 0.1 */
+    const char *image;     /* part of the name of the image; NULL = the first of heights */
+    const char *after;     /* file with the image after the indentation; NULL = none */
+    wt_read_options read;  /* of both; begin with wt_read_defaults() */
+    uint64_t reserved[8];
+} wt_spot_job;
+WT_API wt_spot_job wt_spot_job_defaults(void);
+WT_API const wt_params *wt_spot_job_params(void);
+/* Table "spot" of the image `path` before the indentation: roughness over the contact against the
+ * depth, and what stayed of the indentation. WT_E_NOT_FOUND if the file has no such image of
+ * heights, WT_E_RANGE if the images differ in size. */
+WT_API wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
+                              wt_table **table, wt_error *err) WT_NODISCARD;
+
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 
 typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;

@@ -28,6 +28,7 @@ int cmd_indent(int argc, char **argv);
 int cmd_sensitivity(int argc, char **argv);
 int cmd_thermal(int argc, char **argv);
 int cmd_dwell(int argc, char **argv);
+int cmd_spot(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_ramp(int argc, char **argv);

@@ -24,6 +24,7 @@
 #include "data/tables/ramp.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
+#include "data/tables/spot.h"
 #include "data/tables/what_if.h"
 #include "data/tables/work_precision.h"
 
@@ -64,6 +65,7 @@
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \
     X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
+    X(spot, SPOT, "spot", "Roughness and imprint of a spot", "spot")                               \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \
       "Error budget of the moduli of the groups", "compare")                                       \

@@ -1,0 +1,34 @@
+/* weartrack spot: how rough a spot is for its depth, and what stayed of an indentation.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_spot(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "spot",
+        .arguments = "--tip TIP --depth D [OPTION]... IMAGE",
+        .what = "Of a height image of the spot before an indentation: the roughness over the "
+                "contact against the depth, and whether the spot is too rough for it. With an "
+                "image after it (--after): the imprint that stayed, its depth and volume with "
+                "their errors; drift between the images is found.",
+        .common = "output formats provenance cost",
+        .n_files = 1};
+    wt_indent_job indent = wt_indent_job_defaults();
+    wt_spot_job job = wt_spot_job_defaults();
+    cmd_part parts[] = {{wt_indent_job_params(), &indent, "tip", 0},
+                        {wt_spot_job_params(), &job, NULL, 0},
+                        {wt_read_params(), &job.read, "format", 0}};
+    cmd_session s = cmd_session_defaults();
+    wt_table *made = NULL;
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
+        !cmd_begin_reading(&s, job.read.format))
+        goto done;
+    job.tip = indent.tip;
+    wt_cost_stage(s.cost, "spot");
+    const wt_status status = wt_spot_make(&job, s.files[0], &s.work, &made, &s.err);
+    wt_table **const made_tables[] = {&made};
+    cmd_finish(&s, status, made_tables, COUNT_OF(made_tables));
+done:
+    wt_table_free(made);
+    return cmd_session_free(&s);
+}

@@ -1,0 +1,344 @@
+/* A spot of a height image: surfaces written out here, whose roughness, drift and dent are known.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "weartrack/flow.h"
+#include "writers/nid_writer.h"
+
+enum { N = 128, WAVES = 40, DRAWS = 100 };
+#define WIDTH 1e-6
+#define STEP (WIDTH / (N - 1))
+#define T_13 2.160368656461 /* 97.5 % of Student's t of 13 degrees of freedom */
+#define DEPTH 70e-9
+#define CONTACT (2 / M_PI * 0.7002075382097097 * DEPTH) /* of a cone of 35 degrees: 2/pi tan 35 */
+
+static const char before[] = "test_flow_spot_before.nid", after[] = "test_flow_spot_after.nid";
+static wt_formats *formats;
+
+typedef struct surface {
+    double amplitude[WAVES], qx[WAVES], qy[WAVES], phase[WAVES];
+    int n;
+    double tilt_x, tilt_y;
+    double x, y, dent;  /* a Gaussian of half the contact radius */
+    double noise, rows; /* of a pixel; of a whole line, which scanning adds */
+} surface;
+
+/* What is at p lies at p + shift + strain p in the image. */
+typedef struct view {
+    size_t n;
+    double width, shift_x, shift_y, strain;
+} view;
+static const view whole = {N, WIDTH, 0, 0, 0};
+
+static double uniform(uint64_t *state)
+{
+    return 0.5 * erfc(truth_normal(state) / M_SQRT2);
+}
+
+/* Waves of 60 to 400 nm, 1.5 nm rms together. */
+static surface random_surface(uint64_t *state)
+{
+    surface s = {.n = WAVES, .tilt_x = 0.02, .tilt_y = -0.03, .noise = 0.05e-9};
+    for (int i = 0; i < WAVES; i++) {
+        const double q = 2 * M_PI / (60e-9 * pow(400.0 / 60, uniform(state))),
+                     way = 2 * M_PI * uniform(state);
+        s.amplitude[i] = 1.5e-9 * sqrt(2.0 / WAVES);
+        s.qx[i] = q * cos(way);
+        s.qy[i] = q * sin(way);
+        s.phase[i] = 2 * M_PI * uniform(state);
+    }
+    return s;
+}
+
+/* The waves are products of what the columns and the lines have. */
+static void add_wave(const surface *s, int wave, const double *x, const double *y, size_t n,
+                     double *z)
+{
+    static double of_x[2][N], of_y[2][N];
+    for (size_t i = 0; i < n; i++) {
+        of_x[0][i] = cos(s->qx[wave] * x[i] + s->phase[wave]);
+        of_x[1][i] = sin(s->qx[wave] * x[i] + s->phase[wave]);
+        of_y[0][i] = s->amplitude[wave] * cos(s->qy[wave] * y[i]);
+        of_y[1][i] = s->amplitude[wave] * sin(s->qy[wave] * y[i]);
+    }
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < n; i++)
+            z[j * n + i] += of_x[0][i] * of_y[0][j] - of_x[1][i] * of_y[1][j];
+}
+
+static void write_image(const char *path, const surface *s, const view *v, uint64_t *state)
+{
+    static double z[N * N], x[N], y[N];
+    const size_t n = v->n;
+    for (size_t i = 0; i < n; i++) {
+        x[i] = ((double)i * v->width / (double)(n - 1) - v->shift_x) / (1 + v->strain);
+        y[i] = ((double)i * v->width / (double)(n - 1) - v->shift_y) / (1 + v->strain);
+    }
+    for (size_t j = 0; j < n; j++) {
+        const double row = s->rows * truth_normal(state);
+        for (size_t i = 0; i < n; i++) {
+            const double r = hypot(x[i] - s->x, y[j] - s->y) / (0.5 * CONTACT);
+            z[j * n + i] = s->tilt_x * x[i] + s->tilt_y * y[j] - s->dent * exp(-0.5 * r * r) + row +
+                           s->noise * truth_normal(state);
+        }
+    }
+    for (int wave = 0; wave < s->n; wave++)
+        add_wave(s, wave, x, y, n, z);
+    const nid_writer_channel channel = {1, "Z-Axis", "m", -1e-6, 2e-6, 32, z};
+    const nid_writer_group group = {"Scan forward", n,   n,        NULL,     "X*", "m",
+                                    "Y*",           "m", v->width, v->width, 1,    &channel};
+    nid_writer_file file = nid_writer_defaults();
+    file.path = path;
+    file.n_groups = 1;
+    file.groups = &group;
+    assert_int_equal(nid_write(&file), 0);
+}
+
+static wt_spot_job job_of(double depth)
+{
+    wt_spot_job job = wt_spot_job_defaults();
+    assert_int_equal(wt_tip_parse("cone:half-angle=35deg", &job.tip, NULL), WT_OK);
+    job.depth = depth;
+    return job;
+}
+
+static wt_table *make(const wt_spot_job *job)
+{
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_table *table = NULL;
+    common.formats = formats;
+    if (wt_spot_make(job, before, &common, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    return table;
+}
+
+/* A wave that is short beside the contact has amplitude / sqrt(2) on any disc; the tilt is taken
+ * off. For a cone the area goes with the square of the depth, so 10 % of it are 5 % of the depth.
+ */
+static void test_roughness(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    surface s = {
+        .n = 1, .tilt_x = 0.1, .tilt_y = -0.05, .qx = {2 * M_PI / 24e-9}, .qy = {2 * M_PI / 40e-9}};
+    const struct {
+        double rms;
+        const char *verdict;
+    } cases[] = {{1e-9, "smooth enough: "}, {7e-9, "too rough: "}};
+    for (size_t i = 0; i < 2; i++) {
+        wt_spot_job job = job_of(DEPTH);
+        s.amplitude[0] = cases[i].rms * M_SQRT2;
+        write_image(before, &s, &whole, &seed);
+        wt_table *t = make(&job);
+        assert_near(cell(t, 0, "contact_radius"), CONTACT, 1e-6);
+        assert_near(cell(t, 0, "x"), WIDTH / 2, 1e-6);
+        assert_near(cell(t, 0, "roughness"), cases[i].rms, 0.05);
+        assert_near(cell(t, 0, "roughness_median"), cases[i].rms, 0.05);
+        assert_near(cell(t, 0, "ratio"), cases[i].rms / DEPTH, 0.05);
+        assert_near(cell(t, 0, "limit"), 0.05, 1e-6);
+        assert_int_equal(strncmp(wt_table_key(t, "roughness_verdict"), cases[i].verdict,
+                                 strlen(cases[i].verdict)),
+                         0);
+        wt_table_free(t);
+    }
+}
+
+/* The slope of a plane, and what noise leaves of it. */
+static void test_tilt(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    const surface s = {.tilt_x = 0.1, .tilt_y = -0.05, .noise = 0.1e-9};
+    const wt_spot_job job = job_of(DEPTH);
+    write_image(before, &s, &whole, &seed);
+    wt_table *t = make(&job);
+    assert_near(cell(t, 0, "tilt"), hypot(0.1, 0.05), 0.01);
+    assert_near(cell(t, 0, "roughness_median"), 0.1e-9, 0.05);
+    wt_table_free(t);
+}
+
+static void test_cannot_say(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    surface s = random_surface(&seed);
+    wt_spot_job shallow = job_of(20e-9), edge = job_of(DEPTH), punch = job_of(DEPTH);
+    write_image(before, &s, &whole, &seed);
+    edge.x = 50e-9;
+    assert_int_equal(wt_tip_parse("punch:radius=40nm", &punch.tip, NULL), WT_OK);
+    const struct {
+        const wt_spot_job *job;
+        const char *why;
+    } cases[] = {
+        {&shallow, "too coarse"}, {&edge, "is not measured about"}, {&punch, "does not grow"}};
+    for (size_t i = 0; i < 3; i++) {
+        wt_table *t = make(cases[i].job);
+        const char *verdict = wt_table_key(t, "roughness_verdict");
+        assert_int_equal(strncmp(verdict, "cannot say: ", 12), 0);
+        assert_non_null(strstr(verdict, cases[i].why));
+        assert_true(i == 2 || isnan(cell(t, 0, "roughness")));
+        wt_table_free(t);
+    }
+    wt_spot_job job = job_of(DEPTH);
+    wt_job common = wt_job_defaults();
+    wt_table *none = NULL;
+    common.formats = formats;
+    job.image = "backward";
+    assert_int_equal(wt_spot_make(&job, before, &common, &none, NULL), WT_E_NOT_FOUND);
+    assert_null(none);
+}
+
+/* Of a Gaussian of depth d and width s: mean within a, volume within 2 a. */
+static double dent_depth(double d)
+{
+    const double s = 0.5 * CONTACT, a = CONTACT;
+    return d * 2 * s * s / (a * a) * (1 - exp(-a * a / (2 * s * s)));
+}
+
+static double dent_volume(double d)
+{
+    const double s = 0.5 * CONTACT, a = 2 * CONTACT;
+    return d * 2 * M_PI * s * s * (1 - exp(-a * a / (2 * s * s)));
+}
+
+/* One draw of surface, drift between the pixels, noise and place. */
+typedef struct scene {
+    double dent, rows, strain, tilt;
+    size_t n; /* pixels of the image after, of the same size */
+} scene;
+
+static wt_table *draw(const scene *c, uint64_t seed, double shift[2])
+{
+    surface s = random_surface(&seed);
+    wt_spot_job job = job_of(DEPTH);
+    s.rows = c->rows;
+    job.x = s.x = 0.5e-6 + 100e-9 * (uniform(&seed) - 0.5);
+    job.y = s.y = 0.5e-6 + 100e-9 * (uniform(&seed) - 0.5);
+    job.after = after;
+    write_image(before, &s, &whole, &seed);
+    const view v = {c->n, WIDTH, (6 * uniform(&seed) - 3) * STEP, (20 * uniform(&seed) - 10) * STEP,
+                    c->strain};
+    s.dent = c->dent;
+    s.tilt_x += c->tilt;
+    write_image(after, &s, &v, &seed);
+    shift[0] = v.shift_x + v.strain * s.x;
+    shift[1] = v.shift_y + v.strain * s.y;
+    return make(&job);
+}
+
+static bool holds(const wt_table *t, const char *low, const char *high, double truth)
+{
+    return cell(t, 0, low) <= truth && cell(t, 0, high) >= truth;
+}
+
+/* How many of the draws of a scene hold the truth: depth, volume, drift in x and y. */
+static void count_draws(const scene *c, uint64_t first, int held[4], int *yes)
+{
+    double furthest = 0;
+    for (uint64_t i = 0; i < DRAWS; i++) {
+        double shift[2];
+        wt_table *t = draw(c, first + i, shift);
+        *yes += strncmp(wt_table_key(t, "imprint_verdict"), "yes", 3) == 0;
+        held[0] += holds(t, "imprint_low", "imprint_high", dent_depth(c->dent));
+        held[1] += holds(t, "imprint_volume_low", "imprint_volume_high", dent_volume(c->dent));
+        const double off[2] = {cell(t, 0, "shift_x") - shift[0], cell(t, 0, "shift_y") - shift[1]};
+        held[2] += fabs(off[0]) <= T_13 * cell(t, 0, "shift_x_standard_error");
+        held[3] += fabs(off[1]) <= T_13 * cell(t, 0, "shift_y_standard_error");
+        furthest = fmax(furthest, hypot(off[0], off[1]) / STEP);
+        wt_table_free(t);
+    }
+    assert_true(furthest < 0.05); /* of a pixel */
+}
+
+/* Intervals hold the truth in 92 to 98 % of the draws of all scenes, and no scene stands out. */
+static void test_imprint(void **state)
+{
+    (void)state;
+    static const scene scenes[] = {
+        {0, 0, 0, 0, N},         {2e-9, 0, 0, 0, N},        {20e-9, 0, 0, 0, N},
+        {1e-9, 0.3e-9, 0, 0, N}, {2e-9, 0, 0.01, 0.005, N}, {2e-9, 0.1e-9, 0, 0, 100},
+    };
+    enum { SCENES = sizeof scenes / sizeof *scenes };
+    int all[4] = {0};
+    for (size_t k = 0; k < SCENES; k++) {
+        int held[4] = {0}, yes = 0;
+        count_draws(&scenes[k], 1000 * (k + 1), held, &yes);
+        print_message("scene %zu: depth %d, volume %d, drift %d and %d of %d held, yes %d\n", k,
+                      held[0], held[1], held[2], held[3], DRAWS, yes);
+        for (int i = 0; i < 4; i++) {
+            assert_in_range(held[i], 0.88 * DRAWS, DRAWS);
+            all[i] += held[i];
+        }
+        assert_in_range(yes, k == 0 ? 0 : 0.98 * DRAWS, k == 0 ? 0.06 * DRAWS : DRAWS);
+    }
+    for (int i = 0; i < 4; i++)
+        assert_in_range(all[i], 0.92 * SCENES * DRAWS, 0.98 * SCENES * DRAWS);
+}
+
+/* What hinders telling an imprint is named. */
+static void test_no_imprint(void **state)
+{
+    (void)state;
+    uint64_t seed = 6;
+    const surface s = random_surface(&seed), other = random_surface(&seed);
+    wt_spot_job job = job_of(DEPTH), aside = job, deep = job_of(5 * DEPTH);
+    const view away = {N, WIDTH, 0.3e-6, 0, 0}, far = {N, 8 * WIDTH, 0, 0, 0};
+    const struct {
+        const wt_spot_job *job;
+        const surface *s;
+        const view *v;
+        const char *why;
+    } cases[] = {{&job, &other, &whole, "do not agree"},
+                 {&aside, &s, &away, "overlap in 70 %"},
+                 {&deep, &s, &whole, "0 untouched places"}};
+    job.after = aside.after = deep.after = after;
+    aside.x = 0.85e-6;
+    aside.y = 0.5e-6;
+    write_image(before, &s, &whole, &seed);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_image(after, cases[i].s, cases[i].v, &seed);
+        wt_table *t = make(cases[i].job);
+        const char *verdict = wt_table_key(t, "imprint_verdict");
+        if (strncmp(verdict, "cannot say: ", 12) != 0 || strstr(verdict, cases[i].why) == NULL)
+            fail_msg("%s is not in: %s", cases[i].why, verdict);
+        assert_true(isnan(cell(t, 0, "imprint")));
+        wt_table_free(t);
+    }
+    job.after = before; /* the same image */
+    wt_table *t = make(&job);
+    assert_non_null(strstr(wt_table_key(t, "imprint_verdict"), "the same heights"));
+    wt_table_free(t);
+    job.after = after;
+    write_image(after, &s, &far, &seed);
+    wt_job common = wt_job_defaults();
+    common.formats = formats;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_spot_make(&job, before, &common, &t, &err), WT_E_RANGE);
+    assert_non_null(strstr(err.found, "8.000 \xC2\xB5m") != NULL ? err.found : NULL);
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    (void)unlink(before);
+    (void)unlink(after);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_roughness),  cmocka_unit_test(test_tilt),
+        cmocka_unit_test(test_cannot_say), cmocka_unit_test(test_imprint),
+        cmocka_unit_test(test_no_imprint),
+    };
+    return cmocka_run_group_tests_name("spot", tests, begin, end);
+}
