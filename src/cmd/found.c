@@ -50,12 +50,14 @@ static const struct {
                {"deformation", 0, NULL},
                {"power spectrum", WT_KIND_SPECTRUM, NULL}};
 
-static void read_fact(const char *item, const char *value, const char *unit, found_file *found)
+static void read_fact(const char *item, const char *value, const char *unit, const char *source,
+                      found_file *found)
 {
     const size_t used = strlen(found->words);
     for (size_t i = 0; i < COUNT_OF(telling); i++) {
         char shown[160];
-        if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0)
+        if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0 ||
+            strstr(found->words, item) != NULL) /* the header and what became of it */
             continue;
         if (found->kind == 0) {
             found->kind = telling[i].kind;
@@ -69,10 +71,11 @@ static void read_fact(const char *item, const char *value, const char *unit, fou
     }
     const bool unread = strcmp(item, "not readable as it is") == 0;
     found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
-    for (size_t i = 0; i < FOUND_N_MISSING && unread; i++) {
+    const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";
+    for (size_t i = 0; i < FOUND_N_MISSING; i++) {
         char option[32];
         snprintf(option, sizeof option, "--%s", found_missing_rows[i].name);
-        found->missing[i] = found->missing[i] || strstr(value, option) != NULL;
+        found->missing[i] = found->missing[i] || strstr(advice, option) != NULL;
     }
 }
 
@@ -87,7 +90,8 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, found_f
             snprintf(found->words, sizeof found->words, "%s", value);
         }
         found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
-        read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT), found);
+        read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT),
+                  wt_table_text(facts, row, FACTS_SOURCE), found);
     }
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;

@@ -27,32 +27,72 @@ typedef struct new_case {
 
 /* ---- what the files are ---------------------------------------------------------------------- */
 
-/* Whether the file or the folder it lies in is called so, in small letters or capitals. */
-static bool is_called(const char *path, const char *const *words)
+/* Whether one of the words is in the name, in small letters or capitals. */
+static bool has_word(const char *name, size_t length, const char *const *words)
 {
-    const char *base = wt_path_base(path);
-    const char *folder = base > path ? memrchr(path, '/', (size_t)(base - 1 - path)) : NULL;
-    path = folder != NULL ? folder : path;
     for (size_t i = 0; words[i] != NULL; i++)
-        if (strcasestr(path, words[i]) != NULL)
-            return true;
+        for (size_t k = 0, n = strlen(words[i]); k + n <= length; k++)
+            if (strncasecmp(name + k, words[i], n) == 0)
+                return true;
     return false;
 }
 
-static place guess_place(const char *path, const found_file *found, bool *guessed)
+/* By the name of the file, else by that of its folder, else by those of the folders above, as far
+ * as they tell the files apart: those behind the first `common` characters. */
+static place group_of(const char *path, size_t common, bool *guessed)
 {
     static const char *const bulk[] = {"bulk",   "unworn",    "virgin", "outside",
                                        "beside", "reference", NULL};
     static const char *const track[] = {"track", "worn", "wear", "scar", "groove", "inside", NULL};
-    if (found->kind == WT_KIND_SWEEP)
-        return DMA;
-    if (found->kind == WT_KIND_SPECTRUM)
-        return ROUGHNESS;
-    if (found->kind != WT_KIND_FORCE)
-        return UNUSED;
-    const bool is_bulk = is_called(path, bulk), is_track = !is_bulk && is_called(path, track);
-    *guessed = !is_bulk && !is_track;
-    return is_track ? TRACK : BULK;
+    const char *end = path + strlen(path);
+    for (int above = 0; end > path && (above < 2 || end > path + common); above++) {
+        const char *slash = memrchr(path, '/', (size_t)(end - path));
+        const char *name = slash != NULL ? slash + 1 : path;
+        if (has_word(name, (size_t)(end - name), bulk))
+            return BULK;
+        if (has_word(name, (size_t)(end - name), track))
+            return TRACK;
+        end = slash != NULL ? slash : path;
+    }
+    *guessed = true;
+    return BULK;
+}
+
+/* What the names of force curves say of them; says where they say nothing. */
+static void guess_groups(new_case *c)
+{
+    const entry *first = NULL;
+    size_t common = 0, n = 0, n_guessed = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        const entry *e = &c->entries[i];
+        if (e->place != BULK)
+            continue;
+        size_t same = 0;
+        while (first != NULL && e->path[same] != '\0' && e->path[same] == first->path[same])
+            same++;
+        common = first == NULL ? strlen(e->path) : same < common ? same : common;
+        first = first != NULL ? first : e;
+    }
+    for (size_t i = 0; i < c->n; i++)
+        if (c->entries[i].place == BULK) {
+            c->entries[i].place = group_of(c->entries[i].path, common, &c->entries[i].guessed);
+            n_guessed += c->entries[i].guessed;
+            n++;
+        }
+    if (n_guessed > 0)
+        wt_parselog_add(c->s->log, WT_WARNING, NULL, NULL,
+                        "%zu of %zu files of force curves stand in <bulk> by a guess: no name of "
+                        "theirs says bulk or track",
+                        n_guessed, n);
+}
+
+/* Force curves are bulk until their names have been looked at. */
+static place place_of(const found_file *found)
+{
+    return found->kind == WT_KIND_SWEEP      ? DMA
+           : found->kind == WT_KIND_SPECTRUM ? ROUGHNESS
+           : found->kind == WT_KIND_FORCE    ? BULK
+                                             : UNUSED;
 }
 
 static void look(new_case *c, entry *e)
@@ -60,7 +100,7 @@ static void look(new_case *c, entry *e)
     const wt_read_options options = wt_read_defaults();
     wt_table *facts = NULL;
     if (found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
-        e->place = guess_place(e->path, &e->found, &e->guessed);
+        e->place = place_of(&e->found);
     } else {
         cmd_fail(c->s);
         snprintf(e->found.words, sizeof e->found.words, "%s", c->s->err.message);
@@ -258,7 +298,7 @@ static wt_status write_case(new_case *c)
         fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
               "<!-- What stands here as " FILL_IN " is in no file: put the value there, with its "
               "unit. Then:\n     weartrack run with the name of this file. See weartrack-case(5). "
-              "-->\n<case version=\"1\">\n  <title>" FILL_IN "</title>\n",
+              "-->\n<case version=\"1\">\n  <!-- <title>what the report is called</title> -->\n",
               sink.stream);
         put_indentation(sink.stream, c);
         put_material(sink.stream, c);
@@ -302,8 +342,11 @@ int cmd_new_case(int argc, char **argv)
         made = add_files(&c, s.files[i]);
     if (made == WT_OK && c.n == 0)
         made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
-    if (made == WT_OK)
+    if (made == WT_OK) {
+        guess_groups(&c);
         made = write_case(&c);
+        cmd_say_log(&s, s.log, false);
+    }
     if (made != WT_OK)
         cmd_fail(&s);
     else if (s.common.output != NULL && !s.common.quiet)

@@ -373,7 +373,10 @@ void force_describe_calibration(const force_facts *facts, const wt_read_options 
                  used.spring_constant_given ? given : spring_constant_source);
     facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
                  used.sensitivity_given ? given : sensitivity_source);
-    if (signal != NULL && makes(facts, options, WT_Q_FORCE) == NULL) {
+    /* both are needed: the tip is at the height less the deflection */
+    if (signal != NULL && (makes(facts, options, WT_Q_FORCE) == NULL ||
+                           (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
+                            makes(facts, options, WT_Q_DEFLECTION) == NULL))) {
         uncalibrated(signal, &used, NULL, &missing);
         facts_add(list, "missing", "", missing.advice, "%s", missing.message);
     }
