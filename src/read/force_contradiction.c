@@ -11,6 +11,8 @@
 enum { SAMPLES_MIN = 4 };
 /* Rounded constants and heights are as near as this; a piezo that creeps or bends is not. */
 static const double constants_agree = 0.02, heights_agree = 0.05;
+/* A calibration is not off by this; a unit is. */
+static const double far_off = 3;
 /* Below it the samples tell no slope. */
 static const double share_least = 0.9;
 
@@ -67,6 +69,29 @@ wt_status contradiction_constant(wt_force_source *source, const force_facts *fac
                         "%.4g N/m",
                         seen, own > 0 ? "the file says" : "given is", k);
     return status;
+}
+
+static void say_given(const wt_force_source *source, const char *what, const char *unit,
+                      double given, double own, double scale)
+{
+    if (!(own > 0) || isnan(given) || fabs(given / own - 1) <= constants_agree)
+        return;
+    const bool far = fmax(given / own, own / given) > far_off;
+    wt_parselog_add(source->log, far ? WT_WARNING : WT_NOTE, source->name, NULL,
+                    "the %s given, %.4g %s, takes the place of that of the file, %.4g %s%s", what,
+                    scale * given, unit, scale * own, unit,
+                    far ? ": is its unit the right one?" : "");
+}
+
+void contradiction_given(wt_force_source *source, const force_facts *facts)
+{
+    if (source->given_checked)
+        return;
+    source->given_checked = true;
+    say_given(source, "spring constant", "N/m", source->options.spring_constant,
+              facts->cantilever.spring_constant, 1);
+    say_given(source, "deflection sensitivity", "nm/V", source->options.sensitivity,
+              facts->cantilever.sensitivity, 1e9);
 }
 
 static double range(const double *values, size_t n)

@@ -9,6 +9,9 @@
 wt_status contradiction_constant(wt_force_source *source, const force_facts *facts,
                                  const force_signal *force, const force_signal *bend,
                                  wt_error *err);
+/* Says, once for a source, which values of the user replace others that the file says: a warning
+ * where they are so far from them that a unit may be wrong. */
+void contradiction_given(wt_force_source *source, const force_facts *facts);
 /* Notes, once for a source, if the two heights of an approach that was read differ in their range.
  */
 void contradiction_heights(wt_force_source *source, const force_facts *facts,

@@ -289,6 +289,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
         curve->cantilever = used;
     if (n == 0)
         return WT_OK;
+    contradiction_given(source, facts);
     status = contradiction_constant(source, facts, force_find_signal(facts, WT_Q_FORCE),
                                     force_find_signal(facts, WT_Q_DEFLECTION), err);
     for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)

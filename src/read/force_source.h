@@ -69,9 +69,9 @@ struct wt_force_source {
     const char *name;        /* of the input */
     wt_read_options options; /* what was asked for */
     wt_parselog *log;
-    size_t n_curves;                        /* SIZE_MAX if not known before reading */
-    long grid_columns, grid_rows;           /* 0 if there is no grid */
-    bool constant_checked, heights_checked; /* force_contradiction.h */
+    size_t n_curves;              /* SIZE_MAX if not known before reading */
+    long grid_columns, grid_rows; /* 0 if there is no grid */
+    bool constant_checked, heights_checked, given_checked; /* force_contradiction.h */
 };
 
 /* The curves of a file, by the stream of its reader `self`; the source borrows the input until it

@@ -74,6 +74,22 @@ static double tidy_step(double width)
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
+/* Labels of tics this wide leave the margin of the styles room for that of the axis. */
+enum { WIDE = 7, BESIDE = 5 };
+
+/* A margin for labels that are wider: gnuplot puts that of the axis beside them, on no paper. */
+static void write_margin(figure_drawing *d, const char *axis, double low, double high, double step)
+{
+    const double size = fmax(fabs(low), fabs(high));
+    int decimals = 0;
+    for (double shown = step; decimals < WIDE && fabs(shown - rint(shown)) > 1e-6; shown *= 10)
+        decimals++;
+    const int whole = size < 10 ? 1 : 1 + (int)log10(size);
+    const int width = (low < 0) + whole + (decimals > 0) + decimals;
+    if (strcmp(axis, "y") == 0 && width > WIDE)
+        text_format(&d->script, "set lmargin %d\n", width + BESIDE);
+}
+
 void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
                  value_span span)
 {
@@ -95,6 +111,7 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
     text_format(&d->script, "unset logscale %s\n", axis);
     write_range(d, axis, low, high);
     text_format(&d->script, "set %stics %s\nset format %s '%%g'\n", axis, LITERAL(step), axis);
+    write_margin(d, axis, low, high, step);
 }
 
 /* Little more than two decades at most: 1-2-5 tics with plain numbers. */

@@ -230,7 +230,10 @@ static void given_to_columns(void **state)
     assert_column(&curve, WT_Q_FORCE, 0.9e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1.5e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 1e-9 / 50e-9, 0);
-    assert_int_equal(wt_parselog_count(m.base.log), 0);
+    assert_int_equal(wt_parselog_count(m.base.log), 2);
+    assert_true(logged(&m, "the spring constant given, 0.6 N/m, takes the place of that of the "
+                           "file, 0.3 N/m"));
+    assert_true(logged(&m, "the deflection sensitivity given, 75 nm/V, takes the place of that"));
     /* Where the file does not tell its own, it stays and that is said. */
     m.facts.cantilever = unknown;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);

@@ -480,6 +480,24 @@ static void test_label_with_subscripts(void **state)
     free(script);
 }
 
+/* The labels of upright axes lie on the paper with their ascenders: both panels have theirs. */
+static void test_labels_are_on_the_paper(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    char *picture = read_plot("out", "shift_factors", "svg");
+    int n = 0;
+    for (const char *p = picture; (p = strstr(p, "translate(")) != NULL; p++) {
+        double x = 0, y = 0, turn = 0;
+        if (sscanf(p, "translate(%lf,%lf) rotate(%lf)", &x, &y, &turn) != 3)
+            continue;
+        assert_true(x > 15);
+        n++;
+    }
+    assert_int_equal(n, 2);
+    free(picture);
+}
+
 static void check_caption(const char *folder, const char *figure, const char *words)
 {
     char *script = read_plot(folder, figure, "gp"), *end = strstr(script, "\nreset\n");
@@ -657,6 +675,7 @@ int main(void)
         cmocka_unit_test(test_the_key_lists_what_is_drawn),
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
         cmocka_unit_test(test_label_with_subscripts),
+        cmocka_unit_test(test_labels_are_on_the_paper),
         cmocka_unit_test(test_range_of_a_map),
         cmocka_unit_test(test_one_scale_of_colour),
         cmocka_unit_test(test_range_of_a_plane),

@@ -162,6 +162,24 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 
 /* ---- axes ------------------------------------------------------------------------------------ */
 
+/* gnuplot puts the label of an axis beside those of its tics, and off the paper if they are wide.
+ */
+static void test_wide_labels_have_a_margin(void **state)
+{
+    (void)state;
+    static const schema_field number = {.unit = "1"};
+    figure_drawing d = {.status = WT_OK};
+    axis_linear(&d, "y", "b", &number, (value_span){-0.0075, 0.0075});
+    assert_null(strstr(text_string(&d.script), "lmargin"));
+    text_free(&d.script);
+    axis_linear(&d, "y", "b", &number, (value_span){-0.00075, 0.00075});
+    assert_non_null(strstr(text_string(&d.script), "set lmargin 13\n"));
+    text_free(&d.script);
+    axis_linear(&d, "x", "b", &number, (value_span){-0.00075, 0.00075});
+    assert_null(strstr(text_string(&d.script), "lmargin"));
+    text_free(&d.script);
+}
+
 static void test_logarithmic_tics_are_at_whole_decades(void **state)
 {
     (void)state;
@@ -222,6 +240,7 @@ int main(void)
         cmocka_unit_test(test_escaping),
         cmocka_unit_test(test_lab_units),
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
+        cmocka_unit_test(test_wide_labels_have_a_margin),
         cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,9 +58,10 @@ static void say_groups(sentence *s, const table_view *v)
             continue;
         say(s, ", E = %s", words_of(mean, "Pa").text);
         if (!isnan(modulus_groups_get(v, i, MODULUS_GROUPS_LOW)))
-            say(s, " (95 %% interval %s to %s)",
+            say(s, " (95 %% interval %s to %s, from %.0f spots)",
                 words_of(modulus_groups_get(v, i, MODULUS_GROUPS_LOW), "Pa").text,
-                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_HIGH), "Pa").text);
+                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_HIGH), "Pa").text,
+                modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
 }
 

@@ -8,7 +8,7 @@ set border 3 lw 1.1 lc rgb '#333333'
 set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'
 set title offset 0,-0.4
 set key tmargin left horizontal reverse Left samplen 2 width -0.5 maxcols 5
-set lmargin 10
+set lmargin 12
 set bmargin 3.6
 set rmargin 3
 set errorbars small
