@@ -153,7 +153,8 @@ typedef enum wt_extrapolation { WT_EXTRAPOLATE_HOLD, WT_EXTRAPOLATE_SLOPE } wt_e
 WT_API wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio,
                                    wt_material **material, wt_error *err) WT_NODISCARD;
 /* ln E' and ln E'' linear in ln w between n >= 2 rising knots, all values > 0. Continued with
- * slopes, those at the low end must be above -0.25: sliding always reaches down to frequency 0. */
+ * slopes, those at the low end must be above -0.25, for sliding always reaches down to frequency 0,
+ * and none beyond 100 up or down. */
 WT_API wt_status wt_material_table(const double *omega, const double *storage, const double *loss,
                                    size_t n, double poisson_ratio, wt_extrapolation extrapolation,
                                    wt_material **material, wt_error *err) WT_NODISCARD;

@@ -17,7 +17,8 @@
 
 /* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
  * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
-enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3, MOST_CUTS = 12 };
+enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3 };
+enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 /* Room for the coefficients of one degree, in whole registers. */
 enum { FIT_ROOM = 20 };
 
@@ -46,7 +47,7 @@ typedef struct series {
     double anchor;       /* ln w_k, NaN = the series runs in ln w itself */
     double middle, half; /* of u */
     size_t degree;
-    double error;                                    /* relative */
+    double error, of_values; /* relative: without and from that of its values */
     double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* of powers of z = (u - middle) / half */
 } series;
 
@@ -193,31 +194,47 @@ static void series_values(const angular_law *a, const series *s, size_t first, s
     }
 }
 
-static void series_fit(const angular_law *a, series *s)
+/* The relative error of the values that a series goes through. */
+static double values_error(const angular_law *a, const series *s, const double *j1,
+                           const double *j2)
 {
-    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
+    const size_t last = LONG_DEGREE; /* at `low` */
+    return a->closed ? closed_error
+                     : fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
+                            angular_panels_error(&a->panels, exp(s->low), j1[last], j2[last]));
+}
+
+static series series_fit(const angular_law *a, double low, double high, double anchor)
+{
+    const bool in_root = !isnan(anchor);
+    const double from = in_root ? sqrt(fmax(0, low - anchor)) : low;
+    const double to = in_root ? sqrt(high - anchor) : high;
+    series s = {.low = low,
+                .high = high,
+                .anchor = anchor,
+                .middle = 0.5 * (from + to),
+                .half = 0.5 * (to - from)};
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1], goal = a->goal;
     const size_t begin = a->closed ? CLOSED_DEGREE : SHORT_DEGREE;
     for (size_t degree = begin; degree <= LONG_DEGREE; degree *= 2) {
         const size_t step = LONG_DEGREE / degree;
-        if (degree == begin)
-            series_values(a, s, 0, step, j1, j2);
-        else
-            series_values(a, s, step, 2 * step, j1, j2);
+        if (degree == begin) {
+            series_values(a, &s, 0, step, j1, j2);
+            s.of_values = values_error(a, &s, j1, j2);
+            goal = fmax(goal, s.of_values);
+        } else {
+            series_values(a, &s, step, 2 * step, j1, j2);
+        }
         const double *fit = a->fit[degree == SHORT_DEGREE ? 0 : degree == LONG_DEGREE ? 2 : 1];
-        chebyshev_fit(j1, degree, fit, s->j1);
-        chebyshev_fit(j2, degree, fit, s->j2);
-        s->degree = degree;
-        s->error = fmax(series_tail(s->j1, j1, degree), series_tail(s->j2, j2, degree));
-        if (s->error <= a->goal)
+        chebyshev_fit(j1, degree, fit, s.j1);
+        chebyshev_fit(j2, degree, fit, s.j2);
+        s.degree = degree;
+        s.error = fmax(series_tail(s.j1, j1, degree), series_tail(s.j2, j2, degree));
+        if (s.error <= goal)
             break;
     }
-    series_powers(s, j1, j2, a->goal);
-    if (a->closed)
-        s->error += closed_error;
-    else
-        s->error +=
-            fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
-                 angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]));
+    series_powers(&s, j1, j2, goal);
+    return s;
 }
 
 static bool series_push(series_list *list, const series *s)
@@ -230,24 +247,22 @@ static bool series_push(series_list *list, const series *s)
     return true;
 }
 
-/* The piece, or its halves where one series is not good enough: close knots, steep tables. */
-static bool series_add(const angular_law *a, series_list *list, double low, double high,
-                       double anchor, int cuts)
+/* A piece that has been fitted, or its halves where it is not good enough: close knots, steep
+ * tables. What is narrow may be worse, for it weighs less. `least`: the error of the best so far.
+ */
+static bool series_add(const angular_law *a, series_list *list, const series *s, int cuts, int vain)
 {
-    const bool in_root = !isnan(anchor);
-    const double from = in_root ? sqrt(fmax(0, low - anchor)) : low;
-    const double to = in_root ? sqrt(high - anchor) : high;
-    series s = {.low = low,
-                .high = high,
-                .anchor = anchor,
-                .middle = 0.5 * (from + to),
-                .half = 0.5 * (to - from)};
-    series_fit(a, &s);
-    const double middle = in_root ? anchor + s.middle * s.middle : s.middle;
-    if (s.error <= 2 * a->goal || cuts == MOST_CUTS || !(middle > low && middle < high))
-        return series_push(list, &s);
-    return series_add(a, list, low, middle, anchor, cuts + 1) &&
-           series_add(a, list, middle, high, anchor, cuts + 1);
+    const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;
+    const double allowed =
+        2 * fmax(a->goal, s->of_values) * fmax(1, law_width / (s->high - s->low));
+    if (s->error <= allowed || cuts == MOST_CUTS || vain == VAIN_CUTS ||
+        !(middle > s->low && middle < s->high))
+        return series_push(list, s);
+    const series left = series_fit(a, s->low, middle, s->anchor),
+                 right = series_fit(a, middle, s->high, s->anchor);
+    vain += fmin(left.error, right.error) > 0.1 * s->error;
+    return series_add(a, list, &left, cuts + 1, vain) &&
+           series_add(a, list, &right, cuts + 1, vain);
 }
 
 static const double *knots_of(const angular_law *a, size_t *n)
@@ -289,7 +304,8 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
         if (bounds[i] - bounds[from] < same_bound)
             continue;
         const double anchor = knot_before(knots, n_knots, bounds[from]);
-        if (!series_add(a, list, bounds[from], bounds[i], anchor, 0))
+        const series s = series_fit(a, bounds[from], bounds[i], anchor);
+        if (!series_add(a, list, &s, 0, 0))
             return false;
         from = i;
     }
@@ -471,8 +487,7 @@ double angular_error(const angular_law *angular, double x_min, double x_max, siz
     while (*piece + 1 < pieces->n && pieces->items[*piece].high < x_min)
         ++*piece;
     for (size_t i = *piece; i < pieces->n && pieces->items[i].low <= x_max; i++)
-        if (pieces->items[i].error > error)
-            error = pieces->items[i].error;
+        error = fmax(error, pieces->items[i].error + pieces->items[i].of_values);
     return error;
 }
 

@@ -370,14 +370,17 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
         const double x = log(w);
         size_t p = edge_before(a, x - M_LN2);
         add_far(a, p, w, j1, j2);
-        const size_t middle = p * PANEL_NODES;
-        while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p])
-            p++;
-        for (size_t from = middle, end = p * PANEL_NODES; from < end; from += MIDDLE)
-            add_middle(end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
-                       a->value[0] + from, a->value[1] + from, w, j1, j2);
-        for (; p < a->n && a->edge[p] < x; p++)
-            add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
+        while (p < a->n && a->edge[p] < x) {
+            size_t from = p * PANEL_NODES;
+            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p])
+                p++;
+            for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
+                add_middle(end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
+                           a->value[0] + from, a->value[1] + from, w, j1, j2);
+            /* narrow ones may follow */
+            for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
+                add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
+        }
     }
     *j1 *= 4;
     *j2 *= 4;

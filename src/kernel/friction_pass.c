@@ -406,7 +406,6 @@ static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
 {
     const size_t n = view->rule->n, place = pass->parts++;
     const double variance = pass->variance + part->variance;
-    const double moved = place > 0 && variance > 0 ? area_power / variance : 0;
     for (size_t j = 0; record && j < n; j++) {
         record->q[record->n] = view->q[j];
         record->mu[record->n++] = part->share[j];
@@ -421,8 +420,10 @@ static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
     add_moved(ws, view->log_omega, view->j1, view->j2, n, log_lowest, part->variance,
               part->hysteresis, variance, pass);
     scratch->error_g[place] = part->variance_error;
-    scratch->error_mu[place] = part->hysteresis_error + part->closed_error +
-                               moved * part->hysteresis * pass->variance_error;
+    scratch->error_mu[place] = part->hysteresis_error + part->closed_error;
+    if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
+        scratch->error_mu[place] +=
+            area_power * part->hysteresis * (pass->variance_error / variance);
     scratch->panel_g[place] = part->variance;
     scratch->panel_mu[place] = part->hysteresis;
     pass->variance = variance;

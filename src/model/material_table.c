@@ -16,6 +16,7 @@ typedef struct table_data {
     double *log_omega;   /* [n] */
     double *log_storage; /* [n] */
     double *log_loss;    /* [n] */
+    double slope[2][2];  /* of both moduli at the low and the high end */
     double numbers[];    /* [4 n] all of them */
 } table_data;
 
@@ -23,13 +24,23 @@ typedef struct table_data {
 static void table_logs(const table_data *d, const double *omega, size_t n, double *storage,
                        double *loss)
 {
-    const double most = 700, first = d->log_omega[0], last = d->log_omega[d->n - 1];
+    const double most = 700;
+    const size_t ends[] = {0, d->n - 1};
+    const double first = d->log_omega[0], last = d->log_omega[d->n - 1];
     const bool hold = d->extrapolation == WT_EXTRAPOLATE_HOLD;
     size_t k = 0;
     for (size_t i = 0; i < n; i++) {
         double x = log(omega[i]);
         if (hold)
             x = x < first ? first : x > last ? last : x;
+        if (x < first || x > last) {
+            const size_t end = x > last;
+            const double beyond = x - d->log_omega[ends[end]];
+            const double *slope = d->slope[end];
+            storage[i] = fmin(d->log_storage[ends[end]] + slope[0] * beyond, most);
+            loss[i] = fmin(d->log_loss[ends[end]] + slope[1] * beyond, most);
+            continue;
+        }
         if (!(x >= d->log_omega[k] && x < d->log_omega[k + 1])) /* mostly that of the one before */
             k = gsl_interp_bsearch(d->log_omega, x, 0, d->n - 1);
         const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
@@ -90,20 +101,38 @@ static wt_status table_check(const double *omega, const double *storage, const d
     return WT_OK;
 }
 
-/* Sliding always reaches down to omega = 0, where |E|^2 must stay integrable over the angle. */
-static wt_status table_check_slope(const table_data *d, wt_error *err)
+/* From the quotients: far from the knots what the logarithms have lost would show. */
+static void find_slopes(table_data *d, const double *storage, const double *loss)
 {
-    if (d->extrapolation != WT_EXTRAPOLATE_SLOPE)
-        return WT_OK;
-    const double width = d->log_omega[1] - d->log_omega[0];
-    const double storage = (d->log_storage[1] - d->log_storage[0]) / width;
-    const double loss = (d->log_loss[1] - d->log_loss[0]) / width;
-    const double lowest = fmin(storage, loss);
+    for (size_t end = 0; end < 2; end++) {
+        const size_t k = end == 0 ? 0 : d->n - 2;
+        const double width = log1p((d->omega[k + 1] - d->omega[k]) / d->omega[k]);
+        d->slope[end][0] = log(storage[k + 1] / storage[k]) / width;
+        d->slope[end][1] = log(loss[k + 1] / loss[k]) / width;
+    }
+}
+
+/* A steeper modulus goes through all that it may be within three decades, and its integrals take
+ * their time. */
+static const double steepest = 100;
+
+/* Sliding always reaches down to omega = 0, where |E|^2 must stay integrable over the angle. */
+static wt_status check_slopes(const table_data *d, wt_error *err)
+{
+    const double low = fmin(d->slope[0][0], d->slope[0][1]);
+    double most = 0;
+    for (size_t i = 0; i < 4; i++)
+        if (fabs(d->slope[i / 2][i % 2]) > fabs(most))
+            most = d->slope[i / 2][i % 2];
     wt_status status = material_check_value(
-        "log-log slope of the modulus at the low end of a table", lowest,
-        "> -0.25, so that it can be continued to frequency 0", lowest > -0.25, err);
+        "log-log slope of the modulus at the low end of a table", low,
+        "> -0.25, so that it can be continued to frequency 0", low > -0.25, err);
+    if (status == WT_OK)
+        status = material_check_value("log-log slope of the modulus at an end of a table", most,
+                                      "from -100 to 100, so that it can be continued",
+                                      fabs(most) <= steepest, err);
     if (status != WT_OK)
-        wt_error_advice(err, "hold the end values instead, or leave out the first knots");
+        wt_error_advice(err, "hold the end values instead, or leave out the knots at that end");
     return status;
 }
 
@@ -139,8 +168,9 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
             status =
                 wt_fail(err, WT_E_RANGE,
                         "knots %zu and %zu of a material table are too close together", i, i + 1);
-    if (status == WT_OK)
-        status = table_check_slope(d, err);
+    find_slopes(d, storage, loss);
+    if (status == WT_OK && extrapolation == WT_EXTRAPOLATE_SLOPE)
+        status = check_slopes(d, err);
     if (status == WT_OK)
         return material_wrap(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
     free(d);

@@ -203,27 +203,42 @@ static void angle_constant(const scene *s, real omega, real low, real high, real
     *j2 += 4 * (storage * storage + loss * loss) * (FN(asin)(high) - FN(asin)(low));
 }
 
+/* Slopes of ln E' and ln E'' between two knots: the less and the steeper. */
+static void table_slopes(const scene *s, size_t k, real *least, real *most)
+{
+    const real width = FN(log)((real)s->tau[k + 1] / s->tau[k]);
+    const real storage = FN(log)((real)s->e[k + 1] / s->e[k]) / width,
+               loss = FN(log)((real)s->loss[k + 1] / s->loss[k]) / width;
+    *least = FN(fmin)(storage, loss);
+    *most = FN(fmax)(FN(fabs)(storage), FN(fabs)(loss));
+}
+
 static void table_angular(const scene *s, real w, real *j1, real *j2)
 {
     const real most_down = 110, first = s->tau[0], last = s->tau[s->n - 1];
-    if (!s->slope)
+    real least, most;
+    if (!s->slope) {
         angle_constant(s, first, 0, FN(fmin)(1, first / w), j1, j2);
-    else
-        angle_piece(s, w, most_down, FN(fmax)(0, FN(log)(w / first)), (real)0.5, j1, j2);
+    } else {
+        const real high = FN(fmax)(0, FN(log)(w / first));
+        table_slopes(s, 0, &least, &most);
+        angle_piece(s, w, high + FN(fmin)(most_down, 60 / (1 + 2 * least)), high,
+                    FN(fmin)((real)0.5, 3 / (1 + 2 * most)), j1, j2);
+    }
     for (size_t k = 0; k + 1 < s->n && s->tau[k] < w; k++) {
         const real low = FN(log)(w / s->tau[k]);
         const real high = s->tau[k + 1] < w ? FN(log)(w / s->tau[k + 1]) : 0;
-        const real width = FN(log)((real)s->tau[k + 1] / s->tau[k]);
-        const real change = 2 * FN(fmax)(FN(fabs)(FN(log)((real)s->e[k + 1] / s->e[k])),
-                                         FN(fabs)(FN(log)((real)s->loss[k + 1] / s->loss[k])));
-        const real wide = FN(fmin)(s->transverse ? (real)0.3 : 1, 3 * width / (change + width));
+        table_slopes(s, k, &least, &most);
+        const real wide = FN(fmin)(s->transverse ? (real)0.3 : 1, 3 / (1 + 2 * most));
         if (high < most_down)
             angle_piece(s, w, low, high, wide, j1, j2);
     }
-    if (w > last && !s->slope)
+    if (w > last && !s->slope) {
         angle_constant(s, w, last / w, 1, j1, j2);
-    else if (w > last)
-        angle_piece(s, w, FN(log)(w / last), 0, (real)0.5, j1, j2);
+    } else if (w > last) {
+        table_slopes(s, s->n - 2, &least, &most);
+        angle_piece(s, w, FN(log)(w / last), 0, FN(fmin)((real)0.5, 3 / (1 + 2 * most)), j1, j2);
+    }
 }
 
 static void angular(const scene *s, real w, real *j1, real *j2)

@@ -391,6 +391,11 @@ static void bad_input(void **state)
     const double falling[] = {3e6, 1e6};
     refused(wt_material_table(omega, falling, storage, 2, 0.5, WT_EXTRAPOLATE_SLOPE, &m, &err),
             &err, WT_E_RANGE, "slope");
+    const double steep[] = {1e-110, 1, 1e-110};
+    for (size_t k = 0; k < 2; k++)
+        refused(
+            wt_material_table(omega, steep + k, storage, 2, 0.5, WT_EXTRAPOLATE_SLOPE, &m, &err),
+            &err, WT_E_RANGE, "slope");
 
     assert_int_equal(wt_material_fractional_zener(0, 0.5, 1, 0.5, 0.5, &m, &err), WT_OK);
     wt_material_free(m);
