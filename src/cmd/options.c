@@ -172,6 +172,9 @@ static bool set_option(cmd_session *s, const option_row *row, const char *text)
     cmd_part *part = row->part;
     if (row->param->kind == PARAM_FLAG)
         text = row->negated ? "no" : "yes";
+    else if (row->param->kind != PARAM_TEXTS && (part->given & UINT64_C(1) << row->number) != 0)
+        return cmd_usage_error(s, "--%s is there twice, and '%s' would take the place of the first",
+                               row->name, text);
     if (wt_params_set(part->params, row->param->name, part->structure, text, &part->given,
                       &s->err) == WT_OK)
         return true;

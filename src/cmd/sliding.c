@@ -101,6 +101,13 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
     return status;
 }
 
+/* A law in words, and no name of a file: what is wrong with it is wrong with the call. */
+static bool is_law(const char *text)
+{
+    return text != NULL &&
+           (strncmp(text, "self-affine:", 12) == 0 || strncmp(text, "fractional-zener:", 17) == 0);
+}
+
 /* A result: the series, the points of its master curve if they are asked for or all there is. A
  * file without either is taken for a table of moduli, and if it is none the first error holds. */
 static wt_status read_material(cmd_sliding *s, wt_error *err)
@@ -111,7 +118,7 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
     wt_error first = WT_ERROR_INIT;
     wt_read_options read = s->set.read;
     read.temperature = s->master.fit.reference_temperature;
-    if (strncmp(material, "fractional-zener:", 17) == 0) {
+    if (is_law(material)) {
         wt_status law = wt_rubber_open(material, &read, &s->options, poisson, &s->session.work,
                                        &s->rubber, err);
         s->rubber.prony.reference_temperature = read.temperature;
@@ -156,11 +163,13 @@ bool cmd_sliding_open(cmd_sliding *s)
     wt_status status = s->contact.material != NULL ? read_material(s, err) : fit_material(s, err);
     if (status == WT_OK && s->contact.material != NULL)
         wt_rubber_cost(&s->rubber, work);
+    bool wrong_words = status != WT_OK && is_law(s->contact.material);
     s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
     s->rubber.transverse = s->transverse;
     wt_cost_stage(s->session.cost, "roughness");
     if (status == WT_OK) {
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
+        wrong_words = status != WT_OK && is_law(s->contact.roughness);
         if (status == WT_E_NOT_FOUND)
             wt_error_advice(err, "--roughness takes a spectrum file or "
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
@@ -176,5 +185,7 @@ bool cmd_sliding_open(cmd_sliding *s)
     s->conditions.surface = &s->surface;
     if (status != WT_OK)
         cmd_end(&s->session, status);
+    if (wrong_words && status != WT_E_MEMORY)
+        s->session.status = CMD_USAGE;
     return status == WT_OK;
 }

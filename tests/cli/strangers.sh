@@ -61,4 +61,4 @@ refused 2 'at most 1e+06 m' indent --tip sphere:radius=1e300m x
 refused 2 'at most 100000 K' master --reference-temperature 1e300K x
 refused 2 'at most 1e+15 Pa' friction -m x --roughness y -v 1m/s -p 1e300Pa
 "$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
-refused 1 'at most 1e+15 rad/m' friction -m m.h5 --roughness self-affine:q0=1rad/m,q1=1e300rad/m,hurst=0.8,c0=1m^4 -v 1m/s -p 1Pa
+refused 2 'at most 1e+15 rad/m' friction -m m.h5 --roughness self-affine:q0=1rad/m,q1=1e300rad/m,hurst=0.8,c0=1m^4 -v 1m/s -p 1Pa

@@ -202,6 +202,11 @@ static void say_dwell(sentence *s, const table_view *v)
         say(s, ": at %s E' = %s, E'' = %s", words_of(at.value, "rad/s").text,
             words_of_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
             words_of_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
+    for (size_t i = 0; i < v->n_rows && n > 0; i++)
+        if (!isnan(dwell_get(v, i, DWELL_STORAGE)) && *dwell_text(v, i, DWELL_NOTE) != '\0') {
+            say(s, " (%s)", dwell_text(v, i, DWELL_NOTE));
+            break;
+        }
 }
 
 static void say_sensitivity(sentence *s, const table_view *v)
@@ -212,7 +217,8 @@ static void say_sensitivity(sentence *s, const table_view *v)
                       factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
     const char *direction = sensitivity_words(v, SENSITIVITY_KEY_DIRECTION),
                *option = sensitivity_words(v, SENSITIVITY_KEY_INDENT),
-               *compare = sensitivity_words(v, SENSITIVITY_KEY_COMPARE);
+               *compare = sensitivity_words(v, SENSITIVITY_KEY_COMPARE),
+               *verdict = sensitivity_words(v, SENSITIVITY_KEY_VERDICT);
     next(s);
     if (!isnan(value.value))
         say(s, "deflection sensitivity %s", words_of_estimate(value).text);
@@ -227,10 +233,10 @@ static void say_sensitivity(sentence *s, const table_view *v)
             say(s, " (%.0f curve%s, %s)", n, n > 1 ? "s" : "",
                 strcmp(direction, "both") == 0 ? "approach and retract" : direction);
         }
-    say(s, "; %s", sensitivity_words(v, SENSITIVITY_KEY_VERDICT));
+    say(s, "; %s", verdict);
     if (option != NULL)
-        say(s, "; use %s%s%s", option, compare != NULL ? ", and in compare " : "",
-            compare != NULL ? compare : "");
+        say(s, "; %s %s%s%s", strcmp(verdict, "straight") == 0 ? "use" : "if it is hard, use",
+            option, compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
 }
 
 static void say_thermal(sentence *s, const table_view *v)

@@ -73,6 +73,14 @@ static void put_moduli(dwell_task *task, const flow_file *file, const wt_force_c
     dwell_moduli_put(t, DWELL_MODULI_LOSS_COMMON, m->loss_common_error);
 }
 
+/* A modulus that is not positive and has no error is no modulus: what was fitted is another thing.
+ */
+static bool is_possible(const wt_dwell_moduli *m)
+{
+    return (m->storage.value > 0 || isfinite(m->storage.standard_error)) &&
+           (m->loss.value > 0 || isfinite(m->loss.standard_error));
+}
+
 /* Into the row of the dwell. */
 static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
 {
@@ -118,9 +126,11 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
     put_points(task, file, curve, d);
     if (!d->found)
         return;
-    put_row_moduli(t, &d->moduli[d->n / 2]);
+    if (is_possible(&d->moduli[d->n / 2]))
+        put_row_moduli(t, &d->moduli[d->n / 2]);
     for (size_t i = 0; i < d->n; i++)
-        put_moduli(task, file, curve, s, kind, &d->moduli[i]);
+        if (is_possible(&d->moduli[i]))
+            put_moduli(task, file, curve, s, kind, &d->moduli[i]);
 }
 
 static void put_modulated(dwell_task *task, const flow_file *file, const wt_force_curve *curve,

@@ -123,8 +123,8 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
                                         d->drift * (m->sine.mean_time - d->drift_from)
                                   : fit->baseline_offset.value + fit->baseline_tilt.value * z);
     m->indentation = tip_position(z, m->above, spring_constant);
-    if (!(m->indentation > 0)) {
-        m->note = "not in contact";
+    if (!(m->indentation > 0) || !(m->above > 0)) {
+        m->note = "not in contact, or it pulls";
         return WT_OK;
     }
     const double slope = slope_at(contact, m->indentation, poisson),
