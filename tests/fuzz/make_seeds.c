@@ -179,6 +179,33 @@ static int make_ibw(const char *folder)
     return 0;
 }
 
+/* ---- images -----------------------------------------------------------------------------------
+ */
+
+static int make_image(const char *folder, const char *name, const char *header, size_t data)
+{
+    char path[512];
+    path_of(path, sizeof path, folder, name);
+    FILE *out = fopen(path, "wb");
+    if (out == NULL)
+        return -1;
+    (void)fputs(header, out);
+    do
+        (void)fputc(0, out);
+    while (ftell(out) < (long)data || ftell(out) % 4 != 0);
+    for (int i = 0; i < 12; i++)
+        (void)fwrite("\0\0\x80\x3f", 1, 4, out);
+    return fclose(out);
+}
+
+static int make_gsf(const char *folder)
+{
+    return make_image(folder, "seed0.gsf",
+                      "Gwyddion Simple Field 1.0\nXRes = 4\nYRes = 3\nXReal = 4e-6\nYReal = 3e-6\n"
+                      "XYUnits = m\nZUnits = m\nTitle = Height\n",
+                      0);
+}
+
 /* ---- NanoScope, Park --------------------------------------------------------------------------
  */
 
@@ -212,7 +239,14 @@ static int make_nanoscope(const char *folder)
         if (nanoscope_write(&f) != 0)
             return -1;
     }
-    return 0;
+    return make_image(folder, "image.spm",
+                      "\\*File list\r\n\\*Scanner list\r\n\\@Sens. Zsens: V 10 nm/V\r\n"
+                      "\\*Ciao image list\r\n\\Data offset: 512\r\n\\Data length: 48\r\n"
+                      "\\Samps/line: 4\r\n\\Number of lines: 3\r\n\\Scan Size: 2 2 ~m\r\n"
+                      "\\@2:Image Data: S [Height] \"Height\"\r\n"
+                      "\\@2:Z scale: V [Sens. Zsens] (0.006 V/LSB) 1 V\r\n"
+                      "\\*File list end\r\n\032",
+                      512);
 }
 
 static int make_park(const char *folder)
@@ -335,9 +369,16 @@ int main(int argc, char *argv[])
     static const struct {
         const char *name;
         int (*make)(const char *folder);
-    } targets[] = {{"afmformats", make_afmformats}, {"ibw", make_ibw},       {"jpk", make_jpk},
-                   {"nanoscope", make_nanoscope},   {"nhf", make_nhf},       {"nid", make_nid},
-                   {"ntmdt", make_ntmdt},           {"packed", make_packed}, {"park", make_park},
+    } targets[] = {{"afmformats", make_afmformats},
+                   {"gsf", make_gsf},
+                   {"ibw", make_ibw},
+                   {"jpk", make_jpk},
+                   {"nanoscope", make_nanoscope},
+                   {"nhf", make_nhf},
+                   {"nid", make_nid},
+                   {"ntmdt", make_ntmdt},
+                   {"packed", make_packed},
+                   {"park", make_park},
                    {"properties", make_properties}};
     char folder[256];
     if (argc != 2) {

@@ -139,7 +139,6 @@ static void unknown_files_are_described(void **state)
         {"", 0, "an empty file", "export it again", WT_E_UNSUPPORTED},
         {"\211HDF\r\n\032\n\0", 9, "HDF5", "export it as text", WT_E_UNSUPPORTED},
         {"PK\3\4\24\0\0\0 some other archive", 27, "ZIP", "unpack", WT_E_UNSUPPORTED},
-        {"\\*File list\r\n", 13, "NanoScope", ".pfc", WT_E_FORMAT},
         {"\1\260\223\377\0\0\0\0", 8, "NT-MDT", "Nova", WT_E_UNSUPPORTED},
         {"\1\2\3\4\20\0\0\0ARDF", 12, "Asylum", ".ibw", WT_E_UNSUPPORTED},
         {"\320\317\021\340\241\261\032\341", 8, "Excel", "CSV or text", WT_E_FORMAT},

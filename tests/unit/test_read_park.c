@@ -88,7 +88,7 @@ static void pictures(void **state)
     park_writer_file f = usual();
     f.picture = true;
     assert_int_equal(park_write(&f), 0);
-    refused(WT_E_UNSUPPORTED, "a picture of Park Systems without force curves");
+    refused(WT_E_EMPTY, "the picture holds no force curve");
 }
 
 static void damaged(void **state)

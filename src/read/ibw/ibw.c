@@ -5,6 +5,7 @@
 #include "read/ibw/ibw.h"
 
 #include "read/facts.h"
+#include "read/images.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,19 +80,17 @@ force_facts ibw_facts(const ibw_file *file)
     return facts;
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+static wt_status describe_curve(wt_input *input, const wt_read_options *options,
+                                table_writer *facts, wt_error *err)
 {
     ibw_file file;
     ibw_segment segments[IBW_SEGMENTS];
     size_t n = 0;
     char text[IBW_TEXT];
     static const char *const keys[] = {"ImagingMode", "Date", "Time", "TriggerChannel"};
-    (void)self;
-    (void)log;
-    wt_status status = ibw_open(input, &file, facts->err);
+    wt_status status = ibw_open(input, &file, err);
     if (status == WT_OK)
-        status = ibw_segments(&file, segments, &n, facts->err);
+        status = ibw_segments(&file, segments, &n, err);
     if (status != WT_OK)
         return status;
     const force_facts read = ibw_facts(&file);
@@ -111,6 +110,14 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     }
     force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", facts);
     return WT_OK;
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    wt_error err = WT_ERROR_INIT;
+    const wt_status status = describe_curve(input, options, facts, &err);
+    return images_facts(self, input, options, log, facts, status, &err);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -185,12 +192,15 @@ static const force_stream ibw_force = {
 
 const file_reader reader_ibw = {
     .info = {.id = "ibw",
-             .title = "Igor binary waves of Asylum Research (.ibw), single force curves",
-             .kinds = WT_KIND_FORCE,
+             .title = "Igor binary waves of Asylum Research (.ibw), single force curves and images",
+             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,
              .verified = true,
-             .evidence = "a measured curve of an MFP-3D, approach and retract",
+             .evidence =
+                 "a measured curve of an MFP-3D, approach and retract; images: not verified on "
+                 "a genuine file",
              .version = "1"},
     .detect = detect,
     .force = &ibw_force,
+    .read_images = ibw_images,
     .describe = describe,
 };

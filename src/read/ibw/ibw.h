@@ -45,6 +45,16 @@ bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian);
 bool ibw_is_old(const unsigned char *bytes, size_t length);
 /* Everything is inside the file. */
 wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err) WT_NODISCARD;
+/* An image: three dimensions, of which the last are its channels; `n` is columns x rows. */
+typedef struct ibw_grid {
+    size_t n_columns, n_rows;
+    double step_x, step_y, x_min, y_min; /* [m] */
+} ibw_grid;
+wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
+                         wt_error *err) WT_NODISCARD;
+/* ibw_image.c */
+wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_options *options,
+                     wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
 /* The value of a key of the note, cut to fit; false if it is not there. */
 bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT]);
 double ibw_number(const ibw_file *file, const char *key); /* NaN if there is none */

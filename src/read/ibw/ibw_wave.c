@@ -57,38 +57,76 @@ static wt_status fail(wt_error *err, wt_status status, const char *message, cons
     return status;
 }
 
-static wt_status read_shape(ibw_file *f, wt_error *err)
+enum {
+    TYPE = HEADER_5 + 16,
+    DIMENSIONS = HEADER_5 + 68,
+    STEPS = HEADER_5 + 84,
+    STARTS = STEPS + 32
+};
+
+static wt_status read_type(ibw_file *f, wt_error *err)
 {
-    enum { TYPE = HEADER_5 + 16, SIZES = HEADER_5 + 68, STEPS = HEADER_5 + 84 };
     const unsigned type = f->big_endian ? be16(f->bytes + TYPE) : le16(f->bytes + TYPE);
-    const size_t n = number(f, SIZES), channels = number(f, SIZES + 4);
     if (type != 2 && type != 4)
         return fail(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
                     "numbers of 32 or 64 bits");
     f->type = type == 2 ? SAMPLE_FLOAT32 : SAMPLE_FLOAT64;
-    if (channels == 0 || number(f, SIZES + 8) != 0)
-        return fail(err, WT_E_EMPTY, "the wave holds no force curve",
-                    "two dimensions: samples and channels");
+    return WT_OK;
+}
+
+static wt_status set_sizes(ibw_file *f, size_t n, size_t channels, wt_error *err)
+{
     if (n == 0 || n > (size_t)1 << 28 || channels > IBW_CHANNELS)
         return fail(err, WT_E_CORRUPT, "impossible size of the wave",
                     "up to 268 million samples of up to 32 channels");
     f->n = n;
     f->n_channels = channels;
-    f->interval = real(f, STEPS);
-    if (!(f->interval > 0) || !isfinite(f->interval))
-        f->interval = (double)NAN;
     return WT_OK;
 }
 
-/* Where the parts behind the samples are, in their order. */
-static wt_status read_parts(ibw_file *f, size_t length, wt_error *err)
+static wt_status read_shape(ibw_file *f, wt_error *err)
 {
-    enum { SIZES = 4, LABELS = 36, LABEL = 32, N_BEFORE = 8 };
+    const size_t channels = number(f, DIMENSIONS + 4);
+    wt_status status = read_type(f, err);
+    if (status == WT_OK && (channels == 0 || number(f, DIMENSIONS + 8) != 0))
+        status = fail(err, WT_E_EMPTY, "the wave holds no force curve",
+                      "two dimensions: samples and channels");
+    if (status == WT_OK)
+        status = set_sizes(f, number(f, DIMENSIONS), channels, err);
+    f->interval = real(f, STEPS);
+    if (!(f->interval > 0) || !isfinite(f->interval))
+        f->interval = (double)NAN;
+    return status;
+}
+
+static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
+{
+    const size_t layers = number(f, DIMENSIONS + 8);
+    *grid = (ibw_grid){.n_columns = number(f, DIMENSIONS),
+                       .n_rows = number(f, DIMENSIONS + 4),
+                       .step_x = real(f, STEPS),
+                       .step_y = real(f, STEPS + 8),
+                       .x_min = real(f, STARTS),
+                       .y_min = real(f, STARTS + 8)};
+    const wt_status status = read_type(f, err);
+    if (status != WT_OK)
+        return status;
+    if (layers == 0 || number(f, DIMENSIONS + 12) != 0)
+        return fail(err, WT_E_EMPTY, "the wave holds no image",
+                    "three dimensions: columns, lines and channels");
+    /* Sizes of 32 bits each: their product fits. */
+    return set_sizes(f, grid->n_columns * grid->n_rows, layers, err);
+}
+
+/* Where the parts behind the samples are, in their order. The channels are a dimension. */
+static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_error *err)
+{
+    enum { SIZES = 4, LABELS = 36, LABEL = 32, N_BEFORE = 7 };
     const size_t samples = f->n * f->n_channels * sample_width(f->type);
     const size_t wave = number(f, SIZES), note = number(f, SIZES + 8);
-    /* Formula, note, unit of the data, units of the four dimensions, labels of the first. */
-    static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32, 36};
-    const size_t labels = number(f, LABELS + 4);
+    /* Formula, note, unit of the data, units of the four dimensions, then the labels of each. */
+    static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32};
+    const size_t labels = number(f, LABELS + 4 * dimension);
     uint64_t end = (uint64_t)HEADER_5 + wave;
     if (wave != WAVE_5 + samples)
         return fail(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
@@ -98,6 +136,8 @@ static wt_status read_parts(ibw_file *f, size_t length, wt_error *err)
             f->note = (const char *)f->bytes + (end < length ? end : length);
         end += number(f, before[i]);
     }
+    for (size_t i = 0; i < dimension; i++)
+        end += number(f, LABELS + 4 * i);
     if (end + labels > length) {
         wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
         wt_error_expected(err, "%llu bytes", (unsigned long long)(end + labels));
@@ -118,17 +158,31 @@ static wt_status read_parts(ibw_file *f, size_t length, wt_error *err)
     return WT_OK;
 }
 
+static wt_status open_wave(wt_input *input, ibw_file *file, size_t *length, wt_error *err)
+{
+    *file = (ibw_file){.name = wt_input_name(input)};
+    const wt_status status = wt_input_bytes(input, &file->bytes, length, err);
+    if (status == WT_OK && !ibw_is(file->bytes, *length, &file->big_endian))
+        return fail(err, WT_E_CORRUPT, "damaged header", "version 5, and a check sum that agrees");
+    return status;
+}
+
 wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err)
 {
     size_t length = 0;
-    *file = (ibw_file){.name = wt_input_name(input)};
-    wt_status status = wt_input_bytes(input, &file->bytes, &length, err);
-    if (status != WT_OK)
-        return status;
-    if (!ibw_is(file->bytes, length, &file->big_endian))
-        return fail(err, WT_E_CORRUPT, "damaged header", "version 5, and a check sum that agrees");
-    status = read_shape(file, err);
-    return status == WT_OK ? read_parts(file, length, err) : status;
+    wt_status status = open_wave(input, file, &length, err);
+    if (status == WT_OK)
+        status = read_shape(file, err);
+    return status == WT_OK ? read_parts(file, length, 1, err) : status;
+}
+
+wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid, wt_error *err)
+{
+    size_t length = 0;
+    wt_status status = open_wave(input, file, &length, err);
+    if (status == WT_OK)
+        status = read_grid(file, grid, err);
+    return status == WT_OK ? read_parts(file, length, 2, err) : status;
 }
 
 /* ---- the note -------------------------------------------------------------------------------- */

@@ -1,10 +1,11 @@
-/* NanoScope force files: the descriptor, detection, and the facts for `info`.
+/* NanoScope files: the descriptor, detection, and the facts for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/nanoscope/nanoscope.h"
 
 #include "read/facts.h"
+#include "read/images.h"
 
 #include <math.h>
 
@@ -70,27 +71,30 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
                           wt_parselog *log, table_writer *facts)
 {
     nanoscope_file file;
-    (void)self;
-    wt_status status = nanoscope_file_open(input, log, &file, facts->err);
+    wt_error err = WT_ERROR_INIT;
+    const wt_status status = nanoscope_file_open(input, log, &file, &err);
     if (status == WT_OK) {
         add_identity(&file, facts);
         add_curves(&file, options, facts);
     }
     nanoscope_file_close(&file);
-    return status;
+    return images_facts(self, input, options, log, facts, status, &err);
 }
 
 const file_reader reader_nanoscope = {
     .info = {.id = "nanoscope",
-             .title = "NanoScope force curves, force volumes and PeakForce captures of Bruker and "
-                      "Veeco (.spm, .pfc, .000)",
-             .kinds = WT_KIND_FORCE,
+             .title = "NanoScope force curves, force volumes, PeakForce captures and images of "
+                      "Bruker and Veeco (.spm, .pfc, .000)",
+             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,
              .verified = true,
-             .evidence = "measured single curves and a force volume of software 8.15 and 9.2; "
-                         "PeakForce captures, hold segments and force volumes of 32 bits: not "
-                         "verified on a genuine file",
+             .evidence =
+                 "measured single curves and a force volume of software 8.15 and 9.2; "
+                 "the heights of images (tried on those of the volume) were not compared with "
+                 "another program; PeakForce captures, hold segments, force volumes and "
+                 "images of 32 bits: not verified on a genuine file",
              .version = "1"},
     .detect = detect,
     .force = &nanoscope_force,
+    .read_images = nanoscope_images,
     .describe = describe,
 };

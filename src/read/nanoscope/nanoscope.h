@@ -105,4 +105,11 @@ double nanoscope_count(const nanoscope_file *file, const nanoscope_channel *chan
 force_facts nanoscope_facts(const nanoscope_file *file, size_t s);
 extern const force_stream nanoscope_force;
 
+/* ---- nanoscope_image.c ------------------------------------------------------------------------
+ */
+
+/* All images of measured values: those of a file of images, and that of a force volume. */
+wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
+
 #endif

@@ -11,8 +11,11 @@
 
 bool nanoscope_is(const unsigned char *bytes, size_t length)
 {
-    static const char first[] = "\\*Force file list";
-    return length >= sizeof first - 1 && memcmp(bytes, first, sizeof first - 1) == 0;
+    static const char *const first[] = {"\\*Force file list", "\\*File list"};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        if (length >= strlen(first[i]) && memcmp(bytes, first[i], strlen(first[i])) == 0)
+            return true;
+    return false;
 }
 
 /* "\@4:Z scale: V ..." is "Z scale" and "V ..."; a section has its name as key. */

@@ -11,12 +11,15 @@
 #include "read/bytes/window.h"
 #include "read/facts.h"
 #include "read/force_source.h"
+#include "read/images.h"
 #include "read/reader.h"
 
 #include <math.h>
 
 enum {
     TAG_MAGIC = 50432,
+    TAG_PICTURE = 50434,
+    TAG_PICTURE_HEADER = 50435,
     TAG_SPECTROSCOPY = 50438,
     TAG_SAMPLES = 50439,
     CHANNELS = 8,
@@ -69,7 +72,7 @@ static void take_entry(const unsigned char *entry, size_t at, size_t length, par
 
 /* The tags of Park in the directory of the file. */
 typedef struct park_tags {
-    park_tag magic, header, samples;
+    park_tag magic, header, samples, picture, picture_header;
 } park_tags;
 
 static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
@@ -95,6 +98,10 @@ static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
             take_entry(entry, place, w->size, &tags->header);
         else if (le16(entry) == TAG_SAMPLES)
             take_entry(entry, place, w->size, &tags->samples);
+        else if (le16(entry) == TAG_PICTURE)
+            take_entry(entry, place, w->size, &tags->picture);
+        else if (le16(entry) == TAG_PICTURE_HEADER)
+            take_entry(entry, place, w->size, &tags->picture_header);
     }
     return status;
 }
@@ -325,6 +332,113 @@ static const force_stream park_force = {.size = sizeof(park_source),
                                         .seek = seek,
                                         .close = close_source};
 
+/* ---- the picture ------------------------------------------------------------------------------
+ */
+
+/* Where things are in its header. */
+enum {
+    PICTURE_NAME = 4,
+    PICTURE_COLUMNS = 100,
+    PICTURE_ROWS = 104,
+    PICTURE_WIDTH = 140, /* [um] */
+    PICTURE_HEIGHT = 148,
+    PICTURE_GAIN = 220,
+    PICTURE_SCALE = 228,
+    PICTURE_OFFSET = 236,
+    PICTURE_UNIT = 244,
+    PICTURE_LEAST = 260,
+    PICTURE_TYPE = 348 /* since version 2; before, 16 bits */
+};
+
+static double float_at(const unsigned char *bytes)
+{
+    return float64(le64(bytes));
+}
+
+static wt_status read_picture_header(const unsigned char *header, const park_tags *tags,
+                                     wt_image *head, sample_type *type, wt_error *err)
+{
+    static const sample_type types[] = {SAMPLE_INT16, SAMPLE_INT32, SAMPLE_FLOAT32};
+    const size_t number =
+        tags->picture_header.n >= PICTURE_TYPE + 4 ? le32(header + PICTURE_TYPE) : 0;
+    const size_t size = tags->picture.n;
+    *head = (wt_image){.n_columns = le32(header + PICTURE_COLUMNS),
+                       .n_rows = le32(header + PICTURE_ROWS),
+                       .x_unit = "m"};
+    *type = number < sizeof types / sizeof *types ? types[number] : SAMPLE_INT16;
+    if (number >= sizeof types / sizeof *types || head->n_columns == 0 || head->n_rows == 0 ||
+        size / sample_width(*type) / head->n_columns != head->n_rows ||
+        size != sample_width(*type) * head->n_columns * head->n_rows) {
+        wt_error_found(err, "%zu bytes for %zu x %zu pixels of type %zu", size, head->n_columns,
+                       head->n_rows, number);
+        return fail(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
+                    "16 bits, 32 bits or a float for each pixel");
+    }
+    read_name(header + PICTURE_NAME, head->name, 33);
+    images_set_size(head, 1e-6 * float_at(header + PICTURE_WIDTH),
+                    1e-6 * float_at(header + PICTURE_HEIGHT));
+    return WT_OK;
+}
+
+/* Lines from the bottom upwards. A value is gain x (scale x sample + offset) in the unit. */
+static wt_status read_picture(input_window *w, const park_tags *tags, image_list *list,
+                              wt_error *err)
+{
+    const unsigned char *header = NULL, *data = NULL;
+    const size_t n = tags->picture_header.n < PICTURE_TYPE + 4 ? PICTURE_LEAST : PICTURE_TYPE + 4;
+    wt_image head = {.n_columns = 0};
+    sample_type type = SAMPLE_INT16;
+    char unit[9];
+    double *values = NULL, factor = 1, zero = 0;
+    wt_status status = window_bytes(w, tags->picture_header.from, n, &header, err);
+    if (status == WT_OK)
+        status = read_picture_header(header, tags, &head, &type, err);
+    if (status != WT_OK)
+        return status;
+    read_name(header + PICTURE_UNIT, unit, sizeof unit);
+    const bool length = wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &zero, NULL) == WT_OK;
+    snprintf(head.unit, sizeof head.unit, "%s", length ? "m" : unit[0] != '\0' ? unit : "1");
+    const double given = float_at(header + PICTURE_SCALE),
+                 gain = float_at(header + PICTURE_GAIN) * (length ? factor : 1),
+                 scale = gain * (given == 0 ? 1 : given),
+                 offset = gain * float_at(header + PICTURE_OFFSET);
+    status = images_add(list, &head, &values, err);
+    if (status == WT_OK)
+        status = window_bytes(w, tags->picture.from, tags->picture.n, &data, err);
+    if (status == WT_OK)
+        (void)samples_decode(type, false, data, head.n_columns * head.n_rows, scale, offset,
+                             values);
+    return status;
+}
+
+static wt_status park_images(const file_reader *self, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_image **images,
+                             size_t *n_images, wt_error *err)
+{
+    image_list list = {NULL, 0};
+    input_window window = {.input = NULL};
+    park_tags tags = {.magic = {.n = 0}};
+    (void)self;
+    (void)options;
+    (void)log;
+    wt_status status = window_open(&window, input, err);
+    if (status == WT_OK)
+        status = find_tags(&window, &tags, err);
+    if (status == WT_OK && !is_park(&tags))
+        status =
+            fail(err, WT_E_CORRUPT, "damaged directory of tags", "a TIFF file of Park Systems");
+    if (status == WT_OK && !(tags.picture.there && tags.picture_header.there))
+        status = fail(err, WT_E_EMPTY, "the file holds no picture of measured values",
+                      "the tags 50434 and 50435");
+    if (status == WT_OK && tags.picture_header.n < PICTURE_LEAST)
+        status =
+            fail(err, WT_E_CORRUPT, "the header of the picture is cut off", "260 bytes or more");
+    if (status == WT_OK)
+        status = read_picture(&window, &tags, &list, err);
+    window_close(&window);
+    return images_end(&list, status, images, n_images, err);
+}
+
 /* ---- the descriptor ---------------------------------------------------------------------------
  */
 
@@ -346,24 +460,17 @@ static recognition detect(const file_reader *self, file_peek *peek)
     } else if (is_park(&tags)) {
         match.answer = ANSWER_YES;
         match.score = 90;
-        if (!tags.header.there) {
-            match.answer = ANSWER_UNSUPPORTED;
-            snprintf(match.reason, sizeof match.reason,
-                     "a picture of Park Systems without force curves: export it as text");
-        }
     }
     return match;
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+static wt_status describe_curves(wt_input *input, const wt_read_options *options,
+                                 table_writer *facts, wt_error *err)
 {
     park_file file;
-    (void)self;
-    (void)log;
-    wt_status status = open_file(input, &file, facts->err);
+    wt_status status = open_file(input, &file, err);
     if (status == WT_OK)
-        status = take_curve(&file, 0, facts->err);
+        status = take_curve(&file, 0, err);
     if (status != WT_OK) {
         window_close(&file.window);
         return status;
@@ -389,14 +496,24 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     return WT_OK;
 }
 
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    wt_error err = WT_ERROR_INIT;
+    const wt_status status = describe_curves(input, options, facts, &err);
+    return images_facts(self, input, options, log, facts, status, &err);
+}
+
 const file_reader reader_park = {
     .info = {.id = "park",
-             .title = "TIFF files of Park Systems with force curves (.tiff)",
-             .kinds = WT_KIND_FORCE,
+             .title = "TIFF files of Park Systems with force curves, an image, or both (.tiff)",
+             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,
              .verified = true,
-             .evidence = "a measured file of seven curves",
+             .evidence = "a measured file of seven curves and an image, whose heights were not "
+                         "compared with another program",
              .version = "1"},
     .detect = detect,
     .force = &park_force,
+    .read_images = park_images,
     .describe = describe,
 };

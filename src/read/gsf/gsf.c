@@ -1,0 +1,213 @@
+/* Gwyddion Simple Field (.gsf), which Gwyddion writes of the images of any instrument: a line with
+ * the name of the format, lines "key = value", one to four zero bytes up to a multiple of four,
+ * then floats of little-endian order line by line, the uppermost first.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/number.h"
+#include "read/bytes/window.h"
+#include "read/images.h"
+#include "read/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char first_line[] = "Gwyddion Simple Field 1.0\n";
+#define HEADER_MAX ((size_t)1 << 16)
+
+typedef struct gsf_header {
+    size_t n_columns, n_rows;
+    double width, height, x, y; /* NaN if not there */
+    char unit_xy[16], unit_z[16], title[48];
+    size_t data; /* where the samples begin */
+} gsf_header;
+
+static wt_status corrupt(wt_error *err, const char *message, const char *expected)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "header of the file");
+    wt_error_expected(err, "%s", expected);
+    return WT_E_CORRUPT;
+}
+
+static double value_of(const char *text, size_t n)
+{
+    double value = (double)NAN;
+    return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
+}
+
+static size_t count_of(const char *text, size_t n)
+{
+    const double value = value_of(text, n);
+    return value >= 1 && value <= 1e9 ? (size_t)value : 0;
+}
+
+static void take_value(gsf_header *h, const char *key, size_t n_key, const char *text, size_t n)
+{
+    const struct {
+        const char *key;
+        size_t *count;
+        double *number;
+        char *text;
+        size_t size;
+    } known[] = {{"XRes", &h->n_columns, NULL, NULL, 0},
+                 {"YRes", &h->n_rows, NULL, NULL, 0},
+                 {"XReal", NULL, &h->width, NULL, 0},
+                 {"YReal", NULL, &h->height, NULL, 0},
+                 {"XOffset", NULL, &h->x, NULL, 0},
+                 {"YOffset", NULL, &h->y, NULL, 0},
+                 {"XYUnits", NULL, NULL, h->unit_xy, sizeof h->unit_xy},
+                 {"ZUnits", NULL, NULL, h->unit_z, sizeof h->unit_z},
+                 {"Title", NULL, NULL, h->title, sizeof h->title}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (strlen(known[i].key) != n_key || memcmp(known[i].key, key, n_key) != 0)
+            continue;
+        if (known[i].count != NULL)
+            *known[i].count = count_of(text, n);
+        else if (known[i].number != NULL)
+            *known[i].number = value_of(text, n);
+        else
+            snprintf(known[i].text, known[i].size, "%.*s", (int)(n < 64 ? n : 64), text);
+    }
+}
+
+/* The part of a line without blanks at both ends. */
+static const char *trim(const char *from, const char *to, size_t *n)
+{
+    while (from < to && (*from == ' ' || *from == '\t'))
+        from++;
+    while (to > from && (to[-1] == ' ' || to[-1] == '\t' || to[-1] == '\r'))
+        to--;
+    *n = (size_t)(to - from);
+    return from;
+}
+
+static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    bool whole = false;
+    *h = (gsf_header){.width = (double)NAN, .height = (double)NAN};
+    const wt_status status = wt_input_peek(input, HEADER_MAX, &bytes, &length, &whole, err);
+    if (status != WT_OK)
+        return status;
+    const char *text = (const char *)bytes;
+    const char *end = memchr(bytes, 0, length);
+    if (end == NULL || length < sizeof first_line - 1 ||
+        memcmp(text, first_line, sizeof first_line - 1) != 0)
+        return corrupt(err, "the header has no end", "lines \"key = value\", then a zero byte");
+    for (const char *line = text + sizeof first_line - 1; line < end;) {
+        const char *next = memchr(line, '\n', (size_t)(end - line));
+        const char *stop = next != NULL ? next : end;
+        const char *sign = memchr(line, '=', (size_t)(stop - line));
+        if (sign != NULL) {
+            size_t n_key, n;
+            const char *key = trim(line, sign, &n_key), *value = trim(sign + 1, stop, &n);
+            take_value(h, key, n_key, value, n);
+        }
+        line = stop + 1;
+    }
+    h->data = ((size_t)(end - text) / 4 + 1) * 4;
+    if (h->n_columns == 0 || h->n_rows == 0)
+        return corrupt(err, "the size of the image is missing", "XRes and YRes, whole numbers");
+    return WT_OK;
+}
+
+/* SI units; what is no length keeps its unit. Without the size of an area the pixels have none. */
+static void make_head(const gsf_header *h, const char *name, wt_parselog *log, wt_image *head,
+                      double *factor)
+{
+    double lateral = 1, offset = 0;
+    *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows, .x_unit = "m"};
+    if (h->unit_xy[0] != '\0' &&
+        wt_unit_to_si(h->unit_xy, WT_Q_LENGTH, &lateral, &offset, NULL) != WT_OK)
+        lateral = (double)NAN;
+    if (!(h->width > 0) || !(h->height > 0) || isnan(lateral))
+        wt_parselog_add(log, WT_WARNING, name, "XReal, YReal, XYUnits",
+                        "the size of the image is not known");
+    images_set_size(head, lateral * (h->width > 0 ? h->width : (double)NAN),
+                    lateral * (h->height > 0 ? h->height : (double)NAN));
+    head->x_min = isfinite(lateral * h->x) ? lateral * h->x : 0;
+    head->y_min = isfinite(lateral * h->y) ? lateral * h->y : 0;
+    snprintf(head->name, sizeof head->name, "%s", h->title[0] != '\0' ? h->title : "field");
+    const bool length = h->unit_z[0] != '\0' &&
+                        wt_unit_to_si(h->unit_z, WT_Q_LENGTH, factor, &offset, NULL) == WT_OK;
+    if (!length)
+        *factor = 1;
+    snprintf(head->unit, sizeof head->unit, "%s",
+             length                 ? "m"
+             : h->unit_z[0] != '\0' ? h->unit_z
+                                    : "1");
+}
+
+static wt_status gsf_images(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            size_t *n_images, wt_error *err)
+{
+    gsf_header h;
+    input_window window = {.input = NULL};
+    image_list list = {NULL, 0};
+    wt_image head = {.n_columns = 0};
+    double factor = 1, *values = NULL;
+    size_t missing = 0;
+    (void)self;
+    (void)options;
+    wt_status status = read_header(input, &h, err);
+    if (status == WT_OK)
+        status = window_open(&window, input, err);
+    if (status == WT_OK &&
+        (h.data > window.size || (window.size - h.data) / 4 / h.n_columns != h.n_rows ||
+         window.size - h.data != 4 * h.n_columns * h.n_rows)) {
+        wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
+        status = corrupt(err, "the size of the file contradicts its header",
+                         "four bytes for each of XRes x YRes pixels");
+    }
+    if (status == WT_OK) {
+        make_head(&h, wt_input_name(input), log, &head, &factor);
+        status = images_add(&list, &head, &values, err);
+    }
+    for (size_t row = 0; status == WT_OK && row < h.n_rows; row++) {
+        const unsigned char *bytes = NULL;
+        status =
+            window_bytes(&window, h.data + 4 * h.n_columns * row, 4 * h.n_columns, &bytes, err);
+        if (status == WT_OK)
+            missing += samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
+                                      values + (h.n_rows - 1 - row) * h.n_columns);
+    }
+    if (missing > 0)
+        wt_parselog_add(log, WT_WARNING, wt_input_name(input), head.name,
+                        "%zu pixels are not finite numbers and left out", missing);
+    window_close(&window);
+    return images_end(&list, status, images, n_images, err);
+}
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    recognition match = {.answer = ANSWER_NO};
+    (void)self;
+    if (peek->length >= sizeof first_line - 1 &&
+        memcmp(peek->bytes, first_line, sizeof first_line - 1) == 0) {
+        match.answer = ANSWER_YES;
+        match.score = 95;
+    }
+    return match;
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
+}
+
+const file_reader reader_gsf = {
+    .info = {.id = "gsf",
+             .title = "Gwyddion Simple Field (.gsf), an image of any instrument",
+             .kinds = WT_KIND_IMAGE,
+             .verified = true,
+             .evidence =
+                 "a measured field without heights, whose numbers another program agrees on",
+             .version = "1"},
+    .detect = detect,
+    .read_images = gsf_images,
+    .describe = describe,
+};

@@ -1,0 +1,80 @@
+/* The list of images that a reader makes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/images.h"
+
+#include "read/reader.h"
+
+#include <stdlib.h>
+
+#define MAX_PIXELS ((size_t)1 << 28)
+
+wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err)
+{
+    if (head->n_columns == 0 || head->n_rows == 0 || head->n_columns > MAX_PIXELS / head->n_rows) {
+        wt_fail(err, WT_E_CORRUPT, "impossible size of an image");
+        wt_error_expected(err, "1 to %zu pixels", MAX_PIXELS);
+        wt_error_found(err, "%zu x %zu", head->n_columns, head->n_rows);
+        return WT_E_CORRUPT;
+    }
+    wt_image *grown = realloc(list->images, (list->n + 1) * sizeof *grown);
+    if (grown != NULL)
+        list->images = grown;
+    *values = grown != NULL ? malloc(head->n_columns * head->n_rows * sizeof **values) : NULL;
+    if (*values == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for an image of %zu x %zu points",
+                       head->n_columns, head->n_rows);
+    list->images[list->n] = *head;
+    list->images[list->n++].values = *values;
+    return WT_OK;
+}
+
+void images_set_size(wt_image *head, double width, double height)
+{
+    head->width = width * (double)(head->n_columns - 1) / (double)head->n_columns;
+    head->height = height * (double)(head->n_rows - 1) / (double)head->n_rows;
+}
+
+wt_status images_end(image_list *list, wt_status status, wt_image **images, size_t *n,
+                     wt_error *err)
+{
+    if (status == WT_OK && list->n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "the file holds no image");
+    if (status == WT_OK) {
+        *images = list->images;
+        *n = list->n;
+    } else {
+        for (size_t i = 0; i < list->n; i++)
+            wt_image_clear(&list->images[i]);
+        free(list->images);
+    }
+    *list = (image_list){NULL, 0};
+    return status;
+}
+
+wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read_options *options,
+                       wt_parselog *log, table_writer *facts, wt_status curves,
+                       const wt_error *no_curves)
+{
+    wt_image *images = NULL;
+    wt_error no_images = WT_ERROR_INIT;
+    size_t n = 0;
+    const wt_status status =
+        reader->read_images(reader, input, options, log, &images, &n, &no_images);
+    for (size_t i = 0; i < n; i++) {
+        char item[32], width[32], height[32];
+        wt_format_si(images[i].width, "m", 4, width, sizeof width);
+        wt_format_si(images[i].height, "m", 4, height, sizeof height);
+        snprintf(item, sizeof item, "image %zu", i);
+        facts_add(facts, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s", images[i].name,
+                  images[i].n_columns, images[i].n_rows, width, height);
+        wt_image_clear(&images[i]);
+    }
+    free(images);
+    if (curves == WT_OK || (curves == WT_E_EMPTY && status == WT_OK))
+        return WT_OK;
+    /* Of two that are damaged the curves say it. */
+    if (facts->err != NULL)
+        *facts->err = no_curves == NULL || (curves == WT_E_EMPTY && status != WT_E_EMPTY)
+                          ? no_images
+                          : *no_curves;
+    return curves == WT_E_EMPTY ? status : curves;
+}

@@ -1,0 +1,33 @@
+/* The list of images that a reader makes of a file. Row 0 is the bottom line; width and height go
+ * from the middle of the first pixel to that of the last one.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_IMAGES_H
+#define WT_READ_IMAGES_H
+
+#include "read/bytes/samples.h"
+#include "read/facts.h"
+#include "weartrack/read.h"
+
+typedef struct image_list {
+    wt_image *images;
+    size_t n;
+} image_list;
+
+/* Adds an image with the name, unit, pixels and size of `head`; its values are for the caller to
+ * fill. WT_E_CORRUPT: no pixels, or too many for any image. */
+wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err);
+/* The size of an area of that many pixels side by side. */
+void images_set_size(wt_image *head, double width, double height);
+/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. */
+wt_status images_end(image_list *list, wt_status status, wt_image **images, size_t *n,
+                     wt_error *err);
+/* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
+ * with `curves` and `no_curves`: no curves are no failure beside an image. */
+struct file_reader;
+wt_status images_facts(const struct file_reader *reader, wt_input *input,
+                       const wt_read_options *options, wt_parselog *log, table_writer *facts,
+                       wt_status curves, const wt_error *no_curves);
+
+#endif
