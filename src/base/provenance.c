@@ -18,19 +18,28 @@ wt_provenance *wt_provenance_new(void)
     return calloc(1, sizeof(wt_provenance));
 }
 
-static void input_free(wt_provenance_input *input)
+/* Role and format are mostly those of the input before, whose texts are used again. */
+static void input_free(wt_provenance_input *input, const wt_provenance_input *before)
 {
     free((char *)input->path);
-    free((char *)input->role);
-    free((char *)input->format);
+    if (before == NULL || input->role != before->role)
+        free((char *)input->role);
+    if (before == NULL || input->format != before->format)
+        free((char *)input->format);
+}
+
+static const char *text_of(const char *text, const char *before)
+{
+    const char *const given = text != NULL ? text : "";
+    return before != NULL && strcmp(given, before) == 0 ? before : strdup(given);
 }
 
 void wt_provenance_free(wt_provenance *p)
 {
     if (p == NULL)
         return;
-    for (size_t i = 0; i < p->n; i++)
-        input_free(&p->inputs[i]);
+    for (size_t i = p->n; i > 0; i--)
+        input_free(&p->inputs[i - 1], i > 1 ? &p->inputs[i - 2] : NULL);
     free(p->inputs);
     free(p->command);
     free(p);
@@ -98,11 +107,12 @@ wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *i
         return WT_E_MEMORY;
     p->inputs = inputs;
     wt_provenance_input copy = *input;
+    const wt_provenance_input *const before = p->n > 0 ? &inputs[p->n - 1] : NULL;
     copy.path = strdup(input->path != NULL ? input->path : "");
-    copy.role = strdup(input->role != NULL ? input->role : "");
-    copy.format = strdup(input->format != NULL ? input->format : "");
+    copy.role = text_of(input->role, before != NULL ? before->role : NULL);
+    copy.format = text_of(input->format, before != NULL ? before->format : NULL);
     if (copy.path == NULL || copy.role == NULL || copy.format == NULL) {
-        input_free(&copy);
+        input_free(&copy, before);
         return WT_E_MEMORY;
     }
     copy.sha256[sizeof copy.sha256 - 1] = '\0';

@@ -55,6 +55,8 @@ static const job jobs[] = {
     {"of_map",
      {"indent", "--no-provenance", "--threads", "1", "--tip",
       "pyramid:half-angle=20deg,radius=20nm", "../map/out.h5", "-o", "out.tsv"}},
+    {"spool", {"info", "../unpacks.tsv.gz"}}, /* to a file without a name */
+    {"studio", {"convert", "--no-provenance", "@fuzz/nhf/new.nhf", "-o", "out.tsv"}},
     {"master", {"master", "--no-provenance", "@case/dma.txt", "-o", "out.h5"}},
     {"friction",
      {"friction", "--no-provenance", "--threads", "1", "--replicates", "0", "--tolerance", "1e-2",
@@ -484,6 +486,21 @@ static void sweep(const job *j, const sampling *how, bool wanted)
     free(folder);
 }
 
+/* A force curve that is too long to be unpacked in memory. */
+static void write_long(void)
+{
+    char *line = print("gzip -n1 >'%s/unpacks.tsv.gz'", work);
+    FILE *out = popen(line, "w");
+    if (out == NULL)
+        give_up(line);
+    fputs("## table: force_curve/0\n# segment[text]\theight[m]\tforce[N]\n", out);
+    for (int i = 0; i < 1 << 17; i++)
+        fprintf(out, "approach\t%.12e\t%.12e\n", -1e-9 * i, 1e-12 * (i % 7));
+    if (pclose(out) != 0)
+        give_up(line);
+    free(line);
+}
+
 int main(int argc, char **argv)
 {
     sampling how = {1, 1, 0};
@@ -519,6 +536,7 @@ int main(int argc, char **argv)
           out);
     if (fclose(out) != 0 || chmod(plot, 0700) != 0)
         give_up(plot);
+    write_long();
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++)
         sweep(&jobs[i], &how, only == NULL || strcmp(only, jobs[i].name) == 0);
     printf("%zu faults injected, %zu survivors\n", n_injected, n_survivors);

@@ -8,10 +8,13 @@
 #include "read/formats.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* ---- input -------------------------------------------------------------------------------- */
@@ -63,6 +66,61 @@ static void pipe_file_and_memory(void **state)
     }
     restore_stdin(saved);
     unlink(path);
+}
+
+/* Writes so many bytes into standard input from a process of its own. */
+static pid_t feed_stdin(size_t n, int *saved)
+{
+    int ends[2];
+    *saved = dup(STDIN_FILENO);
+    assert_true(*saved >= 0 && pipe(ends) == 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        static char piece[1 << 16];
+        (void)close(ends[0]);
+        (void)signal(SIGPIPE, SIG_DFL);
+        for (size_t i = 0; i < n; i += sizeof piece)
+            if (write(ends[1], piece, sizeof piece) < 0)
+                _exit(1);
+        _exit(0);
+    }
+    (void)close(ends[1]);
+    assert_true(dup2(ends[0], STDIN_FILENO) >= 0);
+    (void)close(ends[0]);
+    return child;
+}
+
+/* What could not be kept of a pipe is not taken for what comes behind it. */
+static void a_pipe_that_cannot_be_kept(void **state)
+{
+    (void)state;
+    const size_t size = (size_t)12 << 20;
+    struct rlimit all, little;
+    const unsigned char *bytes = NULL;
+    wt_input *input = NULL;
+    wt_error err = WT_ERROR_INIT;
+    size_t n = 0;
+    bool whole = false;
+    int saved = -1;
+    const pid_t child = feed_stdin(size, &saved);
+    assert_int_equal(wt_input_open("-", &input, NULL), WT_OK);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &all), 0);
+    little = all;
+    little.rlim_cur = (rlim_t)6 << 20;
+    void (*const before)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
+    assert_int_equal(wt_input_size(input, &n, &err), WT_E_IO);
+    assert_non_null(strstr(err.message, "cannot be kept while it is read"));
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &all), 0);
+    (void)signal(SIGXFSZ, before);
+    assert_int_equal(wt_input_peek(input, 4096, &bytes, &n, &whole, &err), WT_OK);
+    assert_int_equal(wt_input_size(input, &n, &err), WT_E_IO);
+    assert_non_null(strstr(err.message, "a part of it was lost"));
+    assert_int_equal(wt_input_bytes(input, &bytes, &n, &err), WT_E_IO);
+    wt_input_close(input);
+    restore_stdin(saved);
+    (void)waitpid(child, NULL, 0);
 }
 
 static void files_that_cannot_be_read(void **state)
@@ -300,6 +358,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pipe_file_and_memory),
+        cmocka_unit_test(a_pipe_that_cannot_be_kept),
         cmocka_unit_test(files_that_cannot_be_read),
         cmocka_unit_test(binary_readers_are_complete),
         cmocka_unit_test(unknown_files_are_described),

@@ -13,6 +13,7 @@ typedef struct conversion {
     const wt_job *work;
     flow_file file;
     wt_input *input;
+    wt_read_options read;
     wt_table_sink sink;
     wt_curve_sink curves; /* or NULL */
     void *user;
@@ -93,7 +94,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     wt_force_curve curve = {0};
     size_t n = 0, n_failed = 0;
     wt_status status =
-        wt_force_open(c->work->formats, c->input, &c->file.read, c->work->log, &source, err);
+        wt_force_open(c->work->formats, c->input, &c->read, c->work->log, &source, err);
     while (status == WT_OK) {
         wt_error failure = WT_ERROR_INIT;
         const wt_status got = wt_force_next(source, &curve, &failure);
@@ -221,7 +222,7 @@ static wt_status convert_sweep(const conversion *c, wt_error *err)
 {
     wt_sweep sweep = {0};
     wt_status status =
-        wt_sweep_read(c->work->formats, c->input, &c->file.read, c->work->log, &sweep, err);
+        wt_sweep_read(c->work->formats, c->input, &c->read, c->work->log, &sweep, err);
     if (status == WT_OK) {
         wt_sweep_sort(&sweep);
         status = send_sweep(c, &sweep, err);
@@ -267,7 +268,7 @@ static wt_status convert_images(const conversion *c, wt_error *err)
     wt_image *images = NULL;
     size_t n = 0;
     wt_status status =
-        wt_images_read(c->work->formats, c->input, &c->file.read, c->work->log, &images, &n, err);
+        wt_images_read(c->work->formats, c->input, &c->read, c->work->log, &images, &n, err);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         status = send_image(c, &images[i], i, err);
     for (size_t i = 0; i < n; i++)
@@ -294,8 +295,8 @@ static wt_status send_spectrum(const conversion *c, const wt_power_spectrum *s, 
 static wt_status convert_spectrum(const conversion *c, wt_error *err)
 {
     wt_power_spectrum spectrum = {0};
-    wt_status status = wt_power_spectrum_read(c->work->formats, c->input, &c->file.read,
-                                              c->work->log, &spectrum, err);
+    wt_status status =
+        wt_power_spectrum_read(c->work->formats, c->input, &c->read, c->work->log, &spectrum, err);
     if (status == WT_OK)
         status = send_spectrum(c, &spectrum, err);
     wt_power_spectrum_clear(&spectrum);
@@ -344,6 +345,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
     wt_status status = flow_open(work, &c.file, "input", job->kind, &c.input, err);
     if (status != WT_OK)
         return status;
+    c.read = flow_read_options(&c.file);
     /* An .nid file may hold images and curves: the first kind that has data counts. */
     status = WT_E_EMPTY;
     for (size_t k = 0; k < COUNT_OF(kinds) && status == WT_E_EMPTY; k++) {

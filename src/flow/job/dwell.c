@@ -187,7 +187,7 @@ static wt_status read_file(dwell_task *task, flow_file *file, wt_error *err)
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
     wt_status status = flow_open(task->work, file, "dwell", WT_KIND_FORCE, &input, err);
-    wt_read_options options = file->read;
+    wt_read_options options = flow_read_options(file);
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                    WT_Q_BIT(WT_Q_TIME);
     options.one_height = true;

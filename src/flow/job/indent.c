@@ -87,7 +87,7 @@ typedef struct indent_task {
 /* What the fit uses, and nothing else. */
 static wt_read_options wanted_channels(const flow_file *file, const wt_indent_job *job, bool time)
 {
-    wt_read_options options = file->read;
+    wt_read_options options = flow_read_options(file);
     if (!isnan(job->spring_constant.value))
         options.spring_constant = job->spring_constant.value;
     if (!isnan(job->sensitivity.value))

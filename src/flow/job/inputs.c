@@ -228,15 +228,15 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
     wt_input *input = NULL;
     wt_status status = wt_input_open(file->path, &input, err);
-    file->read = file->set->read;
-    if (status == WT_OK && file->read.format != NULL) {
-        file->format = wt_formats_find(work->formats, file->read.format);
+    const wt_read_options *const read = &file->set->read;
+    if (status == WT_OK && read->format != NULL) {
+        file->format = wt_formats_find(work->formats, read->format);
         if (file->format == NULL) {
-            status = wt_fail(err, WT_E_NOT_FOUND, "no format is called \"%s\"", file->read.format);
+            status = wt_fail(err, WT_E_NOT_FOUND, "no format is called \"%s\"", read->format);
             wt_error_advice(err, "`weartrack formats list` shows the formats");
         }
     } else if (status == WT_OK) {
-        status = wt_detect(work->formats, input, &file->read, kinds, &file->format, err);
+        status = wt_detect(work->formats, input, read, kinds, &file->format, err);
     }
     if (status == WT_OK && (work->provenance != NULL || work->cost != NULL))
         status = record_input(work, input, file, role, err);
@@ -245,9 +245,16 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
         wt_input_close(input);
         return status;
     }
-    file->read.format = file->format->id;
     *result = input;
     return WT_OK;
+}
+
+wt_read_options flow_read_options(const flow_file *file)
+{
+    wt_read_options options = file->set->read;
+    if (file->format != NULL)
+        options.format = file->format->id;
+    return options;
 }
 
 bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure)
@@ -368,9 +375,10 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         wt_input *input = NULL;
         wt_error failure = WT_ERROR_INIT;
         status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
-        if (status == WT_OK)
-            status = wt_sweep_read(work->formats, input, &files.file[i].read, work->log, sweep,
-                                   &failure);
+        if (status == WT_OK) {
+            const wt_read_options options = flow_read_options(&files.file[i]);
+            status = wt_sweep_read(work->formats, input, &options, work->log, sweep, &failure);
+        }
         wt_input_close(input);
         if (status != WT_OK)
             status = flow_leave_out(work, &files.file[i], &failure)

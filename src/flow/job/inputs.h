@@ -33,7 +33,6 @@ typedef struct flow_file {
     bool of_folder;         /* not named itself, but found in a folder that was */
     /* by flow_open: */
     const wt_format_info *format;
-    wt_read_options read; /* options of the set, with the format that was found */
 } flow_file;
 
 typedef struct flow_files {
@@ -51,6 +50,10 @@ void flow_files_clear(flow_files *files);
 /* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
+
+/* How a file is read: by the options of its set, as the format that was found, if any.
+ */
+wt_read_options flow_read_options(const flow_file *file);
 
 /* For an error of files none of which held what is needed: how many, and where to look. */
 void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);

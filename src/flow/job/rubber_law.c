@@ -108,9 +108,10 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
     wt_rubber made = rubber_of(WT_RUBBER_TABLE, poisson_ratio);
     made.extrapolation = options->extrapolation;
     wt_status status = flow_open(work, file, "material", WT_KIND_SWEEP, &input, err);
-    file->read.any_temperature = true;
+    wt_read_options read = flow_read_options(file);
+    read.any_temperature = true;
     if (status == WT_OK)
-        status = wt_sweep_read(work->formats, input, &file->read, work->log, &made.sweep, err);
+        status = wt_sweep_read(work->formats, input, &read, work->log, &made.sweep, err);
     wt_input_close(input);
     if (status == WT_OK && made.sweep.n_isotherms != 1) {
         status = wt_fail(err, WT_E_ARG, "a table of the material has one temperature");

@@ -101,7 +101,7 @@ static wt_status measure(const sensitivity_task *task, const wt_force_curve *cur
 static wt_status read_curves(sensitivity_task *task, const flow_file *file, long unit,
                              wt_input *input, wt_quantity signal, bool *no_signal, wt_error *err)
 {
-    wt_read_options options = file->read;
+    wt_read_options options = flow_read_options(file);
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
     bool first = true;

@@ -83,9 +83,10 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "roughness", WT_KIND_SPECTRUM, &input, err);
+    const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
-        status = wt_power_spectrum_read(work->formats, input, &file->read, work->log,
-                                        &surface->spectrum, err);
+        status =
+            wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
     wt_input_close(input);
     if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
         status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");

@@ -74,7 +74,7 @@ static void add_note(lever *l, const char *note)
 static wt_status find_sensitivity(const wt_job *work, lever *l, const flow_file *file,
                                   wt_error *err)
 {
-    const double given = file->read.sensitivity, own = l->spectrum.sensitivity;
+    const double given = file->set->read.sensitivity, own = l->spectrum.sensitivity;
     if (!l->spectrum.volts) {
         l->sensitivity = given > 0 && own > 0 ? given / own : 1;
         if (given > 0 && !(own > 0))
@@ -166,8 +166,9 @@ static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_fil
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
+    const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
-        status = wt_noise_read(work->formats, input, &file->read, work->log, &l->spectrum, err);
+        status = wt_noise_read(work->formats, input, &read, work->log, &l->spectrum, err);
     if (status == WT_OK)
         status = find_sensitivity(work, l, file, err);
     if (status == WT_OK)

@@ -30,6 +30,7 @@ struct wt_input {
     size_t expected;   /* size of a file, 0 of a pipe */
     wt_input *content; /* what was unpacked from it, or NULL */
     int fd;            /* -1 if there is nothing left to read or to close */
+    bool lost;         /* bytes of a pipe, of which nothing more is read */
 };
 
 static wt_status input_new(const char *name, wt_input **input, wt_error *err)
@@ -199,11 +200,20 @@ const char *wt_input_name(const wt_input *input)
     return input->name;
 }
 
+static wt_status fail_lost(const wt_input *in, wt_error *err)
+{
+    wt_fail(err, WT_E_IO, "a part of it was lost when it could not be read or kept");
+    wt_error_file(err, in->name);
+    return WT_E_IO;
+}
+
 /* Reads on until `want` bytes are there or it ends. A file gets its memory at once, with one byte
  * more in which its end is seen; but a part of it is read in parts. */
 static wt_status fill(wt_input *in, size_t want, wt_error *err)
 {
     while (!in->whole && in->length < want) {
+        if (in->lost)
+            return fail_lost(in, err);
         if (in->length == in->capacity) {
             size_t capacity = in->capacity > 0   ? in->capacity
                               : in->expected > 0 ? in->expected + 1
@@ -242,6 +252,8 @@ static wt_status keep_pipe(wt_input *in, wt_error *err)
 {
     static const size_t step = 4 * FIRST_READ;
     wt_status status = fill(in, SCRATCH_ABOVE + 1, err);
+    if (status == WT_OK && in->lost)
+        status = fail_lost(in, err);
     if (status != WT_OK || in->whole || in->fd < 0)
         return status;
     const int file = scratch_open();
@@ -267,6 +279,7 @@ static wt_status keep_pipe(wt_input *in, wt_error *err)
     if (status == WT_OK && lseek(file, (off_t)in->length, SEEK_SET) < 0)
         status = fail_io(in, err, errno, "cannot be read");
     if (status != WT_OK) {
+        in->lost = size > in->length;
         (void)close(file);
         return status;
     }

@@ -259,6 +259,11 @@ file_reader text_reader(text_description *description);
 void text_peek_free(struct text_peek *peek);
 
 extern const struct force_stream text_force;
+/* The same without reading to the end first: how many curves there are is not known. Not for a
+ * reader that makes a text (as_text). */
+extern const struct force_stream text_force_first;
+/* Curves of the tables at hand. */
+size_t text_count_curves(const text_file *file);
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_sweep *sweep, wt_error *err);
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,

@@ -23,7 +23,14 @@ typedef struct text_reading {
     const wt_read_options *options;
     unsigned kinds;
     size_t piece;
+    size_t n_curves; /* of a text that is read part by part */
 } text_reading;
+
+/* The curves of a text that is read part by part, which was read to its end before. */
+static const force_stream *stream_of(const text_reading *r)
+{
+    return r->piece == SIZE_MAX ? r->self->force : &text_force_first;
+}
 
 static wt_status begin(const text_reading *r, wt_parselog *log, text_parts **parts, wt_error *err)
 {
@@ -151,19 +158,19 @@ static void add_curve(const wt_force_curve *curve, table_writer *facts)
 }
 
 /* The curves without their forces, which may need a calibration that is not known. */
-static void add_curves(const file_reader *self, wt_input *input, const wt_read_options *options,
-                       table_writer *facts)
+static void add_curves(const text_reading *r, table_writer *facts)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
-    wt_read_options bare = *options;
+    wt_read_options bare = *r->options;
     bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
-    if (force_open(self->force, self, input, &bare, NULL, &source, &problem) != WT_OK) {
+    if (force_open(stream_of(r), r->self, r->input, &bare, NULL, &source, &problem) != WT_OK) {
         add_problem(&problem, facts);
         return;
     }
-    facts_add(facts, "curves", "", "", "%zu", wt_force_count(source));
+    facts_add(facts, "curves", "", "", "%zu",
+              r->piece == SIZE_MAX ? wt_force_count(source) : r->n_curves);
     for (size_t i = 0; i < TABLES_SHOWN; i++) {
         const wt_status got = wt_force_next(source, &curve, &problem);
         if (got != WT_OK && got != WT_END)
@@ -180,16 +187,15 @@ static void add_curves(const file_reader *self, wt_input *input, const wt_read_o
     wt_force_close(source);
 }
 
-static void add_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                      table_writer *facts)
+static void add_force(const text_reading *r, table_writer *facts)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
-    wt_read_options force_only = *options;
+    wt_read_options force_only = *r->options;
     force_only.want = WT_Q_BIT(WT_Q_FORCE);
-    add_curves(self, input, options, facts);
-    if (force_open(self->force, self, input, &force_only, NULL, &source, &problem) != WT_OK)
+    add_curves(r, facts);
+    if (force_open(stream_of(r), r->self, r->input, &force_only, NULL, &source, &problem) != WT_OK)
         return;
     if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
         add_problem(&problem, facts);
@@ -286,15 +292,15 @@ static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_p
 }
 
 /* *has: kinds that are still to be told. */
-static wt_status describe_parts(const text_reading *r, text_parts *parts, wt_parselog *log,
-                                unsigned *has, table_writer *facts)
+static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog *log, unsigned *has,
+                                table_writer *facts)
 {
     static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_SPECTRUM, WT_KIND_NOISE};
     const text_file *const file = text_parts_file(parts);
     wt_error problem = WT_ERROR_INIT;
     wt_status status = WT_OK;
-    while (status == WT_OK)
-        status = text_parts_next(parts, &problem);
+    while ((status = text_parts_next(parts, &problem)) == WT_OK)
+        r->n_curves += text_count_curves(file);
     if (status != WT_END) {
         add_problem(&problem, facts);
         return WT_OK;
@@ -315,7 +321,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
                         wt_parselog *log, table_writer *facts)
 {
     const text_description *description = self->description;
-    text_reading r = {self, input, options, description->kinds, SIZE_MAX};
+    text_reading r = {self, input, options, description->kinds, SIZE_MAX, 0};
     text_parts *parts = NULL;
     unsigned has = 0;
     facts_add(facts, "description version", "", "", "%s", description->version);
@@ -328,7 +334,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
     if (status != WT_OK)
         return status;
     if ((has & WT_KIND_FORCE) != 0)
-        add_force(self, input, options, facts);
+        add_force(&r, facts);
     if ((has & WT_KIND_SPECTRUM) != 0)
         add_spectrum(self, input, options, facts);
     if ((has & WT_KIND_NOISE) != 0)

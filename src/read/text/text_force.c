@@ -180,7 +180,7 @@ static wt_status next_part(text_source *s, wt_error *err)
         s->next = (span){.table = 0};
         status = left ? text_parts_next(s->parts, &s->broken) : WT_END;
     }
-    if (status == WT_END && left) {
+    if (status == WT_END && left && s->base.n_curves != SIZE_MAX) {
         status = wt_fail(&s->broken, WT_E_IO, "has been changed while it was read");
         wt_error_file(&s->broken, s->base.name);
     }
@@ -230,14 +230,17 @@ static void text_close(wt_force_source *source)
     wt_input_close(s->text);
 }
 
-static size_t count_curves(const text_file *file)
+size_t text_count_curves(const text_file *file)
 {
     size_t n = 0, block = 0;
-    for (size_t i = 0; i < file->n_tables; i++)
-        for (size_t r = 0; r < file->tables[i].n_rows; r++) {
-            n += n == 0 || file->tables[i].blocks[r] != block;
-            block = file->tables[i].blocks[r];
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const text_table *t = &file->tables[i];
+        const bool has = quantities_suffice(t->quantities, WT_KIND_FORCE);
+        for (size_t r = 0; has && r < t->n_rows; r++) {
+            n += n == 0 || t->blocks[r] != block;
+            block = t->blocks[r];
         }
+    }
     return n;
 }
 
@@ -258,7 +261,7 @@ static wt_status read_through(text_source *s, wt_error *err)
 {
     wt_status status = WT_OK;
     while ((status = text_parts_next(s->parts, err)) == WT_OK) {
-        s->base.n_curves += count_curves(s->file);
+        s->base.n_curves += text_count_curves(s->file);
         text_log_assumed(s->file, s->base.log);
     }
     if (status != WT_END)
@@ -288,6 +291,22 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
         status = begin(s, self, text, piece, NULL, err);
     return status;
 }
+
+static wt_status open_first(wt_force_source *source, const file_reader *self, wt_input *input,
+                            wt_error *err)
+{
+    text_source *s = (text_source *)source;
+    size_t piece = 0;
+    wt_status status = text_piece(self->description, input, &piece, err);
+    s->base.n_curves = SIZE_MAX;
+    return status == WT_OK ? begin(s, self, input, piece, source->log, err) : status;
+}
+
+const force_stream text_force_first = {.size = sizeof(text_source),
+                                       .open = open_first,
+                                       .next = text_next,
+                                       .decode = decode,
+                                       .close = text_close};
 
 const force_stream text_force = {.size = sizeof(text_source),
                                  .open = text_open,
