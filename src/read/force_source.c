@@ -4,6 +4,7 @@
  */
 #include "read/force_source.h"
 
+#include "base/array.h"
 #include "base/shortage.h"
 #include "data/force_curve.h"
 #include "read/facts.h"
@@ -170,13 +171,15 @@ static wt_status uncalibrated(const force_signal *signal, const wt_cantilever *u
 
 /* ---- columns ------------------------------------------------------------------------------ */
 
+typedef struct force_column {
+    wt_quantity quantity;
+    const force_signal *signal; /* NULL: the time, from the duration */
+    force_linear scaling;       /* from the numbers of the channel to the quantity */
+} force_column;
+
 /* The columns that a segment gets. */
 typedef struct force_plan {
-    struct {
-        wt_quantity quantity;
-        const force_signal *signal; /* NULL: the time, from the duration */
-        force_linear scaling;       /* from the numbers of the channel to the quantity */
-    } columns[WT_Q_COUNT];
+    force_column columns[WT_Q_COUNT];
     size_t n;
 } force_plan;
 
@@ -255,6 +258,29 @@ static wt_status plan_column(const wt_force_source *source, const force_facts *f
     return WT_OK;
 }
 
+/* One order of the columns, whatever that of the file. */
+static size_t place_of(wt_quantity quantity)
+{
+    static const wt_quantity order[] = {WT_Q_TIME,  WT_Q_HEIGHT,     WT_Q_MEASURED_HEIGHT,
+                                        WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE};
+    size_t i = 0;
+    while (i < COUNT_OF(order) && order[i] != quantity)
+        i++;
+    return i < COUNT_OF(order) ? i : COUNT_OF(order) + (size_t)quantity;
+}
+
+static void sort_columns(force_plan *plan)
+{
+    for (size_t i = 1; i < plan->n; i++)
+        for (size_t k = i;
+             k > 0 && place_of(plan->columns[k].quantity) < place_of(plan->columns[k - 1].quantity);
+             k--) {
+            const force_column column = plan->columns[k];
+            plan->columns[k] = plan->columns[k - 1];
+            plan->columns[k - 1] = column;
+        }
+}
+
 /* Whether a given sensitivity replaces that of the file, or makes a column. */
 static bool takes_sensitivity(const force_facts *facts, const force_plan *plan)
 {
@@ -297,6 +323,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
             status = plan_column(source, facts, facts->offers[i], &plan, err);
     if (status != WT_OK)
         return status;
+    sort_columns(&plan);
     if (used.sensitivity_given && !takes_sensitivity(facts, &plan)) {
         curve->cantilever.sensitivity = (double)NAN;
         curve->cantilever.sensitivity_given = false;

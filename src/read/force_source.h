@@ -38,7 +38,7 @@ typedef struct force_facts {
     double setpoint;   /* of the quantity below, NaN if unknown */
     wt_quantity setpoint_quantity;
     wt_cantilever cantilever; /* that the file's deflections and forces were made with */
-    /* What the format has to give, in the order of the columns; a force is made from any signal. */
+    /* What the format has to give; a force is made from any signal. */
     wt_quantity offers[WT_Q_COUNT];
     size_t n_offers;
     force_signal signals[WT_Q_COUNT];
