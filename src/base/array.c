@@ -26,3 +26,9 @@ void numbers_sort(double *x, size_t n)
 {
     qsort(x, n, sizeof *x, compare_numbers);
 }
+
+double numbers_median(double *x, size_t n)
+{
+    numbers_sort(x, n);
+    return n % 2 == 1 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
+}

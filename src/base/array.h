@@ -12,5 +12,7 @@ void *array_grow(void *array, size_t n, size_t size);
 
 /* Sorts numbers, none of which is NaN, rising. */
 void numbers_sort(double *x, size_t n);
+/* Sorts them; n > 0. */
+double numbers_median(double *x, size_t n);
 
 #endif

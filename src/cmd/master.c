@@ -125,6 +125,54 @@ static bool asks_for_few_terms(const cmd_part *part, const exported *own)
     return asked;
 }
 
+/* All that master wrote, those of the sample or of whatever else, or a table of the user's own:
+ * `shifts` is one of `given`. */
+static wt_status read_shifts(cmd_session *s, const char *path, const char *sample,
+                             wt_result **given, const wt_table **shifts)
+{
+    static const wt_tables_role role = {
+        "shifts", "shifts",
+        "what weartrack master wrote, or a text table that begins with a line such as "
+        "\"# temperature[degC]<TAB>log_a[1]\""};
+    const wt_status status = wt_tables_read(path, path, &s->work, role, given, &s->err);
+    if (*given == NULL)
+        return status;
+    const bool of_samples = cmd_tables_have(*given, "shift_factors/");
+    *shifts = of_samples ? cmd_table_of_sample(*given, "shift_factors", sample)
+                         : wt_result_find(*given, "shift_factors");
+    if (*shifts == NULL)
+        *shifts = wt_result_table(*given, 0);
+    return of_samples ? cmd_check_sample(*given, path, "shift_factors", sample, &s->err) : status;
+}
+
+/* Fits the sample, writes what goes into files of its own and finishes the call; `made`: what was
+ * read. */
+static void master_of_one(cmd_session *s, wt_status made, const wt_master_job *job,
+                          const wt_common_law_job *common, const saved_shifts *saved,
+                          const exported *own)
+{
+    wt_master_tables tables = {0};
+    if (made == WT_OK && common->common != WT_COMMON_NONE) {
+        made = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
+        wt_error_advice(&s->err, "--common-law takes sweeps of several samples, without --sample, "
+                                 "--save-shifts and --export; see --sample-by");
+    }
+    if (made == WT_OK)
+        made = wt_master_make(job, &s->work, &tables, NULL, &s->err);
+    if (made != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
+        wt_error_file(&s->err, saved->read);
+    if (made == WT_OK && saved->written != NULL)
+        made = save_shifts(saved->written, tables.shift_factors, &s->err);
+    if (made == WT_OK)
+        made = write_exports(s, own, &tables);
+    wt_table **const made_tables[] = {
+        &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
+        &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
+        &tables.series_draws};
+    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    wt_master_tables_clear(&tables);
+}
+
 int cmd_master(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -160,12 +208,7 @@ int cmd_master(int argc, char **argv)
         [COMMON] = {wt_common_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature units format sheet deformation strain sample sample-by", 0}};
-    static const wt_tables_role role = {
-        "shifts", "shifts",
-        "what weartrack master wrote, or a text table that begins with a line such as "
-        "\"# temperature[degC]<TAB>log_a[1]\""};
     cmd_session s = cmd_session_defaults();
-    wt_master_tables tables = {0};
     wt_result *given = NULL;
     wt_samples samples = {0, NULL};
     wt_sweep sweep = {0};
@@ -185,44 +228,15 @@ int cmd_master(int argc, char **argv)
     s.work.dma = &sweep; /* read once, for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
-        made = wt_tables_read(saved.read, saved.read, &s.work, role, &given, &s.err);
-    /* all that master wrote, those of the sample or of whatever else, or a table of the user's own
-     */
-    if (given != NULL && cmd_tables_have(given, "shift_factors/"))
-        made = cmd_check_sample(given, saved.read, "shift_factors", set.read.sample, &s.err);
-    if (given != NULL)
-        job.shifts = cmd_tables_have(given, "shift_factors/")
-                         ? cmd_table_of_sample(given, "shift_factors", set.read.sample)
-                         : wt_result_find(given, "shift_factors");
-    if (given != NULL && job.shifts == NULL)
-        job.shifts = wt_result_table(given, 0);
+        made = read_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
     /* what goes into a file of its own is of one sample */
     if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
         made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);
-    if (made == WT_OK && samples.n > 1) {
+    if (made == WT_OK && samples.n > 1)
         master_of_samples(&s, &job, &common, &set, &samples);
-        goto done;
-    }
-    if (made == WT_OK && common.common != WT_COMMON_NONE) {
-        made = wt_fail(&s.err, WT_E_MISSING, "one sample has no law in common with another");
-        wt_error_advice(&s.err, "--common-law takes sweeps of several samples, without --sample, "
-                                "--save-shifts and --export; see --sample-by");
-    }
-    if (made == WT_OK)
-        made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
-    if (made != WT_OK && job.shifts != NULL && strcmp(s.err.place, "shifts") == 0)
-        wt_error_file(&s.err, saved.read);
-    if (made == WT_OK && saved.written != NULL)
-        made = save_shifts(saved.written, tables.shift_factors, &s.err);
-    if (made == WT_OK)
-        made = write_exports(&s, &own, &tables);
-    wt_table **const made_tables[] = {
-        &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
-        &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
-        &tables.series_draws};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+    else
+        master_of_one(&s, made, &job, &common, &saved, &own);
 done:
-    wt_master_tables_clear(&tables);
     wt_samples_clear(&samples);
     wt_sweep_clear(&sweep);
     wt_result_free(given);

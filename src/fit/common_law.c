@@ -5,6 +5,7 @@
 #include "fit/posterior.h"
 
 #include "base/gsl_quiet.h"
+#include "base/normal.h"
 #include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
@@ -21,9 +22,6 @@
 enum { OFFSET, MAIN, POLE, MOVED, LOCAL };
 enum { MOST_STEPS = 100, FEWEST = 2 };
 static const size_t none = SIZE_MAX;
-/* As fit/shift_law.c has them: the pole lies so far below the coldest isotherm [K], and its
- * distance is known at least so well. */
-static const double pole_nearest = 2.0, pole_farthest = 1e4, pole_error = 2.0;
 /* A step that is so small in standard errors is the last. */
 static const double settled = 1e-6;
 /* A pole to begin with, below the coldest isotherm [K]. */
@@ -255,7 +253,7 @@ static void start(const law_samples *c, const law_model *model, double *unknown)
             /* its law for the reference of all, whose pole must lie below all isotherms */
             const double pole = m->coldest - exp(m->distance);
             const double product = m->main_constant * (m->reference - pole);
-            const double apart = fmax(c->coldest - pole, pole_nearest);
+            const double apart = fmax(c->coldest - pole, POLE_NEAREST);
             unknown[at[POLE]] = log(apart);
             unknown[at[MAIN]] = product / (c->reference - c->coldest + apart);
         }
@@ -280,9 +278,9 @@ static bool is_law(const law_samples *c, const law_model *model, const solution 
         places(c, model, k, at);
         good = good && s->unknown[at[MAIN]] > 0.0;
         if (at[POLE] != none)
-            good = good && s->unknown[at[POLE]] > log(pole_nearest) &&
-                   s->unknown[at[POLE]] < log(pole_farthest) &&
-                   gsl_matrix_get(s->covariance, at[POLE], at[POLE]) < pole_error * pole_error;
+            good = good && s->unknown[at[POLE]] > log(POLE_NEAREST) &&
+                   s->unknown[at[POLE]] < log(POLE_FARTHEST) &&
+                   gsl_matrix_get(s->covariance, at[POLE], at[POLE]) < POLE_ERROR * POLE_ERROR;
     }
     return good;
 }
@@ -485,7 +483,7 @@ static double correlation(const solution s[LAW_SPREADS], size_t a, size_t b)
 static wt_interval to_c2(wt_interval x, double lead)
 {
     wt_interval y = {lead + exp(x.value), 0.0, lead + exp(x.low), lead + exp(x.high)};
-    y.standard_error = 0.5 * (y.high - y.low) / 1.959963984540054;
+    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
     return y;
 }
 

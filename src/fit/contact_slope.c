@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/array.h"
 #include "base/clocale.h"
 #include "base/param.h"
 #include "weartrack/fit.h"
@@ -52,19 +53,6 @@ typedef struct samples {
     size_t n;
 } samples;
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* Sorts. */
-static double median(double *values, size_t n)
-{
-    qsort(values, n, sizeof *values, by_size);
-    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 static double mean(const double *values, size_t n)
 {
     double sum = 0;
@@ -101,7 +89,7 @@ static double far_level(const samples *s)
     const size_t n = s->n / FAR_SHARE;
     for (size_t i = 0; i < n; i++)
         s->scratch[i] = s->v[i];
-    return median(s->scratch, n);
+    return numbers_median(s->scratch, n);
 }
 
 /* Standard deviation of the noise from sample to sample: the steps of the curve, whose median the
@@ -110,7 +98,7 @@ static double step_noise(const samples *s)
 {
     for (size_t i = 0; i + 1 < s->n; i++)
         s->scratch[i] = fabs(s->v[i + 1] - s->v[i]);
-    return mad_to_deviation * median(s->scratch, s->n - 1) / sqrt(2);
+    return mad_to_deviation * numbers_median(s->scratch, s->n - 1) / sqrt(2);
 }
 
 /* ---- lines ----------------------------------------------------------------------------------- */

@@ -196,25 +196,58 @@ static bool flattens(const curve_fitting *f)
            contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
 }
 
+/* Whether the contact law holds so deep. */
+static bool is_too_deep(const curve_fitting *f, char reason[160])
+{
+    const double depth = f->solution.max_indentation;
+    const wt_tip *tip = contact_table_tip(f->table);
+    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    const double reach = thin_sample_reach(tip, depth);
+    if (!faced && depth > deepest_round * tip->radius) {
+        curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
+                  curve_si(depth, "m").words, depth / tip->radius, deepest_round);
+        return true;
+    }
+    if (reach > THIN_SAMPLE_REACH)
+        curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
+                  reach, THIN_SAMPLE_REACH);
+    return reach > THIN_SAMPLE_REACH;
+}
+
+/* What makes the residual larger than the noise. */
+static wt_curve_verdict judge_lack(const curve_fitting *f, char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    const double lack = sqrt(s->lack.statistic);
+    if (f->snap_on > 0.0 || f->pull_off > 0.0) {
+        curve_say(reason,
+                  "pull of %s; neither contact with adhesion nor without describes the rest: "
+                  "residual %.3g times its noise",
+                  curve_si(fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0), "N").words,
+                  lack);
+        return WT_CURVE_ADHESIVE;
+    }
+    if (s->bent) {
+        curve_say(reason,
+                  "baseline bent (chance %s if it were straight), and slow residual in "
+                  "contact %.3g times its noise: piezo or drift",
+                  number_chance(s->lack.baseline_chance).text, lack);
+        return WT_CURVE_DRIFT;
+    }
+    curve_say(reason,
+              "slow residual %.3g times what the noise of the baseline explains: another "
+              "tip, a layer, loss, adhesion, an uneven piezo or detector",
+              lack);
+    return WT_CURVE_POOR_FIT;
+}
+
 /* What is against the contact law. */
 static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
                                   char reason[160])
 {
     const curve_solution *s = &f->solution;
-    const wt_tip *tip = contact_table_tip(f->table);
-    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
-    if (!faced && s->max_indentation > deepest_round * tip->radius) {
-        curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
-                  curve_si(s->max_indentation, "m").words, s->max_indentation / tip->radius,
-                  deepest_round);
+    if (is_too_deep(f, reason))
         return WT_CURVE_TOO_DEEP;
-    }
-    const double reach = thin_sample_reach(tip, s->max_indentation);
-    if (reach > THIN_SAMPLE_REACH) {
-        curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
-                  reach, THIN_SAMPLE_REACH);
-        return WT_CURVE_TOO_DEEP;
-    }
     if (flattens(f)) {
         curve_say(
             reason,
@@ -239,29 +272,8 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
                   s->first_contact);
         return WT_CURVE_NO_BASELINE;
     }
-    if (!curve_fits(f)) {
-        const double lack = sqrt(s->lack.statistic);
-        if (f->snap_on > 0.0 || f->pull_off > 0.0) {
-            curve_say(reason,
-                      "pull of %s; neither contact with adhesion nor without describes the rest: "
-                      "residual %.3g times its noise",
-                      curve_si(fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0), "N").words,
-                      lack);
-            return WT_CURVE_ADHESIVE;
-        }
-        if (s->bent) {
-            curve_say(reason,
-                      "baseline bent (chance %s if it were straight), and slow residual in "
-                      "contact %.3g times its noise: piezo or drift",
-                      number_chance(s->lack.baseline_chance).text, lack);
-            return WT_CURVE_DRIFT;
-        }
-        curve_say(reason,
-                  "slow residual %.3g times what the noise of the baseline explains: another "
-                  "tip, a layer, loss, adhesion, an uneven piezo or detector",
-                  lack);
-        return WT_CURVE_POOR_FIT;
-    }
+    if (!curve_fits(f))
+        return judge_lack(f, reason);
     if (!f->kind.adhesive && fit->tabor_number < 1.0 &&
         f->pull_off * fit->modulus.value > 2.0 * fit->modulus.standard_error * fit->max_force) {
         curve_say(reason,

@@ -2,6 +2,8 @@
  * be asked of it later. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/master.h"
 
+#include "base/normal.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,7 +34,7 @@ static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)N
 static wt_interval transform(wt_interval x, double (*f)(double))
 {
     wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
-    y.standard_error = 0.5 * (y.high - y.low) / 1.959963984540054;
+    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
     return y;
 }
 

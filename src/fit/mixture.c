@@ -1,6 +1,8 @@
 /* What a mixture of normal distributions says. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/mixture.h"
 
+#include "base/normal.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -40,6 +42,6 @@ wt_interval mixture_interval(const mixture_part *part, size_t n)
         interval.value += part[i].weight * part[i].mean;
     interval.low = quantile(part, n, 0.025);
     interval.high = quantile(part, n, 0.975);
-    interval.standard_error = (interval.high - interval.low) / (2.0 * 1.959963984540054);
+    interval.standard_error = (interval.high - interval.low) / (2.0 * NORMAL_95);
     return interval;
 }

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/smooth.h"
 
+#include "base/normal.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -90,7 +92,7 @@ static wt_interval find_top(const smooth *s, double from, double to, double larg
         top.low = crossing(s, from + (double)low * step, from + (double)(low + 1) * step, 0.025);
     if (high <= GRID)
         top.high = crossing(s, from + (double)(high - 1) * step, from + (double)high * step, 0.975);
-    top.standard_error = (top.high - top.low) / (2 * 1.959963984540054);
+    top.standard_error = (top.high - top.low) / (2 * NORMAL_95);
     return top;
 }
 

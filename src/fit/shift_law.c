@@ -15,12 +15,6 @@
 #include <string.h>
 
 static const double gas_constant = 8.31446261815324; /* J/(mol K) */
-/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured;
- * farther, the law is a straight line. */
-static const double pole_nearest = 2.0, pole_farthest = 1e4;
-/* A pole whose distance is known to less than this (error of its ln) bends nothing that is seen:
- * constants and draws of such a law would mean nothing, and it counts as impossible. */
-static const double pole_error = 2.0;
 /* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
  * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
  * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
@@ -270,7 +264,7 @@ static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 /* ln of the distance of the pole that fits best: scanned, then by halves. */
 static double best_pole(struct gls *g, law_fit *fit)
 {
-    const double nearest = log(pole_nearest), farthest = log(pole_farthest);
+    const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
     double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
     for (int i = 0; i <= POLE_GRID; i++) {
         const double p = nearest + i * step, chi = chi_square_at(g, p, fit);
@@ -317,7 +311,7 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_m
     }
     gsl_matrix_view covariance = covariance_of(fit, k);
     gsl_linalg_cholesky_invert(&covariance.matrix);
-    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < pole_error * pole_error))
+    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < POLE_ERROR * POLE_ERROR))
         fit->chi_square = HUGE_VAL;
     for (size_t i = 0; i < data->n; i++)
         fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));

@@ -18,6 +18,14 @@ enum { LAW_LEAST_TOLD = 4 };
 enum { LAW_SPREADS = 11 };
 double law_spread(size_t i);
 
+/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured;
+ * farther, the law is a straight line. */
+#define POLE_NEAREST 2.0
+#define POLE_FARTHEST 1e4
+/* A pole whose distance is known to less than this (error of its ln) bends nothing that is seen:
+ * constants and draws of such a law would mean nothing, and it counts as impossible. */
+#define POLE_ERROR 2.0
+
 typedef struct law_shape {
     wt_law_kind kind;
     double reference; /* [K] */

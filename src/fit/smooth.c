@@ -3,6 +3,7 @@
 
 #include "base/array.h"
 #include "base/gsl_quiet.h"
+#include "base/normal.h"
 #include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
@@ -302,5 +303,5 @@ wt_interval smooth_interval(const smooth *s, double x)
         error = fmax(error, o.error[i]);
     }
     const double low = quantile(&o, 0.025, mean, -error), high = quantile(&o, 0.975, mean, error);
-    return (wt_interval){mean, (high - low) / (2 * 1.959963984540054), low, high};
+    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
 }

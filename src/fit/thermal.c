@@ -8,6 +8,8 @@
  */
 #include "weartrack/fit.h"
 
+#include "base/array.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
@@ -188,12 +190,6 @@ static wt_interval interval(double log_value, double variance)
     return (wt_interval){value, value * error, value * exp(-half), value * exp(half)};
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* Chance that blocks of residuals are off to one side as much by scatter alone. What departs would
  * hide in the scatter that it is held against: that is of the middle of the residuals. */
 static double slow_chance(const double *r, size_t n, double *room)
@@ -201,7 +197,7 @@ static double slow_chance(const double *r, size_t n, double *room)
     double shared = 1, squares = 0, correlation[LAGS + 1];
     for (size_t i = 0; i < n; i++)
         room[i] = fabs(r[i]);
-    qsort(room, n, sizeof *room, by_size);
+    numbers_sort(room, n);
     const double most = clipped * mad_to_deviation * room[n / 2];
     for (size_t i = 0; i < n; i++)
         room[i] = fmax(-most, fmin(most, r[i]));
@@ -261,7 +257,7 @@ static double low_level(const double *p, size_t n, double *room)
 {
     for (size_t i = 0; i < n; i++)
         room[i] = p[i];
-    qsort(room, n, sizeof *room, by_size);
+    numbers_sort(room, n);
     return room[n / 10];
 }
 

@@ -119,6 +119,10 @@ static size_t ladder_of(double tolerance)
     return ladder;
 }
 
+/* For what the moduli are multiplied by: without it errors of tables came to 0.73 instead of 0.65
+ * of the stated ones (300 drawn tables), for 0.3 % fewer nodes. */
+static const double beside_moduli = 1.08;
+
 /* The modulus of a closed form has no singular point closer to a real ln q than i pi/2, the pole of
  * a Maxwell element; that of a layer has. */
 static void choose_panels(wt_friction_workspace *ws)
@@ -130,7 +134,7 @@ static void choose_panels(wt_friction_workspace *ws)
         smooth && bulk ? ladders[ladder_of(ws->options.tolerance)].width : PANEL_WIDTH;
     const double pole = M_PI / width; /* its distance from the middle of a panel, over half of it */
     ws->fall = smooth ? FALL_SMOOTH : FALL_LAW;
-    ws->fastest = 1.08 / (pole + sqrt(1 + pole * pole));
+    ws->fastest = beside_moduli / (pole + sqrt(1 + pole * pole));
     panel_plan_init(&ws->plan, ws->roughness, width, levels_for(ws->options.tolerance), NULL, NULL,
                     0, 0, ws->softening, &ws->memory);
 }

@@ -26,12 +26,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
-static int by_value(const void *a, const void *b)
-{
-    const double p = *(const double *)a, q = *(const double *)b;
-    return p < q ? -1 : p > q;
-}
-
 /* Processor time of one call: so many calls that the clock tells it. */
 #define LEAST_SECONDS 2e-4
 
@@ -70,7 +64,7 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
         sum += seconds[n++];
     }
     if (status == WT_OK) {
-        qsort(seconds, n, sizeof *seconds, by_value);
+        numbers_sort(seconds, n);
         *t = (timing){seconds[n / 2],
                       n > 2 ? (seconds[(3 * n) / 4] - seconds[n / 4]) / 2 : (double)NAN, n};
     }

@@ -5,6 +5,7 @@
 #include "flow/job/inputs.h"
 
 #include "base/clocale.h"
+#include "base/normal.h"
 #include "base/param.h"
 #include "data/tables/tables.h"
 
@@ -13,7 +14,6 @@
 
 /* Draws of the material behind its errors. */
 enum { DRAWS = 64 };
-static const double normal95 = 1.959963984540054;
 
 /* Of the DMA at the frequencies of a group: values and variances. */
 typedef struct dma_moduli {
@@ -54,7 +54,7 @@ static void put_ratio(table_writer *t, dwell_dma_column ratio, dwell_dma_column 
 {
     const double value = of->value / by,
                  half = fabs(value) * hypot((of->high - of->value) / of->value,
-                                            normal95 * sqrt(by_variance) / by);
+                                            NORMAL_95 * sqrt(by_variance) / by);
     dwell_dma_put(t, ratio, value);
     dwell_dma_put(t, low, value - half);
     dwell_dma_put(t, high, value + half);

@@ -9,6 +9,7 @@
 
 #include "base/array.h"
 #include "base/mix.h"
+#include "base/normal.h"
 #include "base/param.h"
 #include "data/tables/tables.h"
 
@@ -44,7 +45,6 @@ static const char *const judged_words[N_JUDGED] = {
     [OF_RATIO] = "modulus ratio by its spots"};
 
 /* 95 % of a normal number. */
-static const double both_ends = 1.959963984540054;
 
 /* One trial of one number: whether the truth lies within, as a share where there are several. */
 typedef struct hit {
@@ -84,7 +84,7 @@ static hit judge_interval(wt_interval x, double truth)
 /* Of a normal number whose truth is 0. */
 static hit judge_estimate(wt_estimate e)
 {
-    const double half = both_ends * e.standard_error;
+    const double half = NORMAL_95 * e.standard_error;
     return judge(e.value, e.standard_error, e.value - half, e.value + half, 0);
 }
 
@@ -267,7 +267,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     if (status == WT_OK)
         status = setting_compute(&s, &work, number, err);
     for (size_t k = 0; k < SETTING_NUMBERS && status == WT_OK; k++) {
-        const double half = both_ends * number[k].standard_error;
+        const double half = NORMAL_95 * number[k].standard_error;
         hits[k] = judge(number[k].value, number[k].standard_error, number[k].value - half,
                         number[k].value + half, c->truth[k].value);
     }

@@ -1,12 +1,13 @@
 /* What trials tell of a share. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/coverage_share.h"
 
+#include "base/normal.h"
+
 #include <math.h>
 #include <string.h>
 
 static const double stated = 0.95, least_held = 0.9;
 /* Quantile of 95 %, two-sided. */
-static const double both_ends = 1.959963984540054;
 /* To each side: there are several numbers, and a false alarm among them is to be rare. */
 static const double alarm = 0.0025;
 /* More than these are not run. */
@@ -14,7 +15,7 @@ static const size_t most_trials = 100000;
 
 static void set_interval(coverage_share *s, double share, double n)
 {
-    const double z = both_ends, centre = (share + z * z / (2 * n)) / (1 + z * z / n);
+    const double z = NORMAL_95, centre = (share + z * z / (2 * n)) / (1 + z * z / n);
     const double half = z / (1 + z * z / n) * sqrt(share * (1 - share) / n + z * z / (4 * n * n));
     s->low = fmax(0, centre - half);
     s->high = fmin(1, centre + half);

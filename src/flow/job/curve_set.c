@@ -114,12 +114,6 @@ void curve_set_begin(wt_curve_set *set, const wt_indent_job *job)
     set->options.spectrum = NULL;
 }
 
-static int rising(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Positions in their order, for the noise of a height is none of the piezo, and times. Returns how
  * many; 0 if the way tells no height. */
 static size_t keep_way(const wt_segment *segment, double direction, double *position, double *time,
@@ -139,7 +133,7 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
             *timed = false;
         n++;
     }
-    qsort(position, n, sizeof *position, rising);
+    numbers_sort(position, n);
     return n;
 }
 

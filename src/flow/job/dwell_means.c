@@ -3,12 +3,14 @@
 
 #include "data/tables/tables.h"
 
+#include "base/normal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Frequencies that differ by less are one. */
-static const double same_frequency = 1e-3, normal95 = 1.959963984540054;
+static const double same_frequency = 1e-3;
 
 typedef struct place {
     double frequency;
@@ -39,13 +41,13 @@ static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool 
     }
     common = known > 0 ? common / known : (double)NAN;
     wt_interval m = wt_student_mean(values, units, n, n_units);
-    double half = hypot(m.high - m.value, normal95 * sqrt(common));
+    double half = hypot(m.high - m.value, NORMAL_95 * sqrt(common));
     m.standard_error = hypot(m.standard_error, sqrt(common));
     if (n == 1) {
         m.standard_error = dwell_moduli_get(v, at->row,
                                             loss ? DWELL_MODULI_LOSS_STANDARD_ERROR
                                                  : DWELL_MODULI_STORAGE_STANDARD_ERROR);
-        half = normal95 * m.standard_error;
+        half = NORMAL_95 * m.standard_error;
     }
     m.low = m.value - half;
     m.high = m.value + half;

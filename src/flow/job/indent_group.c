@@ -100,12 +100,6 @@ static void pool_curves(const indent_together *together, const wt_indent_job *jo
                         job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return *x < *y ? -1 : *x > *y;
-}
-
 /* Of one estimator, where it found something; NaN nowhere. scratch: [n]. */
 static double median_of(const indent_together *together, int estimator, double *scratch)
 {
@@ -115,7 +109,7 @@ static double median_of(const indent_together *together, int estimator, double *
             scratch[found++] = together->contacts[i][estimator];
     if (found == 0)
         return (double)NAN;
-    qsort(scratch, found, sizeof *scratch, by_size);
+    numbers_sort(scratch, found);
     return 0.5 * (scratch[(found - 1) / 2] + scratch[found / 2]);
 }
 

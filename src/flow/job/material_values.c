@@ -3,6 +3,7 @@
 #include "flow/job/materials.h"
 
 #include "base/array.h"
+#include "base/normal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -109,7 +110,7 @@ static wt_status find_critical(const material_values *a, const material_values *
             most[i] = fmax(most[i], fabs(b->draw[e * m + k] - a->draw[d * m + k]) / r->error[k]);
     }
     numbers_sort(most, n);
-    r->critical = fmax(most[(size_t)(0.95 * (double)n)], 1.959963984540054);
+    r->critical = fmax(most[(size_t)(0.95 * (double)n)], NORMAL_95);
     free(most);
     return WT_OK;
 }

@@ -3,6 +3,7 @@
 #include "flow/job/materials.h"
 
 #include "base/clocale.h"
+#include "base/normal.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,7 +25,7 @@ static finding find(const material_ratio *r, int q, double margin)
     finding f = {(double)INFINITY, 0, false, true, 0, 0};
     for (size_t i = 0; i < r->n; i++) {
         const double x = r->value[i * Q + (size_t)q], e = r->error[i * Q + (size_t)q];
-        const double reach = fabs(x) + 1.959963984540054 * e;
+        const double reach = fabs(x) + NORMAL_95 * e;
         f.low = fmin(f.low, exp(x));
         f.high = fmax(f.high, exp(x));
         f.differs = f.differs || fabs(x) > r->critical * e;

@@ -4,6 +4,7 @@
 #include "flow/job/inputs.h"
 
 #include "base/clocale.h"
+#include "base/normal.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -230,15 +231,13 @@ static wt_status find_beside(const wt_compared *m, double sample_error, material
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static const double two_sided = 1.959963984540054;
-
 /* A value and its interval: three columns. */
 #define PUT_INTERVAL(table, t, COLUMN, ln, error)                                                  \
     do {                                                                                           \
         table##_put(t, COLUMN, exp(ln));                                                           \
         if (!isnan(error)) {                                                                       \
-            table##_put(t, COLUMN##_LOW, exp((ln)-two_sided *(error)));                            \
-            table##_put(t, COLUMN##_HIGH, exp((ln) + two_sided * (error)));                        \
+            table##_put(t, COLUMN##_LOW, exp((ln)-NORMAL_95 *(error)));                            \
+            table##_put(t, COLUMN##_HIGH, exp((ln) + NORMAL_95 * (error)));                        \
         }                                                                                          \
     } while (0)
 

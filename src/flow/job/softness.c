@@ -3,7 +3,9 @@
 #include "flow/job/softness.h"
 #include "flow/job/draws.h"
 
+#include "base/array.h"
 #include "base/clocale.h"
+#include "base/normal.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -58,7 +60,6 @@ typedef struct one_sweep {
 } one_sweep;
 
 /* Quantile of 95 %, two-sided. */
-static const double both_ends = 1.959963984540054;
 /* Amplitudes that are closer than this are one. */
 static const double same_strain = 0.05;
 
@@ -216,12 +217,6 @@ static double value_at(const one_sweep *s, const double *value, double log_strai
     return value[k] + fmin(fmax(part, 0), 1) * (value[k + 1] - value[k]);
 }
 
-static int rising(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The strains that every sweep has reached, of all of them; how many. */
 static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_error *err)
 {
@@ -242,7 +237,7 @@ static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_er
         wt_error_advice(err, "give strain sweeps over the same amplitudes, or one of them");
         return 0;
     }
-    qsort(x, count, sizeof *x, rising);
+    numbers_sort(x, count);
     for (size_t k = 0; k < count; k++)
         if (kept == 0 || x[k] - x[kept - 1] > same_strain)
             x[kept++] = x[k];
@@ -254,7 +249,7 @@ static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_er
 static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool loss, double *mean,
                      double *error, size_t points)
 {
-    const double wider = n > 1 ? wt_student((double)(n - 1)) / both_ends : 1;
+    const double wider = n > 1 ? wt_student((double)(n - 1)) / NORMAL_95 : 1;
     for (size_t k = 0; k < points; k++) {
         double sum = 0, squares = 0;
         for (size_t i = 0; i < n; i++)

@@ -1,5 +1,6 @@
 /* The job of thermal noise: spectra of levers at rest to spring constants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/normal.h"
 #include "base/param.h"
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
@@ -17,7 +18,6 @@ static const double room_temperature = 298.15;
  * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
  * 0.817. Butt and Jaschke 1995. */
 static const double first_mode = 0.971, free_over_pressed = 1.09;
-static const double two_sided = 1.959963984540054; /* normal, 95 % */
 static const double least_chance = 1e-3, averages_agree = 2;
 enum { LEAST_SPECTRA = 3 };
 
@@ -218,7 +218,7 @@ static void put_lever(table_writer *t, const flow_file *file, const lever *l)
     thermal_put(t, THERMAL_TO, f->to);
     if (!f->found)
         return;
-    const double error = hypot(l->error, l->common), half = two_sided * error;
+    const double error = hypot(l->error, l->common), half = NORMAL_95 * error;
     put_interval(t, THERMAL_SPRING_CONSTANT,
                  (wt_interval){l->constant, l->constant * error, l->constant * exp(-half),
                                l->constant * exp(half)},
