@@ -144,7 +144,9 @@ static bool check_options(compare_call *call, bool materials, bool master)
 
 static bool needs_two(cmd_session *s)
 {
-    return cmd_usage_error(s, "two files are needed, BULK and TRACK or two materials; %zu given",
+    return cmd_usage_error(s,
+                           "two files are needed, BULK and TRACK or two materials (with --master "
+                           "one output of weartrack dwell will do); %zu given",
                            s->n_files);
 }
 
@@ -175,14 +177,14 @@ int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "compare",
-        .arguments = "[OPTION]... BULK TRACK | --master FILE BULK [TRACK] | MATERIAL MATERIAL...",
+        .arguments =
+            "[OPTION]... BULK TRACK | --master FILE DWELLS [DWELLS] | MATERIAL MATERIAL...",
         .what =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
             "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
-            "indent; - is standard input. With --master also one or two outputs of weartrack "
-            "dwell: "
-            "E' and E'' at their frequencies over those of the DMA. Or materials: the ratios of "
+            "indent; - is standard input. DWELLS are outputs of weartrack dwell: E' and E'' at "
+            "their frequencies over those of the DMA. Or materials: the ratios of "
             "E', E'' and tan delta to "
             "those of the first, with their intervals, over frequency and temperature. MATERIAL is "
             "the output of weartrack master or what was measured (file, folder, pattern).",

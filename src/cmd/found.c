@@ -69,6 +69,12 @@ static void read_fact(const char *item, const char *value, const char *unit, con
                                                                                         : ": ",
                  item, shown);
     }
+    static const char radius[] = "tip radius, "; /* the unit behind it */
+    if (strncmp(item, radius, sizeof radius - 1) == 0) {
+        const char *of = item + sizeof radius - 1;
+        snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", value,
+                 (int)strcspn(of, " "), of);
+    }
     const bool unread = strcmp(item, "not readable as it is") == 0;
     found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
     const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";

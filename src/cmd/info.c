@@ -72,12 +72,13 @@ static void print_next(const char *const *files, size_t n, const found_file *fou
         fputs(" -o case.xml\n", stdout);
         return;
     }
-    const char *indent = "indent --tip pyramid:half-angle=35deg,radius=20nm";
     printf("\nnext: weartrack %s", found->is_result               ? "table --list"
-                                   : found->kind == WT_KIND_FORCE ? indent
+                                   : found->kind == WT_KIND_FORCE ? "indent --tip"
                                    : found->next != NULL          ? found->next
                                    : found->kind == WT_KIND_SWEEP ? "master"
                                                                   : "convert");
+    if (!found->is_result && found->kind == WT_KIND_FORCE)
+        print_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
     for (size_t k = 0; k < FOUND_N_MISSING; k++)
         if (found->missing[k])
             printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);

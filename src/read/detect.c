@@ -34,6 +34,10 @@ typedef struct signature {
 #define ROUGHNESS                                                                                  \
     "roughness is taken as a power spectrum: a table of wavenumber and C(q) with their units "     \
     "(`weartrack formats show table-spectrum`)"
+#define RESULT "a result of weartrack (text stream) without measured curves, sweeps or spectra"
+#define TABLES                                                                                     \
+    "`weartrack table --list` shows its tables; where something is measured anew, give the file "  \
+    "of the instrument"
 #define TOPOGRAPHY(bytes, whose) NOT_READ(bytes, "a topography (" whose ")", ROUGHNESS)
 #define DESCRIBE                                                                                   \
     "export it in one of the formats of `weartrack formats list`; say what its columns hold, "     \
@@ -68,6 +72,8 @@ static const signature signatures[] = {
     SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", AS_TEXT),
     SIGNATURE_AT(257, "ustar", "a tar archive", "give its files, or a ZIP archive of them", true),
     NOT_READ("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
+    NOT_READ("## weartrack: ", RESULT, TABLES),
+    NOT_READ("## table: ", RESULT, TABLES),
     SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
     SIGNATURE("<html", "an HTML page", NO_DATA),

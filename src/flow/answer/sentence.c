@@ -209,6 +209,46 @@ static void say_dwell(sentence *s, const table_view *v)
         }
 }
 
+static void say_dwell_ratio(sentence *s, const char *modulus, double ratio, double low, double high)
+{
+    say(s, " %s %s times that of the DMA", modulus, words_of(ratio, "1").text);
+    if (isnan(low))
+        say(s, " (error not known)");
+    else
+        say(s, " (95 %% interval %s to %s)", words_of(low, "1").text, words_of(high, "1").text);
+}
+
+/* Of each group the row in the middle of those that the DMA was measured at. */
+static void say_dwell_dma(sentence *s, const table_view *v)
+{
+    for (size_t from = 0, to; from < v->n_rows; from = to) {
+        const char *group = dwell_dma_text(v, from, DWELL_DMA_GROUP);
+        size_t first = SIZE_MAX, last = 0;
+        for (to = from;
+             to < v->n_rows && strcmp(dwell_dma_text(v, to, DWELL_DMA_GROUP), group) == 0; to++)
+            if (dwell_dma_get(v, to, DWELL_DMA_EXTRAPOLATED) == 0 &&
+                !isnan(dwell_dma_get(v, to, DWELL_DMA_STORAGE_RATIO))) {
+                first = first == SIZE_MAX ? to : first;
+                last = to;
+            }
+        next(s);
+        if (first == SIZE_MAX) {
+            say(s, "%s: no dwell tells a frequency at which the DMA was measured", group);
+            continue;
+        }
+        const size_t row = (first + last) / 2;
+        say(s, "%s: at %s", group,
+            words_of(dwell_dma_get(v, row, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").text);
+        say_dwell_ratio(s, "E'", dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO),
+                        dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_LOW),
+                        dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_HIGH));
+        say(s, ",");
+        say_dwell_ratio(s, "E''", dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO),
+                        dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_LOW),
+                        dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_HIGH));
+    }
+}
+
 static void say_sensitivity(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -320,6 +360,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
     } parts[] = {{&dwell_schema, say_dwell},
+                 {&dwell_dma_schema, say_dwell_dma},
                  {&sensitivity_schema, say_sensitivity},
                  {&thermal_schema, say_thermal},
                  {&modulus_groups_schema, say_groups},

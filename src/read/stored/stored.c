@@ -92,7 +92,9 @@ static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     if (status == WT_OK && n_measured == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep or spectrum in it");
-        wt_error_expected(err, "what weartrack convert wrote");
+        wt_error_expected(err, "curves, sweeps or spectra as weartrack convert writes them");
+        wt_error_advice(err, "`weartrack table --list` shows what is in it; of an image give the "
+                             "file of the instrument");
         if (wt_result_n_tables(result) > 0)
             wt_error_found(err, "other tables, the first is \"%s\"",
                            wt_table_name(wt_result_table(result, 0)));
