@@ -263,12 +263,16 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
     wt_error err = WT_ERROR_INIT;
     int at = -1;
     const wt_segment *s = NULL;
-    wt_status status = wt_force_open(formats, input, &r->options, NULL, &source, &err);
+    wt_parselog *const log = wt_parselog_new();
+    wt_status status = wt_force_open(formats, input, &r->options, log, &source, &err);
+    if (item(r, "warning") != NULL)
+        check_warning(r, log);
     if (status == WT_OK)
         status = wt_force_next(source, &curve, &err);
     if (!has_status(r, status, &err)) {
         wt_force_close(source);
         wt_force_curve_clear(&curve);
+        wt_parselog_free(log);
         return;
     }
     at = 0;
@@ -289,6 +293,7 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
             check_segment(r, key, value, &curve, s);
         }
     }
+    wt_parselog_free(log);
     wt_force_close(source);
     wt_force_curve_clear(&curve);
 }

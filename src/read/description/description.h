@@ -89,7 +89,8 @@ typedef enum field_sets {
     FIELD_SETS_NOTHING,
     FIELD_SETS_DECIMAL,
     FIELD_SETS_SEPARATOR,
-    FIELD_SETS_SAMPLE
+    FIELD_SETS_SAMPLE,
+    FIELD_SETS_ROWS
 } field_sets;
 
 #define GROUPS ((size_t)10) /* of a header line, the whole match included */

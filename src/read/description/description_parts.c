@@ -116,7 +116,7 @@ static void read_text(description_parser *p, const xmlNode *node)
 
 static void read_header(description_parser *p, const xmlNode *node)
 {
-    static const char *const sets[] = {"decimal", "separator", "sample"};
+    static const char *const sets[] = {"decimal", "separator", "sample", "rows"};
     text_description *d = p->d;
     d->fields = parse_room(p, node, "field", sizeof *d->fields);
     for (const xmlNode *c = NULL; (c = parse_next(p, node, c, "field")) != NULL;) {
@@ -129,7 +129,7 @@ static void read_header(description_parser *p, const xmlNode *node)
         field->quantity = quantity_attribute(p, c);
         field->unit = parse_attribute(p, c, "unit");
         field->fallback = parse_true(p, c, "fallback");
-        field->sets = (field_sets)(parse_one_of(p, c, "sets", sets, 3, (size_t)-1) + 1);
+        field->sets = (field_sets)(parse_one_of(p, c, "sets", sets, 4, (size_t)-1) + 1);
         if (field->quantity == WT_Q_NONE)
             continue;
         if (header_of(field->quantity) == HEADER_COUNT)

@@ -13,6 +13,17 @@
 
 #define STEPS_MAX ((size_t)64)
 
+/* None at all: the table is one that is not read. */
+void scan_check_rows(text_scanner *s)
+{
+    if (s->n_rows > 0 && s->n_rows < s->n_said)
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, NULL,
+                        "the file says %zu rows, but only %zu are there: the others are missing, "
+                        "as in a file that was cut off",
+                        s->n_said, s->n_rows);
+    s->n_said = s->n_rows = 0;
+}
+
 static void set_declared(text_scanner *s, field_sets sets, text_span text)
 {
     static const struct {
@@ -22,7 +33,12 @@ static void set_declared(text_scanner *s, field_sets sets, text_span text)
                       {";", SEPARATOR_SEMICOLON},      {"comma", SEPARATOR_COMMA},
                       {",", SEPARATOR_COMMA},          {"space", SEPARATOR_WHITESPACE},
                       {"blank", SEPARATOR_WHITESPACE}, {"whitespace", SEPARATOR_WHITESPACE}};
-    if (sets == FIELD_SETS_DECIMAL) {
+    double number = 0;
+    if (sets == FIELD_SETS_ROWS) {
+        scan_check_rows(s);
+        if (wt_number_parse(text.text, text.length, '.', &number) && number > 0 && number < 1e15)
+            s->n_said = (size_t)number;
+    } else if (sets == FIELD_SETS_DECIMAL) {
         if (name_is(text, "comma") || name_is(text, ","))
             s->decimal = ',';
         else if (name_is(text, "point") || name_is(text, "dot") || name_is(text, "."))

@@ -11,4 +11,7 @@ bool scan_marks(text_scanner *s);
 /* A step that never showed a names row is remembered by its title. */
 void scan_finish_step(text_scanner *s);
 
+/* Warns of rows that are missing of those that the header said; done with it. */
+void scan_check_rows(text_scanner *s);
+
 #endif

@@ -179,5 +179,6 @@ void scan_add_row(text_scanner *s)
     t->row_lines[t->n_rows] = s->i + 1;
     t->samples[t->n_rows] = row_sample(s);
     t->n_rows++;
+    s->n_rows++;
     s->blank = false;
 }

@@ -325,4 +325,6 @@ void scan_walk(text_scanner *s)
     s->ended = true;
     if (s->status == WT_OK)
         scan_finish_step(s);
+    if (s->status == WT_OK)
+        scan_check_rows(s);
 }

@@ -46,8 +46,9 @@ typedef struct text_scanner {
     size_t block;
     size_t group_hash; /* of the cells whose change begins a block */
     bool has_group;
-    size_t sample;       /* of the header, or NO_SAMPLE */
-    bool sample_is_told; /* since the last table */
+    size_t n_said, n_rows; /* rows that the header says, 0: nothing, and that came since */
+    size_t sample;         /* of the header, or NO_SAMPLE */
+    bool sample_is_told;   /* since the last table */
 } text_scanner;
 
 /* From line s->i to the end, or, if it halts, behind a line with which a step begins after a table.
