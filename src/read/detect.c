@@ -69,6 +69,7 @@ static const signature signatures[] = {
              "export each curve as text from Nova: height, approach and retract"),
     SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
                  "export its curves as Igor binary waves (.ibw), and give their folder", true),
+    NOT_READ("Experiment\t", "a Nanonis (SPECS) spectrum", CURVES),
     SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", AS_TEXT),
     SIGNATURE_AT(257, "ustar", "a tar archive", "give its files, or a ZIP archive of them", true),
     NOT_READ("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
