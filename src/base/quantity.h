@@ -4,6 +4,8 @@
 
 #include "weartrack/base.h"
 
+#define GAS_CONSTANT 8.31446261815324 /* J/(mol K), exact since 2019 */
+
 /* As it is written: "250nm". */
 const char *quantity_example(wt_quantity quantity);
 /* No larger value, of either sign, is given to this program in earnest. It is far beyond what there

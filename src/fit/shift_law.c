@@ -4,6 +4,7 @@
 #include "fit/shift_law.h"
 
 #include "base/gsl_quiet.h"
+#include "base/quantity.h"
 #include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
@@ -14,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double gas_constant = 8.31446261815324; /* J/(mol K) */
 /* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
  * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
  * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
@@ -68,7 +68,7 @@ static double wlf_part(const law_shape *shape, double distance, double temperatu
 
 static double arrhenius_part(double reference, double temperature)
 {
-    return (reference - temperature) / (reference * temperature) / (gas_constant * M_LN10);
+    return (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
 }
 
 /* The main part and its derivative by the pole. */

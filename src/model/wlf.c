@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/model.h"
 
-#include <math.h>
+#include "base/quantity.h"
 
-static const double gas_constant = 8.31446261815324; /* J/(mol K), exact since 2019 */
+#include <math.h>
 
 double wt_wlf_log_shift(const wt_wlf *wlf, double temperature)
 {
@@ -22,7 +22,7 @@ double wt_arrhenius_log_shift(double activation_energy, double reference_tempera
     if (!(temperature > 0.0) || !(reference_temperature > 0.0))
         return (double)NAN;
     /* 1/T - 1/Tref as one quotient: no cancellation for neighbouring temperatures. */
-    return activation_energy / (gas_constant * M_LN10) *
+    return activation_energy / (GAS_CONSTANT * M_LN10) *
            ((reference_temperature - temperature) / (temperature * reference_temperature));
 }
 

@@ -5,6 +5,8 @@
  */
 #include "report/drawing.h"
 
+#include "base/quantity.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -284,7 +286,7 @@ static bool define_law(figure_drawing *d)
                 LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
                 LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
     text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
-                LITERAL(has_energy ? energy / (8.31446261815324 * M_LN10) : 0), LITERAL(at),
+                LITERAL(has_energy ? energy / (GAS_CONSTANT * M_LN10) : 0), LITERAL(at),
                 LITERAL(d->x.low - WT_ZERO_CELSIUS), LITERAL(d->x.high - WT_ZERO_CELSIUS));
     text_add(&d->script,
              "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
