@@ -210,15 +210,21 @@ typedef struct wt_spot_job {
     const char *image;     /* part of the name of the image; NULL = the first of heights */
     const char *after;     /* file with the image after the indentation; NULL = none */
     wt_read_options read;  /* of both; begin with wt_read_defaults() */
-    uint64_t reserved[8];
+    bool map;              /* makes the table spot_map, too */
+    uint64_t reserved[7];
 } wt_spot_job;
 WT_API wt_spot_job wt_spot_job_defaults(void);
 WT_API const wt_params *wt_spot_job_params(void);
-/* Table "spot" of the image `path` before the indentation: roughness over the contact against the
- * depth, and what stayed of the indentation. WT_E_NOT_FOUND if the file has no such image of
- * heights, WT_E_RANGE if the images differ in size. */
+typedef struct wt_spot_tables {
+    wt_table *spot, *spot_map; /* spot_map: NULL unless asked for */
+    uint64_t reserved[2];
+} wt_spot_tables;
+WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
+/* Of the image `path` before the indentation: roughness over the contact against the depth, and
+ * what stayed of the indentation. WT_E_NOT_FOUND if the file has no such image of heights,
+ * WT_E_RANGE if sides or pixels of the images differ by more than four times. */
 WT_API wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
-                              wt_table **table, wt_error *err) WT_NODISCARD;
+                              wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 

@@ -103,7 +103,7 @@ static void first_height(void *user, double u, double v, double z)
 spot_plane spot_plane_fit(const spot_field *field, double x, double y, double radius)
 {
     sums s = {.plane = {(double)NAN, 0, 0}};
-    spot_plane plane = {(double)NAN, (double)NAN, (double)NAN, 0, 0};
+    spot_plane plane = {(double)NAN, (double)NAN, (double)NAN, (double)NAN, 0, 0};
     visit_disc(field, x, y, radius, first_height, &s.plane[0]);
     visit_disc(field, x, y, radius, add_pixel, &s);
     plane.n = s.n;
@@ -114,6 +114,7 @@ spot_plane spot_plane_fit(const spot_field *field, double x, double y, double ra
     s.plane[1] = s.v[1];
     s.plane[2] = s.v[2];
     visit_disc(field, x, y, radius, add_square, &s);
+    plane.height = s.plane[0];
     plane.slope_x = s.plane[1] / radius;
     plane.slope_y = s.plane[2] / radius;
     plane.rms = sqrt(s.squares / (double)(s.n - 3));

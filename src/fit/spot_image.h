@@ -22,9 +22,9 @@ typedef struct spot_field {
 
 /* A plane by least squares over a disc, and what is left of the heights. */
 typedef struct spot_plane {
-    double slope_x, slope_y;
-    double rms;        /* with the three numbers of the plane taken off */
-    size_t n, missing; /* pixels */
+    double height, slope_x, slope_y; /* height at the centre */
+    double rms;                      /* with the three numbers of the plane taken off */
+    size_t n, missing;               /* pixels */
 } spot_plane;
 
 /* NaN with fewer than SPOT_LEAST_PIXELS. */

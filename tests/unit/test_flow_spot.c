@@ -106,11 +106,12 @@ static wt_table *make(const wt_spot_job *job)
 {
     wt_job common = wt_job_defaults();
     wt_error err = WT_ERROR_INIT;
-    wt_table *table = NULL;
+    wt_spot_tables tables = {0};
     common.formats = formats;
-    if (wt_spot_make(job, before, &common, &table, &err) != WT_OK)
+    if (wt_spot_make(job, before, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
-    return table;
+    assert_null(tables.spot_map);
+    return tables.spot;
 }
 
 /* A wave that is short beside the contact has amplitude / sqrt(2) on any disc; the tilt is taken
@@ -182,11 +183,11 @@ static void test_cannot_say(void **state)
     }
     wt_spot_job job = job_of(DEPTH);
     wt_job common = wt_job_defaults();
-    wt_table *none = NULL;
+    wt_spot_tables none = {0};
     common.formats = formats;
     job.image = "backward";
     assert_int_equal(wt_spot_make(&job, before, &common, &none, NULL), WT_E_NOT_FOUND);
-    assert_null(none);
+    assert_null(none.spot);
 }
 
 /* Of a Gaussian of depth d and width s: mean within a, volume within 2 a. */
@@ -276,6 +277,42 @@ static void test_imprint(void **state)
         assert_in_range(all[i], 0.92 * SCENES * DRAWS, 0.98 * SCENES * DRAWS);
 }
 
+/* The map: a dent of known depth at the place, on a plane. */
+static void test_map(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    surface s = random_surface(&seed);
+    wt_spot_job job = job_of(DEPTH);
+    wt_job common = wt_job_defaults();
+    wt_spot_tables tables = {0};
+    common.formats = formats;
+    job.map = true;
+    job.after = after;
+    job.x = s.x = 64 * STEP;
+    job.y = s.y = 60 * STEP;
+    write_image(before, &s, &whole, &seed);
+    s.dent = 10e-9;
+    const view v = {N, WIDTH, 2.5 * STEP, -1.25 * STEP, 0};
+    write_image(after, &s, &v, &seed);
+    assert_int_equal(wt_spot_make(&job, before, &common, &tables, NULL), WT_OK);
+    const wt_table *t = tables.spot_map;
+    double deepest = 0, at = 1;
+    const size_t n = wt_table_n_rows(t);
+    assert_int_equal(n, 39 * 39); /* 5 contact radii are 19.8 pixels */
+    for (size_t row = 0; row < n; row++) {
+        const double change = cell(t, row, "change");
+        assert_true(fabs(cell(t, row, "after") - cell(t, row, "before") - change) < 1e-15);
+        if (change < deepest) {
+            deepest = change;
+            at = hypot(cell(t, row, "x"), cell(t, row, "y"));
+        }
+    }
+    assert_true(at < 1.5 * STEP);
+    assert_true(deepest < -9e-9 && deepest > -10.5e-9);
+    wt_spot_tables_clear(&tables);
+}
+
 /* What hinders telling an imprint is named. */
 static void test_no_imprint(void **state)
 {
@@ -314,7 +351,8 @@ static void test_no_imprint(void **state)
     wt_job common = wt_job_defaults();
     common.formats = formats;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_spot_make(&job, before, &common, &t, &err), WT_E_RANGE);
+    wt_spot_tables none = {0};
+    assert_int_equal(wt_spot_make(&job, before, &common, &none, &err), WT_E_RANGE);
     assert_non_null(strstr(err.found, "8.000 \xC2\xB5m") != NULL ? err.found : NULL);
 }
 
@@ -338,7 +376,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_roughness),  cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_cannot_say), cmocka_unit_test(test_imprint),
-        cmocka_unit_test(test_no_imprint),
+        cmocka_unit_test(test_map),        cmocka_unit_test(test_no_imprint),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

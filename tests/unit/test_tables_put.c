@@ -793,16 +793,18 @@ static void test_spot(void **state)
     }
     wt_spot_job job = wt_spot_job_defaults();
     wt_job common = wt_job_defaults();
-    wt_table *table = NULL;
+    wt_spot_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
     common.formats = formats;
     job.tip = (wt_tip){.shape = WT_TIP_CONE, .half_angle = M_PI / 4};
     job.depth = 60e-9;
     job.after = paths[1];
-    if (wt_spot_make(&job, paths[0], &common, &table, &err) != WT_OK)
+    job.map = true;
+    if (wt_spot_make(&job, paths[0], &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
-    see(table);
-    wt_table_free(table);
+    see(tables.spot);
+    see(tables.spot_map);
+    wt_spot_tables_clear(&tables);
     (void)remove(paths[0]);
     (void)remove(paths[1]);
 }

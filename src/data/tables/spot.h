@@ -59,4 +59,13 @@
     X(SPOT_KEY_VERDICT, "roughness_verdict", TEXT, LABEL("Roughness"))                             \
     X(SPOT_KEY_IMPRINT, "imprint_verdict", TEXT, LABEL("Residual imprint"), OPTIONAL)
 
+#define SPOT_MAP_COLUMNS(X)                                                                        \
+    X(SPOT_MAP_X, "x", "from the place", SI(LENGTH))                                               \
+    X(SPOT_MAP_Y, "y", "from the place", SI(LENGTH))                                               \
+    X(SPOT_MAP_BEFORE, "before", "height before the indentation, less a plane", SI(LENGTH))        \
+    X(SPOT_MAP_AFTER, "after", "height after it at the same place, less a plane", SI(LENGTH))      \
+    X(SPOT_MAP_CHANGE, "change", "height after it less that before, less a plane", SI(LENGTH))
+
+#define SPOT_MAP_KEYS(X) X(SPOT_MAP_KEY_CONTACT_RADIUS, "contact_radius", SI(LENGTH))
+
 #endif

@@ -48,6 +48,10 @@ static const wt_param rows[] = {
      .help = "which image of a file: a part of its name, such as backward"},
     {PARAM_TEXT_OF("after", wt_spot_job, after), .value = "FILE", .unset = "",
      .flags = PARAM_NO_CASE, .help = "image of the spot after the indentation"},
+    {PARAM_FLAG_OF("map", wt_spot_job, map), .flags = PARAM_NO_CASE,
+     .help =
+         "the table spot_map, too: heights about the place before and after, of which weartrack "
+         "report makes a figure"},
 };
 PARAM_TABLE(wt_spot_job_params, wt_spot_job, rows, wt_spot_job_defaults, NO_PARTS)
 
@@ -235,28 +239,46 @@ static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const s
     return table_end(&t, table);
 }
 
-wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
-                       wt_table **table, wt_error *err)
+void wt_spot_tables_clear(wt_spot_tables *tables)
 {
-    if (job == NULL || path == NULL || work == NULL || table == NULL)
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->spot);
+    wt_table_free(tables->spot_map);
+    *tables = (wt_spot_tables){0};
+}
+
+wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
+                       wt_spot_tables *tables, wt_error *err)
+{
+    if (job == NULL || path == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no image of a spot");
     wt_image image = {.values = NULL};
+    spot_field field = {.z = NULL};
     spot s = {0};
     imprint left = {0};
+    wt_spot_tables made = {0};
     wt_status status = param_check(wt_spot_job_params(), job, err);
     if (status == WT_OK)
         status = wt_tip_check(&job->tip, err);
     if (status == WT_OK)
         status = spot_image_read(job, path, "before", work, &image, err);
     if (status == WT_OK) {
-        const spot_field field = spot_field_of(&image);
+        field = spot_field_of(&image);
         status = find_roughness(job, &image, &field, &s, err);
     }
     if (status == WT_OK && job->after != NULL)
         status = spot_imprint_find(job, &image, &s, work, &left, err);
     if (status == WT_OK)
-        status = put_spot(job, &image, &s, &left, table, err);
+        status = put_spot(job, &image, &s, &left, &made.spot, err);
+    if (status == WT_OK && job->map)
+        status = spot_map_make(&field, &s, left.difference, &made.spot_map, err);
     cost_say(work, (cost_summary){.items = 1});
+    if (status == WT_OK)
+        *tables = made;
+    else
+        wt_spot_tables_clear(&made);
+    free(left.difference);
     wt_image_clear(&image);
     return status;
 }

@@ -25,6 +25,7 @@ typedef struct imprint {
     spot_number depth, volume;
     double deepest, deepest_x, deepest_y; /* from the first pixel */
     size_t places;
+    double *difference; /* at the pixels of the image before; NULL if not known; owned */
     char verdict[320];
 } imprint;
 
@@ -42,5 +43,8 @@ wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *
 /* What changed at the spot to the image of job->after. */
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
                             const wt_job *work, imprint *to, wt_error *err) WT_NODISCARD;
+/* Table spot_map: the heights about the spot, and what `difference`, unless NULL, adds to them. */
+wt_status spot_map_make(const spot_field *before, const spot *s, const double *difference,
+                        wt_table **table, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -178,19 +178,17 @@ static double strain_of(const double g[2][2])
 static wt_status compare_images(const spot_field *before, const spot_field *after, const spot *s,
                                 imprint *to, wt_error *err)
 {
-    double *difference = malloc(before->nx * before->ny * sizeof *difference);
-    if (difference == NULL)
+    const wt_status status = spot_align(before, after, s->x, s->y, 3 * s->contact, &to->shift, err);
+    if (status != WT_OK || !to->shift.found)
+        return status;
+    to->difference = malloc(before->nx * before->ny * sizeof *to->difference);
+    if (to->difference == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = spot_align(before, after, s->x, s->y, 3 * s->contact, &to->shift, err);
-    if (status == WT_OK && to->shift.found) {
-        spot_difference(before, after, &to->shift, difference);
-        spot_field changed = *before;
-        changed.z = difference;
-        to->strain = strain_of((const double(*)[2])to->shift.gradient);
-        status = measure_dent(&changed, s, to, err);
-    }
-    free(difference);
-    return status;
+    spot_difference(before, after, &to->shift, to->difference);
+    spot_field changed = *before;
+    changed.z = to->difference;
+    to->strain = strain_of((const double(*)[2])to->shift.gradient);
+    return measure_dent(&changed, s, to, err);
 }
 
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
