@@ -335,6 +335,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         }
         f->kind = plainly;
         leave_out(f, found.start, found.end);
+        curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
     /* Where the law without adhesion describes the curve it has none to speak of. */
@@ -343,6 +344,11 @@ bool curve_fit_adhesion(curve_fitting *f)
     if (try_adhesive(f, f->pull_off, 0) &&
         f->solution.effective_n * log(elastic.cost / f->solution.cost) > better_chi2)
         return true;
+    /* Forces without a wave, depths and residuals shall be of that solution, too. */
+    f->kind = plainly;
+    f->solution = elastic;
+    f->kind.wave = elastic.wave;
+    refine(f, &f->solution);
     f->kind = plainly;
     f->solution = elastic;
     return true;

@@ -53,6 +53,9 @@ bool curve_fits(const curve_fitting *f);
 /* From a fit of all samples: where the baseline shows a sine, fits it, too. False if nothing but a
  * baseline is found then. */
 bool curve_fit_interference(curve_fitting *f);
+/* Takes the wave out of the forces, with its phase that of the height, for a scan or a fit that
+ * begins with it. */
+void curve_begin_wave(curve_fitting *f, const curve_wave *wave);
 
 /* ---- range of the fit: curve_range.c -----------------------------------------------------------
  */

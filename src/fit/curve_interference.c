@@ -246,6 +246,19 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
            chance_of(&b, &f->workspace->shapes, rest, wave->p[WAVE_NUMBER], gain) < false_alarms;
 }
 
+void curve_begin_wave(curve_fitting *f, const curve_wave *wave)
+{
+    curve_samples *s = &f->input.samples;
+    const double number = wave->p[WAVE_NUMBER];
+    f->kind.wave = *wave;
+    if (!curve_has_wave(wave))
+        return;
+    s->force = f->workspace->without_wave;
+    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++)
+        s->force[i] = f->workspace->force[i] - wave->p[WAVE_COSINE] * cos(number * s->position[i]) -
+                      wave->p[WAVE_SINE] * sin(number * s->position[i]);
+}
+
 bool curve_fit_interference(curve_fitting *f)
 {
     curve_samples *s = &f->input.samples;
@@ -253,12 +266,7 @@ bool curve_fit_interference(curve_fitting *f)
     bool slow;
     if (f->kind.plain || !find_wave(f, &wave, &slow))
         return true;
-    const double number = wave.p[WAVE_NUMBER];
-    f->kind.wave = wave;
-    s->force = f->workspace->without_wave;
-    for (size_t i = 0; i < f->input.n_all; i++)
-        s->force[i] = f->workspace->force[i] - wave.p[WAVE_COSINE] * cos(number * s->position[i]) -
-                      wave.p[WAVE_SINE] * sin(number * s->position[i]);
+    curve_begin_wave(f, &wave);
     if (curve_scan_and_refine(f) && f->solution.converged &&
         curve_wave_amplitude(&f->solution.wave) < another * curve_wave_amplitude(&wave) &&
         (!slow || !(f->solution.lack.baseline_chance < bent)))

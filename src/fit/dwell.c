@@ -20,11 +20,13 @@
 #include <math.h>
 
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
-enum { N_PARAMETERS = BUMP + BUMPS };
+enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
 enum { SUBSTEPS = 4, MOST_TERMS = 64, TERMS_PER_DECADE = 4, MAX_STEPS = 60, PER_DECADE = 4 };
 /* Standard deviations of slope, bend and bumps; how far the series goes beyond what was measured.
  */
 static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2, beyond = 30;
+/* Of ripples on the spectrum that are looked for, in ln tau. */
+static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
 static const double derivative_step = 1e-5, converged = 1e-8, fell = 0.95, least_chance = 0.01;
 
 typedef struct dwell_task {
@@ -36,10 +38,12 @@ typedef struct dwell_task {
     double time[MOST_TERMS], modulus[MOST_TERMS], width; /* of a term in ln tau */
     double middle;                                       /* time of x = 0 */
     double bump[BUMPS], bump_width;                      /* places, in x */
+    double ripple[RIPPLES];    /* of cosine and sine of each period; 0 but where they are tried */
     double unit[N_PARAMETERS]; /* of the parameters, so that all are of the order of 1 */
     double sd[N_PARAMETERS];   /* known beforehand, in these; 0: nothing is */
     double *residual, *shifted, *depth, *pressed; /* [n] */
     double *jacobian;                             /* [N_PARAMETERS][n] */
+    double *rippled;                              /* [RIPPLES][n] derivatives by the ripples */
 } dwell_task;
 
 /* Terms from well below the first time of the dwell to well above the last. */
@@ -76,6 +80,10 @@ static double make_moduli(dwell_task *t, const double *p)
         for (size_t k = 0; k < BUMPS; k++) {
             const double off = (x - t->bump[k]) / t->bump_width;
             ln += p[BUMP + k] * exp(-0.5 * off * off);
+        }
+        for (size_t k = 0; k < RIPPLES; k += 2) {
+            const double turn = 2 * M_PI * x / period[k / 2];
+            ln += t->ripple[k] * cos(turn) + t->ripple[k + 1] * sin(turn);
         }
         t->modulus[i] = rise * exp(ln);
         rest -= t->modulus[i] * exp(-t->middle / t->time[i]);
@@ -247,6 +255,41 @@ static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
 
 /* ---- what is told ---------------------------------------------------------------------------- */
 
+/* Chance that noise, and what is assumed of the spectrum, leave as much of its ripples: single
+ * relaxation times are seen by them long before all of the misfit shows that something is off. */
+static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *covariance)
+{
+    const size_t n = t->nodes.n;
+    double along[RIPPLES][N_PARAMETERS], m[RIPPLES][RIPPLES], left[RIPPLES], solved[RIPPLES],
+        sum = 0;
+    for (size_t k = 0; k < RIPPLES; k++) {
+        double *column = t->rippled + k * n;
+        t->ripple[k] = derivative_step;
+        (void)cost_of(t, p, column);
+        t->ripple[k] = 0;
+        for (size_t i = 0; i < n; i++)
+            column[i] = (t->residual[i] - column[i]) / derivative_step;
+        for (size_t a = 0; a < N_PARAMETERS; a++)
+            along[k][a] = curve_dot(t->jacobian + a * n, column, n);
+        solved[k] = left[k] = curve_dot(column, t->residual, n);
+    }
+    for (size_t k = 0; k < RIPPLES; k++)
+        for (size_t l = 0; l < RIPPLES; l++) {
+            m[k][l] = curve_dot(t->rippled + k * n, t->rippled + l * n, n);
+            for (size_t a = 0; a < N_PARAMETERS; a++)
+                for (size_t b = 0; b < N_PARAMETERS; b++)
+                    m[k][l] -= along[k][a] * gsl_matrix_get(covariance, a, b) * along[l][b];
+        }
+    gsl_matrix_view matrix = gsl_matrix_view_array(&m[0][0], RIPPLES, RIPPLES);
+    gsl_vector_view x = gsl_vector_view_array(solved, RIPPLES);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
+        gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
+        return 1;
+    for (size_t k = 0; k < RIPPLES; k++)
+        sum += left[k] * solved[k];
+    return gsl_cdf_chisq_Q(sum, RIPPLES);
+}
+
 /* g' C g, and of it what curves share by what was known beforehand; `scale`: of the noise. */
 static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const double *gradient,
                       double scale, double *error, double *common)
@@ -294,14 +337,15 @@ static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covari
     }
 }
 
-/* Contact and baseline, and what of them the indentation has. */
+/* Contact and baseline, and what of them curves share in the indentation. */
 static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *covariance,
                        wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const size_t last = n->first_free - 1;
     const double k = t->history->spring_constant;
-    double gradient[N_PARAMETERS] = {0}, common;
+    const bool described = !(to->misfit_chance < least_chance);
+    double gradient[N_PARAMETERS] = {0}, all;
     to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
     to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
     to->baseline_tilt = p[TILT] * t->unit[TILT];
@@ -311,9 +355,8 @@ static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *c
     gradient[OFFSET] = t->unit[OFFSET] / k;
     gradient[TILT] = t->unit[TILT] * (n->position[last] - to->contact_point) / k;
     gradient[DRIFT] = t->unit[DRIFT] * (n->time[last] - to->drift_from) / k;
-    errors_of(t, covariance, gradient,
-              to->misfit_chance < least_chance ? (double)NAN : fmax(1, to->misfit),
-              &to->indentation_error, &common);
+    errors_of(t, covariance, gradient, described ? 1 : (double)NAN, &all,
+              &to->indentation_common_error);
 }
 
 static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
@@ -372,7 +415,8 @@ static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAME
     }
     to->duration = n->to[n->first_free - 1] - n->from[n->first_held];
     to->misfit = cost / freedom;
-    to->misfit_chance = gsl_cdf_chisq_Q(cost, freedom);
+    const double chance = fmin(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
+    to->misfit_chance = chance * (2 - chance); /* the smaller of two */
     tell_points(t, p, to);
     if (to->why_not[0] != '\0')
         return;
@@ -436,6 +480,7 @@ static void make(dwell_task *t, pool *memory, wt_dwell *to)
         dwell_nodes_make(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
     t->residual = pool_numbers(memory, t->nodes.n);
     t->jacobian = pool_numbers(memory, N_PARAMETERS * t->nodes.n);
+    t->rippled = pool_numbers(memory, RIPPLES * t->nodes.n);
     t->shifted = pool_numbers(memory, t->nodes.n);
     t->depth = pool_numbers(memory, t->nodes.n);
     t->pressed = pool_numbers(memory, t->nodes.n);

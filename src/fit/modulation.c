@@ -3,7 +3,7 @@
  *
  * The weights are those of Hann: without them the ends of what relaxes, which the slow columns do
  * not follow, are in the sine (an E'' 7 % off in a dwell of 48 periods without noise).
- * Its noise is what height and force have at frequencies beside that of the drive.
+ * Whether it is one the height tells, by what it has at frequencies beside that of the drive.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,7 +23,7 @@ enum { SLOW = 5, COLUMNS = SLOW + 2, ROUNDS = 60 };
 enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
 /* In whole periods of the segment: beyond what the weights mix with the drive, and so far apart
  * that their noises are independent under the weights. */
-enum { NEAREST = 3, APART = 2 };
+enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
 /* Power of the height over that beside it that is no noise. */
 static const double significant = 100, golden = 0.6180339887498949, pi = 3.14159265358979323846;
 
@@ -137,35 +137,32 @@ static double search(const samples *s, pool *memory)
     return best > 0 ? 0.5 * (low + high) : 0;
 }
 
-/* At frequencies beside the drive, whole periods apart. */
-static double take_noise(const samples *s, double own[2][COLUMNS], wt_modulation *to)
+/* Mean power of what is left of the height at frequencies beside the drive, whole periods apart;
+ * NaN if there are none. */
+static double noise_of(const samples *s, const double own[COLUMNS], double drive)
 {
     const double bin = 2 * pi / s->duration;
     double power = 0, row[COLUMNS];
-    for (int k = -(WT_MODULATION_NEIGHBOURS / 2); k <= WT_MODULATION_NEIGHBOURS / 2; k++) {
+    size_t n = 0;
+    for (int k = -NEIGHBOURS; k <= NEIGHBOURS; k++) {
         const double off = APART * k + (k > 0 ? NEAREST - APART : APART - NEAREST),
-                     omega = to->angular_frequency + off * bin;
-        double complex sum[2] = {0, 0};
+                     omega = drive + off * bin;
+        double complex sum = 0;
         if (k == 0 || omega < NEAREST * bin || omega > pi / s->step)
             continue;
         for (size_t i = 0; i < s->n; i++) {
-            row_of(s, i, to->angular_frequency, row);
-            const double complex turn = cexp(-unit * omega * (s->time[i] - s->start));
-            for (size_t j = 0; j < 2; j++) {
-                double rest = s->of[j][i] - s->of[j][0];
-                for (size_t a = 0; a < COLUMNS; a++)
-                    rest -= own[j][a] * row[a];
-                /* The mean weight is 1/2. */
-                sum[j] += 4 * weight(s, i) * rest * turn / (double)s->n;
-            }
+            double rest = s->of[0][i] - s->of[0][0];
+            row_of(s, i, drive, row);
+            for (size_t a = 0; a < COLUMNS; a++)
+                rest -= own[a] * row[a];
+            /* The mean weight is 1/2. */
+            sum += 4 * weight(s, i) * rest * cexp(-unit * omega * (s->time[i] - s->start)) /
+                   (double)s->n;
         }
-        to->noise[to->n_noise][0] = creal(sum[0]);
-        to->noise[to->n_noise][1] = cimag(sum[0]);
-        to->noise[to->n_noise][2] = creal(sum[1]);
-        to->noise[to->n_noise++][3] = cimag(sum[1]);
-        power += creal(sum[0] * conj(sum[0]));
+        power += creal(sum * conj(sum));
+        n++;
     }
-    return to->n_noise > 0 ? power / (double)to->n_noise : (double)NAN;
+    return n > 0 ? power / (double)n : (double)NAN;
 }
 
 static const char *lacks(const double *time, const double *position, const double *force, size_t n)
@@ -218,7 +215,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
         modulation->mean[0] += share * position[i];
         modulation->mean[1] += share * force[i];
     }
-    const double noise = take_noise(&s, c, modulation);
+    const double noise = noise_of(&s, c[0], omega);
     modulation->start = s.start;
     modulation->found =
         c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] > significant * noise;
@@ -237,41 +234,23 @@ void wt_modulation_remove(const wt_modulation *m, const double *time, size_t n, 
     }
 }
 
-/* Mean square of a Z + b F over the frequencies beside the drive, in each of two directions. */
-static double noise_of(const wt_modulation *m, double complex a, double complex b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < m->n_noise; i++) {
-        const double *v = m->noise[i];
-        const double complex x = a * (v[0] + unit * v[1]) + b * (v[2] + unit * v[3]);
-        sum += creal(x * conj(x)) / (2 * (double)m->n_noise);
-    }
-    return sum;
-}
-
 wt_status wt_modulation_moduli(const wt_modulation *m, const wt_modulation *air,
-                               double spring_constant, double slope, double slope_error,
-                               wt_dwell_moduli *moduli, wt_error *err)
+                               double spring_constant, double slope, wt_dwell_moduli *moduli,
+                               wt_error *err)
 {
     if (m == NULL || moduli == NULL || !m->found || !(spring_constant > 0) || !(slope > 0))
         return wt_fail(err, WT_E_ARG, "no modulation, lever or contact");
     const double complex z = m->amplitude[0] + unit * m->amplitude[1],
                          f = m->amplitude[2] + unit * m->amplitude[3];
-    const bool has_air = air != NULL && air->found;
-    const double complex za = has_air ? air->amplitude[0] + unit * air->amplitude[1] : 1,
-                         fa = has_air ? air->amplitude[2] + unit * air->amplitude[3] : 0;
-    const double complex drag = fa / za, depth = z - f / spring_constant,
-                         stiffness = (f - drag * z) / depth;
-    const double complex by_force = (1 + stiffness / spring_constant) / depth,
-                         by_height = -(drag + stiffness) / depth;
-    double variance = noise_of(m, by_height, by_force);
-    if (has_air)
-        variance += noise_of(air, drag / za * (z / depth), -1 / za * (z / depth));
-    *moduli = (wt_dwell_moduli){.angular_frequency = m->angular_frequency};
-    const double value[2] = {creal(stiffness) / slope, cimag(stiffness) / slope};
-    wt_estimate *const to[2] = {&moduli->storage, &moduli->loss};
-    for (size_t k = 0; k < 2; k++)
-        *to[k] =
-            (wt_estimate){value[k], hypot(sqrt(variance) / slope, value[k] * slope_error), 0, "Pa"};
+    double complex drag = 0;
+    if (air != NULL && air->found)
+        drag = (air->amplitude[2] + unit * air->amplitude[3]) /
+               (air->amplitude[0] + unit * air->amplitude[1]);
+    const double complex stiffness = (f - drag * z) / (z - f / spring_constant);
+    *moduli = (wt_dwell_moduli){
+        .angular_frequency = m->angular_frequency,
+        .storage = {creal(stiffness) / slope, (double)NAN, 0, "Pa"},
+        .loss = {cimag(stiffness) / slope, (double)NAN, 0, "Pa"},
+    };
     return WT_OK;
 }

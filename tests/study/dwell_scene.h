@@ -29,6 +29,8 @@ typedef struct dwell_scene {
     bool pyramid;           /* the blunted one of 20 nm, 150 nm deep, lever of 0.5 N/m */
     double hold;            /* [s]; 0: 8 s */
     double modulation;      /* frequency [Hz] of the height while it is held, 1 % of the depth */
+    int files;              /* of a curve each, whose means are judged; 0: one curve by itself */
+    double scatter;         /* of their moduli */
 } dwell_scene;
 
 extern const dwell_scene dwell_scenes[];

@@ -34,5 +34,12 @@ const dwell_scene dwell_scenes[] = {
      .modulation = 5},
     {NAMED("H16", "a modulation of 23 Hz, any rubber, drift, tilt, 1/f 0.5 %"), .noise = 0.005,
      .kind = NOISE_FLICKER, .rubber = RUBBER_ANY, DRIFTS, .modulation = 23},
+    {NAMED("H17", "mean of six of 5 Hz, any rubber, scatter 3 %"), STATED, .noise = 0.002,
+     .rubber = RUBBER_ANY, .modulation = 5, .files = 6, .scatter = 0.03},
+    {NAMED("H18", "mean of six of 5 Hz, any rubber, no scatter"), .noise = 0.002,
+     .rubber = RUBBER_ANY, .modulation = 5, .files = 6},
+    {NAMED("H19", "mean of four of 23 Hz, any rubber, drift, tilt, 1/f 0.5 %, scatter 3 %"),
+     .noise = 0.005, .kind = NOISE_FLICKER, .rubber = RUBBER_ANY, DRIFTS, .modulation = 23,
+     .files = 4, .scatter = 0.03},
 };
 const int n_dwell_scenes = sizeof dwell_scenes / sizeof dwell_scenes[0];

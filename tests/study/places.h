@@ -16,12 +16,12 @@ typedef struct place {
 extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
-extern const place place_modulus, place_factor;           /* of curves */
-extern const place place_depth;                           /* of all of them, a row for each depth */
-extern const place place_budget[2];                       /* of bulk and track */
-extern const place place_ratio;                           /* over all rates, the first row */
-extern const place place_dwell_storage, place_dwell_loss; /* a row for each frequency */
-extern const place place_layered_friction;                /* at the reference velocity */
+extern const place place_modulus, place_factor;         /* of curves */
+extern const place place_depth;                         /* of all of them, a row for each depth */
+extern const place place_budget[2];                     /* of bulk and track */
+extern const place place_ratio;                         /* over all rates, the first row */
+extern const place place_dwell[2], place_dwell_mean[2]; /* E' and E'', a row for each frequency */
+extern const place place_layered_friction;              /* at the reference velocity */
 
 #define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */
 #define PLACE_DEPTH "modulus_depth"

@@ -174,6 +174,66 @@ static void no_false_alarms(void **state)
     }
 }
 
+static void add(wt_force_curve *curve, wt_segment_kind kind, const curve_truth *t, double pull)
+{
+    const bool back = kind == WT_SEGMENT_RETRACT;
+    wt_segment *segment = wt_force_curve_add_segment(curve, kind, t->n, 2);
+    assert_non_null(segment);
+    segment->duration = 1;
+    segment->channels[0].quantity = WT_Q_HEIGHT;
+    segment->channels[1].quantity = WT_Q_FORCE;
+    for (size_t i = 0; i < t->n; i++) {
+        const size_t from = back ? t->n - 1 - i : i;
+        const double z = t->travel * (double)from / (double)(t->n - 1) - t->contact_point;
+        segment->channels[0].values[i] = data.height[from];
+        segment->channels[1].values[i] =
+            data.force[from] - (back && z > -20e-9 && z < 5e-9 ? pull : 0);
+    }
+}
+
+/* A pull-off makes a fit with adhesion be tried. Where that does not describe the curve, all that
+ * is told is as if it had not been. */
+static void adhesion_tried_in_vain(void **state)
+{
+    (void)state;
+    wt_contact_table *table = NULL;
+    wt_force_curve curve = {0};
+    curve_truth t = soft();
+    const double top = curve_contact_force(&t, t.travel - t.contact_point);
+    assert_int_equal(wt_contact_table_new(&t.tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    for (int draw = 0; draw < 8; draw++) {
+        const sine s = {100e-12, 350e-9, 0.7 * draw, draw % 2};
+        wt_indent_fit fit[2];
+        wt_indent_options options = wt_indent_defaults();
+        if (draw >= 4)
+            options.fit_force_fraction = 0.8;
+        make(&t, &s, 17 + (uint64_t)draw);
+        for (size_t i = 0; i < t.n; i++) { /* of no law */
+            const double z = t.travel * (double)i / (double)(t.n - 1) - t.contact_point;
+            if (z > 0)
+                data.force[i] -= 0.03 * top * sin(9 * z / (t.travel - t.contact_point));
+        }
+        for (int pulled = 0; pulled < 2; pulled++) {
+            wt_force_curve_reset(&curve);
+            curve.cantilever.spring_constant = t.spring_constant;
+            add(&curve, WT_SEGMENT_APPROACH, &t, 0);
+            add(&curve, WT_SEGMENT_RETRACT, &t, pulled ? 0.2 * top : 0);
+            assert_int_equal(
+                wt_indent_force_curve(table, &options, &curve, workspace, &fit[pulled], NULL),
+                WT_OK);
+        }
+        assert_true(fit[0].interference_amplitude > 0 && isnan(fit[1].work_of_adhesion.value));
+        assert_near_abs(fit[0].pull_off_force, 0, 0.05 * top);
+        assert_true(fit[1].pull_off_force > 0.1 * top);
+        assert_near(fit[1].fitted_modulus, fit[0].fitted_modulus, 1e-6);
+        assert_near(fit[1].interference_period, fit[0].interference_period, 1e-6);
+        assert_near(fit[1].max_force, fit[0].max_force, 1e-6);
+        assert_near(fit[1].max_indentation, fit[0].max_indentation, 1e-6);
+    }
+    wt_force_curve_clear(&curve);
+    wt_contact_table_free(table);
+}
+
 static int make_workspace(void **state)
 {
     (void)state;
@@ -189,8 +249,8 @@ static int free_workspace(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exact), cmocka_unit_test(with_a_range),
-                                       cmocka_unit_test(intervals_cover),
-                                       cmocka_unit_test(no_false_alarms)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact), cmocka_unit_test(with_a_range), cmocka_unit_test(intervals_cover),
+        cmocka_unit_test(no_false_alarms), cmocka_unit_test(adhesion_tried_in_vain)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

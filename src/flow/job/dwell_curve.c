@@ -11,10 +11,6 @@ static const double pi = 3.14159265358979323846;
 /* Frequencies of one drive, and an amplitude that is small beside the indentation. */
 static const double same_drive = 0.01, small = 0.2;
 
-/* Of simulated curves: so none is told. */
-static const char too_narrow[] =
-    "no errors: intervals of noise and depth held the truth in 88 % only";
-
 typedef struct history {
     double *time, *position, *force, *scratch;
     size_t n;
@@ -127,8 +123,9 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
         m->note = "not in contact, or it pulls";
         return WT_OK;
     }
-    const double slope = slope_at(contact, m->indentation, poisson),
-                 error = placed ? d->indentation_error : (double)NAN;
+    const double slope = slope_at(contact, m->indentation, poisson);
+    const double common = placed ? d->indentation_common_error : (double)NAN;
+    const bool described = isfinite(common);
     const dwell_modulated *air = NULL;
     for (size_t i = 0; i < c->n_air; i++)
         if (fabs(c->air[i].sine.angular_frequency - m->sine.angular_frequency) <
@@ -136,16 +133,20 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
             air = &c->air[i];
     const double *a = m->sine.amplitude;
     m->amplitude = hypot(a[0] - a[2] / spring_constant, a[1] - a[3] / spring_constant);
-    m->note = !placed        ? "no errors: the contact point is that of an elastic fit"
-              : isnan(error) ? "no errors: the dwell is not described, nor is the contact point"
+    m->note = !placed      ? "the contact point is that of an elastic fit"
+              : !described ? "the dwell is not described, nor is the contact point"
               : m->amplitude > small * m->indentation
                   ? "the amplitude is more than a fifth of the indentation"
-              : air == NULL ? "no errors; drag and the lag of the instrument are in it: no "
-                              "modulation in air"
-                            : too_narrow;
+              : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
+                            : "";
     m->found = true;
-    return wt_modulation_moduli(&m->sine, air != NULL ? &air->sine : NULL, spring_constant, slope,
-                                (double)NAN, &m->moduli, err);
+    const wt_status status = wt_modulation_moduli(&m->sine, air != NULL ? &air->sine : NULL,
+                                                  spring_constant, slope, &m->moduli, err);
+    const double share =
+        described ? slope_at(contact, m->indentation + common, poisson) / slope - 1 : common;
+    m->moduli.storage_common_error = fabs(share * m->moduli.storage.value);
+    m->moduli.loss_common_error = fabs(share * m->moduli.loss.value);
+    return status;
 }
 
 /* Approach and held segments, without their sines. */

@@ -39,7 +39,8 @@ static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool 
         common += isfinite(own) ? own * own : 0;
         known += isfinite(own) ? 1 : 0;
     }
-    common = known > 0 ? common / known : (double)NAN;
+    /* what most curves are off by alike their scatter does not show */
+    common = known > 0 && 2 * known >= (double)n ? common / known : (double)NAN;
     wt_interval m = wt_student_mean(values, units, n, n_units);
     double half = hypot(m.high - m.value, NORMAL_95 * sqrt(common));
     m.standard_error = hypot(m.standard_error, sqrt(common));
