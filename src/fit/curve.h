@@ -57,8 +57,8 @@ typedef struct curve_wave {
 enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
 typedef struct noise_shapes {
     double knee[NOISE_SHAPES]; /* below it they are no longer white */
-    double density[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS],
-        root[NOISE_SHAPES][NOISE_BANDS];
+    double inverse[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS],
+        root[NOISE_SHAPES][NOISE_BANDS]; /* of the density */
 } noise_shapes;
 void noise_shapes_make(noise_shapes *to);
 

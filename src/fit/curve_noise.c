@@ -40,9 +40,10 @@ static void add_shape(noise_shapes *to, size_t s, double knee, double corner, do
     to->knee[s] = knee;
     for (size_t b = 0; b < NOISE_BANDS; b++) {
         const double f = exp2(-(double)b / PER_OCTAVE);
-        to->density[s][b] = 1.0 + pow(knee / sqrt(f * f + corner * corner), power);
-        to->logarithm[s][b] = log(to->density[s][b]);
-        to->root[s][b] = sqrt(to->density[s][b]);
+        const double density = 1.0 + pow(knee / sqrt(f * f + corner * corner), power);
+        to->inverse[s][b] = 1.0 / density;
+        to->logarithm[s][b] = log(density);
+        to->root[s][b] = sqrt(density);
     }
 }
 
@@ -168,6 +169,7 @@ WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const 
     }
 }
 
+WIDE_REGISTERS
 bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n, curve_spectrum *to)
 {
     double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
@@ -192,16 +194,15 @@ bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n,
         power[band] += fmax(rest, 0.0);
         count[band] += (double)(n - WAVES - 1);
     }
+    size_t bands = NOISE_BANDS;
+    while (bands > 0 && !(count[bands - 1] > 0.0))
+        bands--;
     for (size_t s = 0; s < NOISE_SHAPES; s++) {
         chance[s] = -(double)INFINITY;
         if (s > 0 && shapes->knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
             continue;
-        double logarithms = 0.0, sum = 0.0;
-        for (size_t b = 0; b < NOISE_BANDS; b++)
-            if (count[b] > 0.0) {
-                logarithms += count[b] * shapes->logarithm[s][b];
-                sum += power[b] / shapes->density[s][b];
-            }
+        const double logarithms = curve_dot(count, shapes->logarithm[s], bands),
+                     sum = curve_dot(power, shapes->inverse[s], bands);
         if (!(sum > 0.0))
             return false;
         const int family = s == 0 ? 1 : 2 * CORNERS * (s <= POWERS * CORNERS ? POWERS : HEIGHTS);

@@ -78,6 +78,7 @@ WIDE_REGISTERS static void convert(sample_type type, bool big_endian, const unsi
 size_t samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
                       double multiplier, double offset, double *values)
 {
+    const double most = fabs(multiplier) * 0x1p32 + fabs(offset); /* of an integer */
     convert(type, big_endian, bytes, n, multiplier, offset, values);
-    return samples_mend(values, n);
+    return type <= SAMPLE_UINT32 && isfinite(most) ? 0 : samples_mend(values, n);
 }

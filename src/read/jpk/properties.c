@@ -129,11 +129,30 @@ static bool escape(parser *p)
     return true;
 }
 
+/* Of ASCII: means itself, and does not end a word. */
+static bool is_plain(unsigned char c, bool key)
+{
+    return c > ' ' ? c < 0x80 && c != '\\' && !(key && (c == '=' || c == ':')) : c == ' ' && !key;
+}
+
+static void copy_plain(parser *p, bool key)
+{
+    const unsigned char *at = p->at;
+    char *out = p->out;
+    while (at < p->end && is_plain(*at, key))
+        *out++ = (char)*at++;
+    p->at = at;
+    p->out = out;
+}
+
 /* Copies up to the end of the line, or of the key if `key`. */
 static bool word(parser *p, bool key)
 {
-    while (p->at < p->end && !is_break(*p->at)) {
-        unsigned char c = *p->at;
+    for (;;) {
+        copy_plain(p, key);
+        if (p->at == p->end || is_break(*p->at))
+            break;
+        const unsigned char c = *p->at;
         if (key && (c == '=' || c == ':' || is_blank(c)))
             break;
         p->at++;
@@ -259,8 +278,12 @@ const char *properties_get(const property_list *properties, const char *key)
 const char *properties_find(const property_list *properties, const char *prefix, const char *suffix)
 {
     char key[KEY_MAX];
-    int n = snprintf(key, sizeof key, "%s%s", prefix, suffix);
-    return n < 0 || (size_t)n >= sizeof key ? NULL : properties_get(properties, key);
+    const size_t n = strlen(prefix), more = strlen(suffix) + 1;
+    if (n >= sizeof key || more > sizeof key - n)
+        return NULL;
+    memcpy(key, prefix, n);
+    memcpy(key + n, suffix, more);
+    return properties_get(properties, key);
 }
 
 double properties_number(const property_list *properties, const char *prefix, const char *suffix)
