@@ -222,25 +222,18 @@ WIDE_REGISTERS static void share_samples(const projection *p)
     wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
     for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
         node[i] = nothing;
-    wide left_sum = nothing,
-         right_sum = nothing; /* the two beside the sample, which seldom change */
-    int held = 0;
-    for (size_t i = 0; i < s->n; i++) {
+    for (size_t i = 0; i < s->n;) { /* those between two nodes, mostly one behind the other */
         const int at = (int)place[i];
-        const double right = weight[i] * (place[i] - at), left = weight[i] - right;
-        const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
-        if (at != held) {
-            node[held] = left_sum;
-            node[held + 1] = right_sum;
-            left_sum = node[at];
-            right_sum = node[at + 1];
-            held = at;
+        wide to_left = node[at], to_right = node[at + 1];
+        for (; i < s->n && (int)place[i] == at; i++) {
+            const double right = weight[i] * (place[i] - at), left = weight[i] - right;
+            const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
+            to_left += left * sample;
+            to_right += right * sample;
         }
-        left_sum += left * sample;
-        right_sum += right * sample;
+        node[at] = to_left;
+        node[at + 1] = to_right;
     }
-    node[held] = left_sum;
-    node[held + 1] = right_sum;
     for (size_t l = 0; l < p->n_octaves; l++)
         for (size_t i = 0; i < STRIDE; i++) {
             octaves[l].weight[i] = node[l * STRIDE + i][0];

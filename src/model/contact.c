@@ -102,6 +102,10 @@ static contact_point_values faces(const wt_tip *tip, double delta)
     const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
     /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
     double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
+    /* So does h (s - atan(s)) <= s^2/2 this one, up to s = 1: no face is steeper than the cap. */
+    const double near = sqrt(2.0 * beyond / cap);
+    if (near < s && near < 1.0)
+        s = near;
     double h = 0.0, hs = 0.0, rise = 0.0;
     for (;;) {
         h = sqrt(1.0 + s * s);
