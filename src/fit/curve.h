@@ -53,15 +53,6 @@ typedef struct curve_wave {
     bool by_height;
 } curve_wave;
 
-/* Spectra that noise may have, in bands of the frequency: curve_noise.c. */
-enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
-typedef struct noise_shapes {
-    double knee[NOISE_SHAPES]; /* below it they are no longer white */
-    double inverse[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS],
-        root[NOISE_SHAPES][NOISE_BANDS]; /* of the density */
-} noise_shapes;
-void noise_shapes_make(noise_shapes *to);
-
 /* Sums at depths below the deepest point, from that of an octave to 0, and the contact function at
  * as many distances: curve_scan.c. */
 enum { SCAN_OCTAVES = 17, SCAN_NODES = 128, SCAN_REACH = 4 };
@@ -83,7 +74,6 @@ struct wt_indent_workspace {
     scan_octave octave[SCAN_OCTAVES];
     double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function, square */
     gsl_min_fminimizer *minimizer;
-    noise_shapes shapes;
     hereditary memory;
     size_t evaluations; /* of the model so far */
     /* Of the accepted curves so far, relative: by how much a further step may change the modulus

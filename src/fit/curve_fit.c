@@ -70,7 +70,6 @@ wt_indent_workspace *wt_indent_workspace_new(void)
         free(workspace);
         return NULL;
     }
-    noise_shapes_make(&workspace->shapes);
     return workspace;
 }
 

@@ -202,11 +202,10 @@ static double refine_number(const baseline *b, double number)
 }
 
 /* Chance that noise of the colour of `rest` makes a gain as large at this or another period. */
-static double chance_of(const baseline *b, const noise_shapes *shapes, const double *rest,
-                        double number, double gain)
+static double chance_of(const baseline *b, const double *rest, double number, double gain)
 {
     curve_spectrum noise = {.length = b->length};
-    if (!curve_noise_spectrum(shapes, rest, b->n, &noise))
+    if (!curve_noise_spectrum(rest, b->n, &noise))
         return 0.0; /* nothing is left */
     const double each =
         gain / 2.0 / curve_noise_variance(&noise, 2.0 * number / b->cycle, b->n, (size_t)b->length);
@@ -243,7 +242,7 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
     *slow = wave->p[WAVE_NUMBER] < few * b.cycle;
     return (*slow || fmin(half, gain - half) > least_half * gain) &&
            curve_wave_amplitude(wave) > nothing * top &&
-           chance_of(&b, &f->workspace->shapes, rest, wave->p[WAVE_NUMBER], gain) < false_alarms;
+           chance_of(&b, rest, wave->p[WAVE_NUMBER], gain) < false_alarms;
 }
 
 void curve_begin_wave(curve_fitting *f, const curve_wave *wave)

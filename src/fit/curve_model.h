@@ -55,13 +55,13 @@ curve_noise curve_noise_of(const curve_law *model, const double p[CURVE_N_PARAME
                            const double *e, size_t first, bool bent);
 /* Variance of a unit wave of means over `length` samples, by its frequency: 1 is half a cycle for
  * each of them. */
+enum { NOISE_BANDS = 52 };
 typedef struct curve_spectrum {
     double density[NOISE_BANDS], length;
 } curve_spectrum;
 /* The mean spectrum of at most 512 residuals x, each the mean of to->length samples. False if there
  * is nothing. */
-bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n,
-                          curve_spectrum *to);
+bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to);
 /* Of unit wave k, half a cycle each, of n blocks of `length` samples. */
 double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t length);
 /* h = 1 + S/k of sample i. */

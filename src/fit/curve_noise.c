@@ -12,6 +12,7 @@
 #include "fit/curve_model.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 enum {
@@ -35,28 +36,38 @@ typedef struct block_sums {
     double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
 } block_sums;
 
-static void add_shape(noise_shapes *to, size_t s, double knee, double corner, double power)
+/* Spectra that noise may have, in bands of the frequency. */
+enum { SHAPES = 82 };
+static struct {
+    double knee[SHAPES]; /* below it they are no longer white */
+    double inverse[SHAPES][NOISE_BANDS], logarithm[SHAPES][NOISE_BANDS],
+        root[SHAPES][NOISE_BANDS]; /* of the density */
+} shapes;
+
+static void add_shape(size_t s, double knee, double corner, double power)
 {
-    to->knee[s] = knee;
+    shapes.knee[s] = knee;
     for (size_t b = 0; b < NOISE_BANDS; b++) {
         const double f = exp2(-(double)b / PER_OCTAVE);
         const double density = 1.0 + pow(knee / sqrt(f * f + corner * corner), power);
-        to->inverse[s][b] = 1.0 / density;
-        to->logarithm[s][b] = log(density);
-        to->root[s][b] = sqrt(density);
+        shapes.inverse[s][b] = 1.0 / density;
+        shapes.logarithm[s][b] = log(density);
+        shapes.root[s][b] = sqrt(density);
     }
 }
 
-void noise_shapes_make(noise_shapes *to)
+static pthread_once_t shapes_once = PTHREAD_ONCE_INIT;
+
+static void make_shapes(void)
 {
     size_t s = 0;
-    add_shape(to, s++, 0.0, 1.0, 1.0);
+    add_shape(s++, 0.0, 1.0, 1.0);
     for (int knee = -2; knee < CORNERS - 2; knee++)
         for (int power = 1; power <= POWERS; power++)
-            add_shape(to, s++, exp2(-knee), 0.0, 0.5 * power);
+            add_shape(s++, exp2(-knee), 0.0, 0.5 * power);
     for (int corner = 0; corner < CORNERS; corner++)
         for (int height = 0; height < HEIGHTS; height++)
-            add_shape(to, s++, exp2(height - corner), exp2(-corner), 2.0);
+            add_shape(s++, exp2(height - corner), exp2(-corner), 2.0);
 }
 
 static size_t band_of(double frequency)
@@ -170,12 +181,13 @@ WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const 
 }
 
 WIDE_REGISTERS
-bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n, curve_spectrum *to)
+bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
 {
     double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
-    double chance[NOISE_SHAPES], level[NOISE_SHAPES], best = -(double)INFINITY, all = 0.0;
+    double chance[SHAPES], level[SHAPES], best = -(double)INFINITY, all = 0.0;
     const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
     double *const density = to->density, rest = curve_dot(x, x, n);
+    (void)pthread_once(&shapes_once, make_shapes);
     for (size_t first = 0; first < n && first <= WAVES; first += AT_ONCE) {
         double along[AT_ONCE][N];
         find_waves(first, n, (const double(*)[BLOCKS])x, 1, along);
@@ -197,12 +209,12 @@ bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n,
     size_t bands = NOISE_BANDS;
     while (bands > 0 && !(count[bands - 1] > 0.0))
         bands--;
-    for (size_t s = 0; s < NOISE_SHAPES; s++) {
+    for (size_t s = 0; s < SHAPES; s++) {
         chance[s] = -(double)INFINITY;
-        if (s > 0 && shapes->knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
+        if (s > 0 && shapes.knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
             continue;
-        const double logarithms = curve_dot(count, shapes->logarithm[s], bands),
-                     sum = curve_dot(power, shapes->inverse[s], bands);
+        const double logarithms = curve_dot(count, shapes.logarithm[s], bands),
+                     sum = curve_dot(power, shapes.inverse[s], bands);
         if (!(sum > 0.0))
             return false;
         const int family = s == 0 ? 1 : 2 * CORNERS * (s <= POWERS * CORNERS ? POWERS : HEIGHTS);
@@ -211,14 +223,14 @@ bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n,
         best = fmax(best, chance[s]);
     }
     memset(density, 0, sizeof to->density);
-    for (size_t s = 0; s < NOISE_SHAPES; s++) {
+    for (size_t s = 0; s < SHAPES; s++) {
         const double share = exp(chance[s] - best),
                      weight = share > 0.0 ? share * sqrt(level[s]) : 0.0;
         if (!(share > 0.0))
             continue;
         all += share;
         for (size_t b = 0; b < NOISE_BANDS; b++)
-            density[b] += weight * shapes->root[s][b];
+            density[b] += weight * shapes.root[s][b];
     }
     for (size_t b = 0; b < NOISE_BANDS; b++)
         density[b] *= density[b] / (all * all);
@@ -292,7 +304,7 @@ WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, si
     if (!bent)
         remove_powers(z, x, n, n, 2, square);
     to->length = (double)length;
-    return curve_noise_spectrum(&m->workspace->shapes, bent ? y : x, n, to);
+    return curve_noise_spectrum(bent ? y : x, n, to);
 }
 
 WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e,
@@ -307,7 +319,7 @@ WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N],
         noise.variance = curve_dot(e, e, first) / (double)first;
     if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
         s.length = (double)b.length;
-        if (!curve_noise_spectrum(&m->workspace->shapes, b.e, b.n, &s))
+        if (!curve_noise_spectrum(b.e, b.n, &s))
             return noise;
     }
     const double misfit = slow_misfit(&b, &s);
