@@ -247,11 +247,11 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->fitted_from = samples->gap_to > samples->gap_from && samples->gap_to < samples->n
                            ? fmax(0.0, f->workspace->delta[samples->gap_to])
                            : 0.0;
-    fit->max_force = 0.0;
-    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++) {
-        const double above = samples->force[i] - curve_baseline(s, samples->position[i]);
-        fit->max_force = above > fit->max_force ? above : fit->max_force;
-    }
+    const size_t n = f->input.n_all - f->n_snap;
+    double *above = f->workspace->scratch;
+    for (size_t i = 0; i < n; i++)
+        above[i] = samples->force[i] - curve_baseline(s, samples->position[i]);
+    fit->max_force = fmax(curve_span_of(above, n).high, 0.0);
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = s->lack.wave[j] / fit->max_force;
     if (curve_has_wave(&s->wave)) {
