@@ -10,6 +10,7 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <malloc.h>
 #include <unistd.h>
 
 /* A sanitizer brings its own allocator, and stops at the first failure too. */
@@ -21,16 +22,21 @@
 #endif
 #endif
 
+enum { LARGE = 1 << 20 };
 static pid_t owner;
 
 void cmd_end_without_memory(void)
 {
     owner = getpid();
+#ifdef __GLIBC__
+    /* Else what was freed once raises the size from which pieces are given back to the system, up
+     * to 32 MB: the directory of a map would lie beside the table that comes after it. */
+    (void)mallopt(M_MMAP_THRESHOLD, LARGE);
+    (void)mallopt(M_TRIM_THRESHOLD, LARGE);
+#endif
 }
 
 #ifndef OTHER_ALLOCATOR
-
-enum { LARGE = 1 << 20 };
 
 static void *given(void *memory, size_t size)
 {
