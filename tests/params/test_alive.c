@@ -1,6 +1,7 @@
 /* No parameter is ignored: each one, moved off its default, changes what a subcommand or a case
  * gives. What cannot be moved by rule has its value here; what changes no result has its reason.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "call_text.h"
 #include "near.h"
 #include "params/sections.h"
 
@@ -281,9 +282,16 @@ static size_t try_option(size_t s, const char *option, const char *text, const c
     size_t n[2];
     base_options(with, "", further, sizeof further);
     base_options(subcommands[s].base, without, base, sizeof base);
+    for (const char *p = with; *p != '\0'; p += strcspn(p, "|"), p += strspn(p, "|")) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(p, " |"), p);
+        drop_option(base, name);
+    }
     strncat(base, further, sizeof base - strlen(base) - 1);
-    snprintf(options, sizeof options, "%s --%s %s%s%s", base, option, text != NULL ? "'" : "",
-             text != NULL ? text : "", text != NULL ? "'" : "");
+    snprintf(options, sizeof options, "%s", base);
+    drop_option(options, option);
+    snprintf(options + strlen(options), sizeof options - strlen(options), " --%s %s%s%s", option,
+             text != NULL ? "'" : "", text != NULL ? text : "", text != NULL ? "'" : "");
     char *before = give(subcommands[s].name, base, subcommands[s].files, &n[0]);
     char *after = give(subcommands[s].name, options, subcommands[s].files, &n[1]);
     const bool wrong_call = n[1] >= 2 && after[n[1] - 2] == '2' && n[1] < 4;

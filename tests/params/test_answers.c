@@ -3,6 +3,7 @@
  * follow from the records, so a new parameter needs no line here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/quantity.h"
+#include "call_text.h"
 #include "near.h"
 #include "params/sections.h"
 
@@ -93,6 +94,8 @@ static bool is_refused_option(size_t s, const char *name, const char *text)
                                          p->name, value);
         }
     }
+    drop_option(command, name);
+    used = strlen(command);
     snprintf(command + used, sizeof command - used, " --%s '%s' 2>&1 >/dev/null", name, text);
     FILE *out = popen(command, "r");
     assert_non_null(out);
