@@ -165,7 +165,7 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
     while (n_open > 0) {
         file_peek peek = {.name = wt_input_name(input), .input = input};
         size_t need = 0, still_open = 0;
-        for (size_t i = 0; i < n_open; i++) {
+        for (size_t i = 0; i < n_open && status == WT_OK; i++) {
             /* The one before may have looked elsewhere. */
             status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
             if (status != WT_OK)
