@@ -156,14 +156,15 @@ static inline void half_space(const wt_contact_table *table, double d, double *g
 }
 
 /* Four numbers of each of four pieces, from number k on: column by column. */
-WIDE_PART void columns_of(const wt_contact_table *table, wide_bits number, size_t k, wide to[WIDE])
+WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number, size_t k,
+                          wide to[WIDE])
 {
     const double *from = (const double *)table->pieces + k;
     wide a, b, c, d; /* no array, which would go through memory in halves */
-    wide_load(&a, from + number[0] * PIECE);
-    wide_load(&b, from + number[1] * PIECE);
-    wide_load(&c, from + number[2] * PIECE);
-    wide_load(&d, from + number[3] * PIECE);
+    wide_load(&a, from + (*number)[0] * PIECE);
+    wide_load(&b, from + (*number)[1] * PIECE);
+    wide_load(&c, from + (*number)[2] * PIECE);
+    wide_load(&d, from + (*number)[3] * PIECE);
     const wide even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
                odd = __builtin_shufflevector(a, b, 1, 5, 3, 7),
                even2 = __builtin_shufflevector(c, d, 0, 4, 2, 6),
@@ -185,8 +186,8 @@ WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, dou
     const wide_bits out = (d <= 0.0) | (number < 0) | (number >= (int64_t)table->n);
     if ((out[0] | out[1] | out[2] | out[3]) != 0)
         return false;
-    columns_of(table, number, 0, c);
-    columns_of(table, number, WIDE, c + WIDE);
+    columns_of(table, &number, 0, c);
+    columns_of(table, &number, WIDE, c + WIDE);
     const wide t = (d - c[6]) * c[7];
     const wide value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
     wide_store(g, &value);

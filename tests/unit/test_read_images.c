@@ -37,7 +37,7 @@ static void put_double(made *m, double value, bool big)
     put(m, bits, 8, big);
 }
 
-static void put_text(made *m, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void put_text(made *m, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
