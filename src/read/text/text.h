@@ -262,8 +262,9 @@ extern const struct force_stream text_force;
 /* The same without reading to the end first: how many curves there are is not known. Not for a
  * reader that makes a text (as_text). */
 extern const struct force_stream text_force_first;
-/* Curves of the tables at hand. */
-size_t text_count_curves(const text_file *file);
+/* Curves of the tables at hand that have what a file of one of the kinds needs; kinds 0: of all, as
+ * they are read, also those that turn out to be errors. */
+size_t text_count_curves(const text_file *file, unsigned kinds);
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_sweep *sweep, wt_error *err);
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,

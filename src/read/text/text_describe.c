@@ -300,7 +300,7 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog 
     wt_error problem = WT_ERROR_INIT;
     wt_status status = WT_OK;
     while ((status = text_parts_next(parts, &problem)) == WT_OK)
-        r->n_curves += text_count_curves(file);
+        r->n_curves += text_count_curves(file, WT_KIND_FORCE);
     if (status != WT_END) {
         add_problem(&problem, facts);
         return WT_OK;

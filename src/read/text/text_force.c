@@ -230,12 +230,12 @@ static void text_close(wt_force_source *source)
     wt_input_close(s->text);
 }
 
-size_t text_count_curves(const text_file *file)
+size_t text_count_curves(const text_file *file, unsigned kinds)
 {
     size_t n = 0, block = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
-        const bool has = quantities_suffice(t->quantities, WT_KIND_FORCE);
+        const bool has = kinds == 0 || quantities_suffice(t->quantities, kinds);
         for (size_t r = 0; has && r < t->n_rows; r++) {
             n += n == 0 || t->blocks[r] != block;
             block = t->blocks[r];
@@ -261,7 +261,7 @@ static wt_status read_through(text_source *s, wt_error *err)
 {
     wt_status status = WT_OK;
     while ((status = text_parts_next(s->parts, err)) == WT_OK) {
-        s->base.n_curves += text_count_curves(s->file);
+        s->base.n_curves += text_count_curves(s->file, 0);
         text_log_assumed(s->file, s->base.log);
     }
     if (status != WT_END)
