@@ -1,4 +1,5 @@
 /* Files that were read and must not be written over. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/own_files.h"
 #include "weartrack/base.h"
 
 #include <pthread.h>
@@ -62,13 +63,14 @@ wt_status wt_guard_read(const char *path, wt_error *err)
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
-enum { BLOCK = 4096 };
-
-/* Whether `file` has bytes at `from` that no text has. */
-static bool binary_at(FILE *file, off_t from)
+static bool has(const unsigned char *block, size_t n, const char *mark)
 {
-    unsigned char block[BLOCK];
-    const size_t n = fseeko(file, from, SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
+    return memmem(block, n, mark, strlen(mark) + 1) != NULL;
+}
+
+/* Whether the bytes are of no text. */
+static bool is_binary(const unsigned char *block, size_t n)
+{
     for (size_t i = 0; i < n; i++)
         if (block[i] == 0x7f ||
             (block[i] < 0x20 && !(block[i] >= '\t' && block[i] <= '\r') && block[i] != 0x1b))
@@ -76,20 +78,25 @@ static bool binary_at(FILE *file, off_t from)
     return false;
 }
 
-/* Whether the file is one of an instrument, say: neither text nor HDF5, which is what outputs are.
- * Headers of instruments are text: the middle and the end count, too. */
+/* Whether the file is one of an instrument, say: neither text nor HDF5 of this program, which is
+ * what outputs are. Headers of instruments are text: the middle and the end count, too. */
 static bool is_foreign(const char *path, off_t size)
 {
-    static const unsigned char hdf5[] = "\211HDF\r\n\032\n", nanoscope[] = "\\*F";
-    unsigned char start[sizeof hdf5 - 1] = {0};
+    static const char nanoscope[] = "\\*F";
+    const off_t places[] = {0, size / 2, size > (off_t)STORE_START ? size - (off_t)STORE_START : 0};
+    unsigned char block[STORE_START];
+    bool own = false, foreign = false;
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return false; /* whether it may be written is seen when that is tried */
-    const size_t n = fread(start, 1, sizeof start, file);
-    const bool store = n == sizeof start && memcmp(start, hdf5, n) == 0;
-    const bool foreign =
-        !store && (memcmp(start, nanoscope, sizeof nanoscope - 1) == 0 || binary_at(file, 0) ||
-                   binary_at(file, size / 2) || binary_at(file, size > BLOCK ? size - BLOCK : 0));
+    for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
+        const size_t n =
+            fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
+        own =
+            i == 0 && (has(block, n, STORE_FORMAT_ATTRIBUTE) || has(block, n, STORE_MAP_ATTRIBUTE));
+        foreign =
+            !own && (is_binary(block, n) || (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
+    }
     (void)fclose(file);
     return foreign;
 }

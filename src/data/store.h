@@ -3,6 +3,7 @@
 #ifndef WT_DATA_STORE_H
 #define WT_DATA_STORE_H
 
+#include "base/own_files.h"
 #include "data/hdf5_door.h"
 #include "data/table.h"
 
@@ -10,9 +11,6 @@
  * curves has the second, so that a program that knows only the first does not lose the curves. */
 enum { STORE_FORMAT = 1, STORE_FORMAT_MAP = 2 };
 
-#define STORE_FORMAT_ATTRIBUTE "weartrack_format"
-/* Marks a file with a map, by which it is known before HDF5 opens it: its first attribute. */
-#define STORE_MAP_ATTRIBUTE "weartrack_force_map"
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"
 #define STORE_CREATED_ATTRIBUTE "created"

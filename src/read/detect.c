@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/formats.h"
 #include "read/text/text.h"
 
@@ -162,6 +163,7 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
         if (is_asked(formats_reader(formats, i), q, kinds))
             open[n_open++] = formats_reader(formats, i);
     size_t want = FIRST_PEEK;
+    shortage_forget();
     while (n_open > 0) {
         file_peek peek = {.name = wt_input_name(input), .input = input};
         size_t need = 0, still_open = 0;
@@ -189,7 +191,7 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
         want = need > twice ? need : twice;
     }
     free(open);
-    return status;
+    return shortage_end(status, err);
 }
 
 static const char *kind_words(unsigned kinds)

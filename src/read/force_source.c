@@ -310,7 +310,8 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
     const size_t n = facts->n_points;
     force_plan plan = {.n = 0};
     wt_status status = WT_OK;
-    /* A segment that says nothing of it leaves what those before it said. */
+    /* A segment that says nothing of it leaves what those before it said, and took. */
+    const bool taken = curve->n_segments > 0 && curve->cantilever.sensitivity_given;
     if (!isnan(used.spring_constant) || !isnan(used.sensitivity))
         curve->cantilever = used;
     if (n == 0)
@@ -324,7 +325,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
     if (status != WT_OK)
         return status;
     sort_columns(&plan);
-    if (used.sensitivity_given && !takes_sensitivity(facts, &plan)) {
+    if (used.sensitivity_given && !taken && !takes_sensitivity(facts, &plan)) {
         curve->cantilever.sensitivity = (double)NAN;
         curve->cantilever.sensitivity_given = false;
     }

@@ -3,6 +3,7 @@
 
 #include "read/reader.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define MAX_PIXELS ((size_t)1 << 28)
@@ -33,9 +34,29 @@ void images_set_size(wt_image *head, double width, double height)
     head->height = height * (double)(head->n_rows - 1) / (double)head->n_rows;
 }
 
-wt_status images_end(image_list *list, wt_status status, wt_image **images, size_t *n,
-                     wt_error *err)
+static void note_missing(wt_image *image, const char *file, wt_parselog *log)
 {
+    const size_t n = image->n_columns * image->n_rows;
+    size_t missing = 0;
+    for (size_t i = 0; i < n; i++)
+        missing += isfinite(image->values[i]) ? 0 : 1;
+    if (missing > 0)
+        wt_parselog_add(log, WT_WARNING, file, image->name,
+                        "%zu of %zu pixels are not finite numbers and left out", missing, n);
+    /* One line has no height, and one column no width. */
+    if (!(image->width > 0) && image->n_columns > 1)
+        image->width = (double)NAN;
+    if (!(image->height > 0) && image->n_rows > 1)
+        image->height = (double)NAN;
+    if (isnan(image->width) || isnan(image->height))
+        wt_parselog_add(log, WT_WARNING, file, image->name, "the size of the image is not known");
+}
+
+wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
+                     wt_image **images, size_t *n, wt_error *err)
+{
+    for (size_t i = 0; status == WT_OK && i < list->n; i++)
+        note_missing(&list->images[i], file, log);
     if (status == WT_OK && list->n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the file holds no image");
     if (status == WT_OK) {
@@ -69,6 +90,12 @@ wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read
         wt_image_clear(&images[i]);
     }
     free(images);
+    if (status == WT_E_MEMORY && facts->err != NULL)
+        *facts->err = no_images;
+    if (status == WT_E_MEMORY)
+        return status;
+    if (curves == WT_OK && status != WT_OK && status != WT_E_EMPTY)
+        facts_add(facts, "image not read", "", "", "%s", no_images.message);
     if (curves == WT_OK || (curves == WT_E_EMPTY && status == WT_OK))
         return WT_OK;
     /* Of two that are damaged the curves say it. */

@@ -20,9 +20,10 @@ typedef struct image_list {
 wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err);
 /* The size of an area of that many pixels side by side. */
 void images_set_size(wt_image *head, double width, double height);
-/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. */
-wt_status images_end(image_list *list, wt_status status, wt_image **images, size_t *n,
-                     wt_error *err);
+/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. What is
+ * missing of an image, pixels or its size, goes to the log; a size that is none is NaN. */
+wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
+                     wt_image **images, size_t *n, wt_error *err);
 /* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
  * with `curves` and `no_curves`: no curves are no failure beside an image. */
 struct file_reader;

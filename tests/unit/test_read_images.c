@@ -158,6 +158,12 @@ static void nanoscope_image(void **state)
         assert_near(images[0].values[0], 100 * 6.5536 / (width == 2 ? 65536.0 : 4294967296.0),
                     1e-12);
         clear(images, n);
+        for (size_t i = 0; i < width; i++) /* the least count was not measured */
+            m.bytes[DATA + i] = i + 1 < width ? 0 : 0x80;
+        assert_int_equal(read_made(&m, &images, &n, NULL), WT_OK);
+        assert_true(isnan(images[0].values[0]));
+        assert_true(images[0].values[1] > 0);
+        clear(images, n);
     }
 }
 

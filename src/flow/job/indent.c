@@ -310,7 +310,9 @@ static wt_status read_file(indent_task *task, wt_error *err)
                                err);
     if (status == WT_OK) {
         const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
-        task->n_read = task->n_written = 0;
+        for (size_t i = 0; i < task->n_items; i++) /* a file before may have failed half-way */
+            task->items[i].state = ITEM_FREE;
+        task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
         status = wt_parallel_for(n < task->n_workers ? n : task->n_workers, task->n_workers,

@@ -113,7 +113,12 @@ static void judge(const wt_spot_job *job, const spot_field *f, bool covered, spo
     wt_format_si(s->contact, "m", 3, contact, sizeof contact);
     wt_format_si(s->contact * sqrt(M_PI / (SPOT_LEAST_PIXELS + 2)), "m", 2, need, sizeof need);
     wt_format_si(s->contact + s->error, "m", 3, within, sizeof within);
-    if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+    if (s->x < 0 || s->y < 0 || s->x > f->dx * (double)(f->nx - 1) ||
+        s->y > f->dy * (double)(f->ny - 1))
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "cannot say: the place lies outside of the image; its coordinates, as the "
+                      "image counts them, would tell (--at-x, --at-y)");
+    else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
         clocale_print(
             s->verdict, sizeof s->verdict,
             "cannot say: pixels of %s are too coarse for a contact radius of %s (%zu in it, "

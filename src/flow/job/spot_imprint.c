@@ -68,6 +68,8 @@ static wt_status find_deepest(const spot_field *difference, const spot *s, impri
 static wt_status measure_dent(const spot_field *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
+    if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+        return WT_OK; /* far more places than pixels */
     const spot_places p = spot_places_lay(difference, 2 * s->contact);
     spot_dent here;
     double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);

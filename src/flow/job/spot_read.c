@@ -7,11 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What is in metres, but of the lever. */
+static bool is_of_lever(const wt_image *image)
+{
+    return strncmp(image->name, "Deflection", strlen("Deflection")) == 0 ||
+           strncmp(image->name, "Amplitude", strlen("Amplitude")) == 0;
+}
+
 static bool has_heights(const wt_image *image, const char *name)
 {
     return strcmp(image->unit, "m") == 0 && image->n_rows > 1 && image->n_columns > 1 &&
            image->width > 0 && image->height > 0 &&
-           (name == NULL || strstr(image->name, name) != NULL);
+           (name == NULL ? !is_of_lever(image) : strstr(image->name, name) != NULL);
 }
 
 wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,
@@ -41,6 +48,7 @@ wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *
                     job->image != NULL ? " called " : "", job->image != NULL ? job->image : "");
         wt_error_file(err, path);
         wt_error_expected(err, "two or more lines of heights in metres, over an area in metres");
+        wt_error_found(err, "images: %zu; `weartrack info FILE` shows them", n);
     }
     return status;
 }

@@ -1,6 +1,7 @@
 /* Parts of an input. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/window.h"
 
+#include "base/shortage.h"
 #include "read/bytes/scratch.h"
 
 #include <stdlib.h>
@@ -80,5 +81,7 @@ bool input_has(wt_input *input, const char *words)
         at += n - length + 1; /* what begins in one piece may end in the next */
     }
     window_close(&w);
+    if (status == WT_E_MEMORY)
+        shortage_note();
     return found;
 }

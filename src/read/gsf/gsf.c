@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/number.h"
+#include "base/utf8.h"
 #include "read/bytes/window.h"
 #include "read/images.h"
 #include "read/reader.h"
@@ -17,7 +18,7 @@ static const char first_line[] = "Gwyddion Simple Field 1.0\n";
 
 typedef struct gsf_header {
     size_t n_columns, n_rows;
-    double width, height, x, y; /* NaN if not there */
+    double width, height; /* NaN if not there */
     char unit_xy[16], unit_z[16], title[48];
     size_t data; /* where the samples begin */
 } gsf_header;
@@ -39,7 +40,7 @@ static double value_of(const char *text, size_t n)
 static size_t count_of(const char *text, size_t n)
 {
     const double value = value_of(text, n);
-    return value >= 1 && value <= 1e9 ? (size_t)value : 0;
+    return value >= 1 && value <= 1e9 && value == floor(value) ? (size_t)value : 0;
 }
 
 static void take_value(gsf_header *h, const char *key, size_t n_key, const char *text, size_t n)
@@ -54,8 +55,6 @@ static void take_value(gsf_header *h, const char *key, size_t n_key, const char 
                  {"YRes", &h->n_rows, NULL, NULL, 0},
                  {"XReal", NULL, &h->width, NULL, 0},
                  {"YReal", NULL, &h->height, NULL, 0},
-                 {"XOffset", NULL, &h->x, NULL, 0},
-                 {"YOffset", NULL, &h->y, NULL, 0},
                  {"XYUnits", NULL, NULL, h->unit_xy, sizeof h->unit_xy},
                  {"ZUnits", NULL, NULL, h->unit_z, sizeof h->unit_z},
                  {"Title", NULL, NULL, h->title, sizeof h->title}};
@@ -113,23 +112,19 @@ static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
     return WT_OK;
 }
 
-/* SI units; what is no length keeps its unit. Without the size of an area the pixels have none. */
-static void make_head(const gsf_header *h, const char *name, wt_parselog *log, wt_image *head,
-                      double *factor)
+/* SI units; what is no length keeps its unit. Without the size of an area the pixels have none.
+ * Places count from the lower left corner: the offsets, which point downwards, are not taken. */
+static void make_head(const gsf_header *h, wt_image *head, double *factor)
 {
     double lateral = 1, offset = 0;
     *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows, .x_unit = "m"};
-    if (h->unit_xy[0] != '\0' &&
+    if (h->unit_xy[0] == '\0' ||
         wt_unit_to_si(h->unit_xy, WT_Q_LENGTH, &lateral, &offset, NULL) != WT_OK)
         lateral = (double)NAN;
-    if (!(h->width > 0) || !(h->height > 0) || isnan(lateral))
-        wt_parselog_add(log, WT_WARNING, name, "XReal, YReal, XYUnits",
-                        "the size of the image is not known");
     images_set_size(head, lateral * (h->width > 0 ? h->width : (double)NAN),
                     lateral * (h->height > 0 ? h->height : (double)NAN));
-    head->x_min = isfinite(lateral * h->x) ? lateral * h->x : 0;
-    head->y_min = isfinite(lateral * h->y) ? lateral * h->y : 0;
     snprintf(head->name, sizeof head->name, "%s", h->title[0] != '\0' ? h->title : "field");
+    utf8_tidy(head->name); /* it may be cut within a character */
     const bool length = h->unit_z[0] != '\0' &&
                         wt_unit_to_si(h->unit_z, WT_Q_LENGTH, factor, &offset, NULL) == WT_OK;
     if (!length)
@@ -149,7 +144,6 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
     image_list list = {NULL, 0};
     wt_image head = {.n_columns = 0};
     double factor = 1, *values = NULL;
-    size_t missing = 0;
     (void)self;
     (void)options;
     wt_status status = read_header(input, &h, err);
@@ -158,12 +152,12 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
     if (status == WT_OK &&
         (h.data > window.size || (window.size - h.data) / 4 / h.n_columns != h.n_rows ||
          window.size - h.data != 4 * h.n_columns * h.n_rows)) {
-        wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
         status = corrupt(err, "the size of the file contradicts its header",
                          "four bytes for each of XRes x YRes pixels");
+        wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
     }
     if (status == WT_OK) {
-        make_head(&h, wt_input_name(input), log, &head, &factor);
+        make_head(&h, &head, &factor);
         status = images_add(&list, &head, &values, err);
     }
     for (size_t row = 0; status == WT_OK && row < h.n_rows; row++) {
@@ -171,14 +165,11 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
         status =
             window_bytes(&window, h.data + 4 * h.n_columns * row, 4 * h.n_columns, &bytes, err);
         if (status == WT_OK)
-            missing += samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
-                                      values + (h.n_rows - 1 - row) * h.n_columns);
+            (void)samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
+                                 values + (h.n_rows - 1 - row) * h.n_columns);
     }
-    if (missing > 0)
-        wt_parselog_add(log, WT_WARNING, wt_input_name(input), head.name,
-                        "%zu pixels are not finite numbers and left out", missing);
     window_close(&window);
-    return images_end(&list, status, images, n_images, err);
+    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 static recognition detect(const file_reader *self, file_peek *peek)

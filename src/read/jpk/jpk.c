@@ -13,8 +13,9 @@
 
 static bool contains(const file_peek *peek, const char *text)
 {
-    return memmem(peek->bytes, peek->length, text, strlen(text)) != NULL ||
-           (!peek->whole && input_has(peek->input, text));
+    /* Looking through the input may move what was shown of a pipe. */
+    return peek->whole ? memmem(peek->bytes, peek->length, text, strlen(text)) != NULL
+                       : input_has(peek->input, text);
 }
 
 /* Names of entries stand unpacked in the archive; a name this long does not come about by chance in

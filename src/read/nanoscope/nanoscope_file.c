@@ -138,8 +138,8 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
     else if (c.quantity == WT_Q_DEFLECTION_VOLTAGE)
         f->cantilever.sensitivity = soft;
     if (!find_grid(f, bytes, &c.width)) {
-        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples(f));
         wt_fail(err, WT_E_CORRUPT, "the size of a block agrees with no number of curves");
+        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples(f));
         wt_error_place(err, "\\*" BLOCK ", Data length");
         wt_error_expected(err, "2 or 4 bytes for each sample of all curves");
         return WT_E_CORRUPT;

@@ -6,6 +6,7 @@
 #include "read/nanoscope/nanoscope.h"
 
 #include "base/number.h"
+#include "read/bytes/bytes.h"
 #include "read/images.h"
 
 #include <math.h>
@@ -100,9 +101,13 @@ static wt_status read_block(const nanoscope_header *h, size_t section, input_win
     wt_status status = images_add(list, &head, &values, err);
     if (status == WT_OK)
         status = window_bytes(w, offset, bytes, &data, err);
+    const size_t n = head.n_columns * head.n_rows;
     if (status == WT_OK)
-        (void)samples_decode(width == 2 ? SAMPLE_INT16 : SAMPLE_INT32, false, data,
-                             head.n_columns * head.n_rows, scale, 0, values);
+        (void)samples_decode(width == 2 ? SAMPLE_INT16 : SAMPLE_INT32, false, data, n, scale, 0,
+                             values);
+    for (size_t i = 0; status == WT_OK && i < n; i++) /* the least count was not measured */
+        if (width == 2 ? le16(data + 2 * i) == 0x8000u : le32(data + 4 * i) == 0x80000000u)
+            values[i] = (double)NAN;
     return status;
 }
 
@@ -117,7 +122,6 @@ wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_re
     bool all = false;
     (void)self;
     (void)options;
-    (void)log;
     wt_status status = wt_input_peek(input, NANOSCOPE_HEADER_MAX, &bytes, &n, &all, err);
     if (status == WT_OK && !nanoscope_is(bytes, n))
         status = corrupt(err, "damaged header", "\\*File list or \\*Force file list");
@@ -133,5 +137,5 @@ wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_re
     }
     window_close(&window);
     nanoscope_header_clear(&header);
-    return images_end(&list, status, images, n_images, err);
+    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }

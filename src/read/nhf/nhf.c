@@ -208,13 +208,6 @@ static double rise(const double *values, size_t n)
     return n > first ? values[n - 1] - values[first] : 0;
 }
 
-static wt_status unreadable(wt_error *err)
-{
-    wt_fail(err, WT_E_CORRUPT, "the numbers of a channel cannot be read");
-    wt_error_expected(err, "as many as the file says");
-    return WT_E_CORRUPT;
-}
-
 /* Whether heights fall towards the sample is known from other programs only: the first way in
  * tells.
  */
@@ -227,8 +220,9 @@ static wt_status turn_heights(measurement *m, wt_error *err)
             const size_t n = m->segments[s].n_curves > 0 ? (size_t)m->segments[s].sizes[0] : 0;
             if (m->segments[s].kind != WT_SEGMENT_APPROACH || channel->quantity != WT_Q_HEIGHT)
                 continue;
-            if (!nhf_channel_take(channel, 0, n))
-                return unreadable(err);
+            const wt_status status = nhf_channel_take(channel, 0, n, err);
+            if (status != WT_OK)
+                return status;
             way = rise(channel->values, n);
         }
     for (size_t s = 0; s < m->n_segments && way > 0; s++)
@@ -252,8 +246,9 @@ static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *
                            .cantilever = m->cantilever,
                            .n_columns = s->n_channels};
         for (size_t c = 0; c < s->n_channels; c++) {
-            if (!nhf_channel_take(&s->channels[c], s->from, n))
-                return unreadable(err);
+            const wt_status status = nhf_channel_take(&s->channels[c], s->from, n, err);
+            if (status != WT_OK)
+                return status;
             double *const values = s->channels[c].values;
             text.columns[c].quantity = s->channels[c].quantity;
             text.columns[c].values = values;

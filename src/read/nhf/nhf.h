@@ -37,7 +37,7 @@ typedef struct nhf_channel {
 bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *channel,
                       const char **problem);
 /* Has numbers [from, from + n), which are there, at hand; false if they cannot be read. */
-bool nhf_channel_take(nhf_channel *channel, size_t from, size_t n);
+wt_status nhf_channel_take(nhf_channel *channel, size_t from, size_t n, wt_error *err);
 void nhf_channel_close(nhf_channel *channel);
 /* Lateral positions in metres, new; NULL if what the numbers mean is not understood. */
 double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n);

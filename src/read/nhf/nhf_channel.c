@@ -202,19 +202,22 @@ bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_ch
     return c->n > 0;
 }
 
-bool nhf_channel_take(nhf_channel *c, size_t from, size_t n)
+wt_status nhf_channel_take(nhf_channel *c, size_t from, size_t n, wt_error *err)
 {
     if (n > c->room) {
         double *const values = realloc(c->values, n * sizeof *values);
         if (values == NULL)
-            return false;
+            return wt_fail(err, WT_E_MEMORY, "no memory for the numbers of a channel");
         c->values = values;
         c->room = n;
     }
-    if (n > 0 && !hdf5_rows(c->data, from, n, c->values))
-        return false;
+    if (n > 0 && !hdf5_rows(c->data, from, n, c->values)) {
+        wt_fail(err, WT_E_CORRUPT, "the numbers of a channel cannot be read");
+        wt_error_expected(err, "as many as the file says");
+        return WT_E_CORRUPT;
+    }
     to_units(c->values, n, c->missing, c->factor, c->scaling);
-    return true;
+    return WT_OK;
 }
 
 void nhf_channel_close(nhf_channel *c)

@@ -134,11 +134,11 @@ bool nid_line_length(const nid_header *header, const char *section, size_t line,
 
 /* ---- all lines ------------------------------------------------------------------------------ */
 
-static void name_section(nid_header *header, size_t number, const char *name)
+/* *next: the first one that has no name yet; they are in the order of the sections. */
+static void name_section(nid_header *header, size_t number, const char *name, size_t *next)
 {
-    for (size_t i = 0; i < header->n_lengths; i++)
-        if (header->lengths[i].number == number)
-            header->lengths[i].section = name;
+    while (*next < header->n_lengths && header->lengths[*next].number == number)
+        header->lengths[(*next)++].section = name;
 }
 
 static void parse_line(nid_header *header, char *line, const char **section)
@@ -162,7 +162,7 @@ static void parse_line(nid_header *header, char *line, const char **section)
 
 static wt_status parse(nid_header *header, wt_error *err)
 {
-    size_t lines = 1, n_sections = 0;
+    size_t lines = 1, n_sections = 0, n_named = 0;
     for (const char *p = header->text; *p != '\0'; p++)
         lines += *p == '\n';
     header->items = calloc(lines, sizeof *header->items);
@@ -177,7 +177,7 @@ static wt_status parse(nid_header *header, wt_error *err)
             *end++ = '\0';
         parse_line(header, line, &section);
         if (is_section)
-            name_section(header, ++n_sections, section);
+            name_section(header, ++n_sections, section, &n_named);
         line = end;
     }
     qsort(header->items, header->n, sizeof *header->items, by_name_and_place);

@@ -112,12 +112,15 @@ static bool is_park(const park_tags *tags)
     return tags->magic.there && tags->magic.n == 4;
 }
 
-/* UTF-16 that is ASCII. */
+/* UTF-16 that is ASCII, but for the two letters of micro. */
 static void read_name(const unsigned char *from, char *to, size_t size)
 {
     size_t n = 0;
-    for (; n + 1 < size && le16(from + 2 * n) != 0; n++)
-        to[n] = le16(from + 2 * n) < 0x80 ? (char)from[2 * n] : '?';
+    for (; n + 1 < size && le16(from + 2 * n) != 0; n++) {
+        const unsigned letter = le16(from + 2 * n);
+        const bool micro = letter == 0xb5 || letter == 0x3bc;
+        to[n] = (char)(micro ? 'u' : letter < 0x80 ? letter : '?');
+    }
     to[n] = '\0';
 }
 
@@ -165,10 +168,11 @@ static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
     if (f->n_channels == 0 || f->n_channels > CHANNELS || f->n_samples < 2 || f->n_curves == 0 ||
         block / 4 / f->n_channels / f->n_samples != f->n_curves ||
         block != 4 * f->n_channels * f->n_samples * f->n_curves) {
+        fail(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
+             "four bytes for each sample");
         wt_error_found(err, "%zu bytes for %zu curves of %zu channels of %zu samples", block,
                        f->n_curves, f->n_channels, f->n_samples);
-        return fail(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
-                    "four bytes for each sample");
+        return WT_E_CORRUPT;
     }
     for (size_t c = 0; c < f->n_channels; c++)
         read_channel(header + SLOT * c, c, &f->channels[c]);
@@ -369,10 +373,11 @@ static wt_status read_picture_header(const unsigned char *header, const park_tag
     if (number >= sizeof types / sizeof *types || head->n_columns == 0 || head->n_rows == 0 ||
         size / sample_width(*type) / head->n_columns != head->n_rows ||
         size != sample_width(*type) * head->n_columns * head->n_rows) {
+        fail(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
+             "16 bits, 32 bits or a float for each pixel");
         wt_error_found(err, "%zu bytes for %zu x %zu pixels of type %zu", size, head->n_columns,
                        head->n_rows, number);
-        return fail(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
-                    "16 bits, 32 bits or a float for each pixel");
+        return WT_E_CORRUPT;
     }
     read_name(header + PICTURE_NAME, head->name, 33);
     images_set_size(head, 1e-6 * float_at(header + PICTURE_WIDTH),
@@ -420,7 +425,6 @@ static wt_status park_images(const file_reader *self, wt_input *input,
     park_tags tags = {.magic = {.n = 0}};
     (void)self;
     (void)options;
-    (void)log;
     wt_status status = window_open(&window, input, err);
     if (status == WT_OK)
         status = find_tags(&window, &tags, err);
@@ -436,7 +440,7 @@ static wt_status park_images(const file_reader *self, wt_input *input,
     if (status == WT_OK)
         status = read_picture(&window, &tags, &list, err);
     window_close(&window);
-    return images_end(&list, status, images, n_images, err);
+    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 /* ---- the descriptor ---------------------------------------------------------------------------
