@@ -25,13 +25,48 @@ static bool left_out(const spot_field *f, const region *r, size_t i, size_t j)
 
 /* ---- whole pixels ---------------------------------------------------------------------------- */
 
-/* Variance of the difference with the second image moved by whole pixels; infinite where fewer
- * than `least` pixels meet. */
+/* Adds the differences of a line, less a height near to all of them, to the equations of a plane
+ * through them, and gives their squares; u is where the line begins. */
+static double add_line(const double *was, const double *is, size_t pixels, const double u[2],
+                       double *height, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+{
+    double n = 0, along = 0, along_along = 0, sum = 0, sum_along = 0, squares = 0, first = *height,
+           at = u[0];
+    for (size_t i = 0; i < pixels; i++, at++) {
+        double d = is[i] - was[i];
+        if (!isfinite(d))
+            continue;
+        first = isnan(first) ? d : first;
+        d -= first;
+        n++;
+        along += at;
+        along_along += at * at;
+        sum += d;
+        sum_along += at * d;
+        squares += d * d;
+    }
+    *height = first;
+    const double lower[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{n},
+                                                        {along, along_along},
+                                                        {u[1] * n, u[1] * along, u[1] * u[1] * n}},
+                 right[SPOT_UNKNOWNS] = {sum, sum_along, u[1] * sum};
+    for (size_t p = 0; p < SPOT_UNKNOWNS; p++) {
+        for (size_t q = 0; q <= p; q++)
+            m[p][q] += lower[p][q];
+        v[p] += right[p];
+    }
+    return squares;
+}
+
+/* Variance of the difference with the second image moved by whole pixels, less its plane: a tilt
+ * between the images would make the fewest pixels that meet fit best. Infinite where fewer than
+ * `least` do. */
 static double misfit(const spot_field *before, const spot_field *after, const region *r,
                      const long s[2], size_t least)
 {
-    double sum = 0, squares = 0, first = (double)NAN;
-    size_t n = 0, from[2], to[2];
+    double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0,
+           first = (double)NAN;
+    size_t from[2], to[2];
     const size_t *range[2] = {r->i, r->j}, size[2] = {after->nx, after->ny};
     for (int k = 0; k < 2; k++) {
         const long low = -s[k], high = (long)size[k] - s[k];
@@ -43,22 +78,18 @@ static double misfit(const spot_field *before, const spot_field *after, const re
     if ((to[0] - from[0]) * (to[1] - from[1]) < least)
         return (double)INFINITY;
     for (size_t j = from[1]; j < to[1]; j++) {
-        const double *was = before->z + j * before->nx,
-                     *is = after->z + (size_t)((long)j + s[1]) * after->nx;
-        for (size_t i = from[0]; i < to[0]; i++) {
-            double d = is[(size_t)((long)i + s[0])] - was[i];
-            if (!isfinite(d))
-                continue;
-            first = n == 0 ? d : first;
-            d -= first;
-            sum += d;
-            squares += d * d;
-            n++;
-        }
+        const double u[2] = {-0.5 * (double)(to[0] - from[0] - 1),
+                             (double)j - 0.5 * (double)(from[1] + to[1] - 1)};
+        const double *is = after->z + (size_t)((long)j + s[1]) * after->nx;
+        squares += add_line(before->z + j * before->nx + from[0],
+                            is + (size_t)((long)from[0] + s[0]), to[0] - from[0], u, &first, m, v);
     }
-    if (n < least || n == 0)
+    const double n = m[0][0], right[SPOT_UNKNOWNS] = {v[0], v[1], v[2]};
+    if (n < (double)least || !spot_solve(SPOT_UNKNOWNS, m, v))
         return (double)INFINITY;
-    return squares / (double)n - sum / (double)n * (sum / (double)n);
+    for (size_t p = 0; p < SPOT_UNKNOWNS; p++)
+        squares -= v[p] * right[p];
+    return squares / n;
 }
 
 /* The best shift within from..to of both axes. */
@@ -79,9 +110,8 @@ static bool search(const spot_field *before, const spot_field *after, const regi
     return isfinite(best);
 }
 
-/* Means of f x f pixels; those in the disc of a region, unless NULL, are left out. */
-static wt_status coarsen(const spot_field *of, size_t f, const region *r, spot_field *to,
-                         wt_error *err)
+/* Means of f x f pixels. */
+static wt_status coarsen(const spot_field *of, size_t f, spot_field *to, wt_error *err)
 {
     *to = (spot_field){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
     double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
@@ -93,8 +123,7 @@ static wt_status coarsen(const spot_field *of, size_t f, const region *r, spot_f
             for (size_t b = 0; b < f; b++)
                 for (size_t a = 0; a < f; a++)
                     sum += of->z[(j * f + b) * of->nx + i * f + a];
-            z[j * to->nx + i] =
-                r != NULL && left_out(to, r, i, j) ? (double)NAN : sum / (double)(f * f);
+            z[j * to->nx + i] = sum / (double)(f * f);
         }
     to->z = z;
     return WT_OK;
@@ -105,9 +134,9 @@ static wt_status search_level(const spot_field *before, const spot_field *after,
                               size_t f, bool first, long shift[2], bool *found, wt_error *err)
 {
     spot_field small[2] = {{0}, {0}};
-    wt_status status = coarsen(before, f, &all, &small[0], err);
+    wt_status status = coarsen(before, f, &small[0], err);
     if (status == WT_OK)
-        status = coarsen(after, f, NULL, &small[1], err);
+        status = coarsen(after, f, &small[1], err);
     if (status == WT_OK) {
         const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
         const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - NEAR,
@@ -211,9 +240,32 @@ static bool refine(const spot_field *before, const spot_field *after, const regi
     return false;
 }
 
-/* The parts of what both images show. */
-static size_t find_parts(const spot_field *before, const spot_field *after, const region *all,
-                         const long whole[2], part parts[PARTS])
+/* The image with nothing known in the disc. */
+static wt_status cut_disc(const spot_field *f, const region *r, spot_field *to, wt_error *err)
+{
+    double *z = malloc(f->nx * f->ny * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t j = 0; j < f->ny; j++)
+        for (size_t i = 0; i < f->nx; i++)
+            z[j * f->nx + i] = left_out(f, r, i, j) ? (double)NAN : f->z[j * f->nx + i];
+    *to = *f;
+    to->z = z;
+    return WT_OK;
+}
+
+static size_t count_outside(const spot_field *f, const region *r)
+{
+    size_t n = 0;
+    for (size_t j = r->j[0]; j < r->j[1]; j++)
+        for (size_t i = r->i[0]; i < r->i[1]; i++)
+            n += !left_out(f, r, i, j);
+    return n;
+}
+
+/* The parts of what both images show; `cut` is the first without the disc. */
+static size_t find_parts(const spot_field *before, const spot_field *cut, const spot_field *after,
+                         const region *all, const long whole[2], part parts[PARTS])
 {
     size_t from[2], to[2], n = 0;
     const size_t size[2] = {before->nx, before->ny}, other[2] = {after->nx, after->ny};
@@ -235,8 +287,7 @@ static size_t find_parts(const spot_field *before, const spot_field *after, cons
             const long low[2] = {whole[0] - NEAR, whole[1] - NEAR},
                        high[2] = {whole[0] + NEAR, whole[1] + NEAR};
             long shift[2] = {0, 0};
-            const size_t pixels = (r.i[1] - r.i[0]) * (r.j[1] - r.j[0]);
-            if (!search(before, after, &r, low, high, pixels / 4, shift))
+            if (!search(cut, after, &r, low, high, count_outside(cut, &r) / 4, shift))
                 continue;
             *p = (part){.x = 0.5 * (double)(r.i[0] + r.i[1] - 1) * before->dx,
                         .y = 0.5 * (double)(r.j[0] + r.j[1] - 1) * before->dy,
@@ -330,7 +381,14 @@ wt_status spot_align(const spot_field *before, const spot_field *after, double x
                           .x_error = (double)NAN,
                           .y_error = (double)NAN,
                           .overlap = (double)NAN};
-    const wt_status status = find_whole(before, after, &all, whole, &found, err);
+    spot_field cut = {.z = NULL};
+    size_t n = 0;
+    wt_status status = cut_disc(before, &all, &cut, err);
+    if (status == WT_OK)
+        status = find_whole(&cut, after, &all, whole, &found, err);
+    if (status == WT_OK && found)
+        n = find_parts(before, &cut, after, &all, whole, parts);
+    free((void *)cut.z);
     if (status != WT_OK || !found)
         return status;
     const double left[2] = {fmax(0, -(double)whole[0]), fmax(0, -(double)whole[1])},
@@ -338,7 +396,6 @@ wt_status spot_align(const spot_field *before, const spot_field *after, double x
                              fmin((double)before->ny, (double)after->ny - (double)whole[1])};
     shift->overlap =
         (right[0] - left[0]) * (right[1] - left[1]) / ((double)before->nx * (double)before->ny);
-    size_t n = find_parts(before, after, &all, whole, parts);
     if (!fit_parts(parts, &n, &all, length, d))
         return WT_OK;
     shift->blocks = n;

@@ -14,10 +14,12 @@
 static void span(double centre, double reach, double step, size_t n, size_t *first, size_t *last)
 {
     const double low = ceil((centre - reach) / step), high = floor((centre + reach) / step);
+    *first = 1;
+    *last = 0;
+    if (!(high >= 0 && low <= (double)(n - 1)))
+        return; /* such numbers may not fit */
     *first = low > 0 ? (size_t)low : 0;
-    *last = high < 0 ? 0 : high < (double)(n - 1) ? (size_t)high : n - 1;
-    if (high < 0 || low > (double)(n - 1))
-        *first = *last + 1;
+    *last = high < (double)(n - 1) ? (size_t)high : n - 1;
 }
 
 bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_UNKNOWNS])
@@ -54,8 +56,8 @@ static void visit_disc(const spot_field *f, double x, double y, double radius, d
     size_t first[2], last[2];
     span(x, radius, f->dx, f->nx, &first[0], &last[0]);
     span(y, radius, f->dy, f->ny, &first[1], &last[1]);
-    for (size_t j = first[1]; j <= last[1] && first[1] < f->ny; j++)
-        for (size_t i = first[0]; i <= last[0] && first[0] < f->nx; i++) {
+    for (size_t j = first[1]; j <= last[1]; j++)
+        for (size_t i = first[0]; i <= last[0]; i++) {
             const double u = (double)i * f->dx - x, v = (double)j * f->dy - y, r = hypot(u, v);
             if (r <= radius)
                 visit(user, u / radius, v / radius, f->z[j * f->nx + i]);
@@ -181,7 +183,7 @@ static bool row_mean(const spot_field *f, size_t j, double low, double high, dou
     size_t first, last, n = 0;
     span(0.5 * (low + high), 0.5 * (high - low), f->dx, f->nx, &first, &last);
     *u = *z = 0;
-    for (size_t i = first; i <= last && i < f->nx; i++) {
+    for (size_t i = first; i <= last; i++) {
         const double value = f->z[j * f->nx + i];
         if (!isfinite(value))
             continue;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
+#include "fit/spot_image.h"
 #include "weartrack/flow.h"
 #include "writers/nid_writer.h"
 
@@ -66,9 +67,9 @@ static void add_wave(const surface *s, int wave, const double *x, const double *
             z[j * n + i] += of_x[0][i] * of_y[0][j] - of_x[1][i] * of_y[1][j];
 }
 
-static void write_image(const char *path, const surface *s, const view *v, uint64_t *state)
+static void make_heights(const surface *s, const view *v, uint64_t *state, double *z)
 {
-    static double z[N * N], x[N], y[N];
+    static double x[N], y[N];
     const size_t n = v->n;
     for (size_t i = 0; i < n; i++) {
         x[i] = ((double)i * v->width / (double)(n - 1) - v->shift_x) / (1 + v->strain);
@@ -84,6 +85,11 @@ static void write_image(const char *path, const surface *s, const view *v, uint6
     }
     for (int wave = 0; wave < s->n; wave++)
         add_wave(s, wave, x, y, n, z);
+}
+
+static void write_heights(const char *path, const double *z, const view *v)
+{
+    const size_t n = v->n;
     const nid_writer_channel channel = {1, "Z-Axis", "m", -1e-6, 2e-6, 32, z};
     const nid_writer_group group = {"Scan forward", n,   n,        NULL,     "X*", "m",
                                     "Y*",           "m", v->width, v->width, 1,    &channel};
@@ -92,6 +98,13 @@ static void write_image(const char *path, const surface *s, const view *v, uint6
     file.n_groups = 1;
     file.groups = &group;
     assert_int_equal(nid_write(&file), 0);
+}
+
+static void write_image(const char *path, const surface *s, const view *v, uint64_t *state)
+{
+    static double z[N * N];
+    make_heights(s, v, state, z);
+    write_heights(path, z, v);
 }
 
 static wt_spot_job job_of(double depth)
@@ -157,6 +170,48 @@ static void test_tilt(void **state)
     assert_near(cell(t, 0, "tilt"), hypot(0.1, 0.05), 0.01);
     assert_near(cell(t, 0, "roughness_median"), 0.1e-9, 0.05);
     wt_table_free(t);
+}
+
+/* Gwyddion Simple Field, which has missing heights. */
+static void write_field(const char *path, const double *z)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    const int n = fprintf(file,
+                          "Gwyddion Simple Field 1.0\nXRes = %d\nYRes = %d\nXReal = %g\n"
+                          "YReal = %g\nXYUnits = m\nZUnits = m\nTitle = height\n",
+                          N, N, WIDTH, WIDTH);
+    for (int i = n; i == n || i % 4 != 0; i++)
+        (void)fputc(0, file);
+    for (size_t i = 0; i < (size_t)N * N; i++) {
+        const float value = (float)z[i];
+        assert_int_equal(fwrite(&value, sizeof value, 1, file), 1);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Heights that end beside the contact: within the error of the position nobody knows how rough it
+ * is. */
+static void test_hole(void **state)
+{
+    (void)state;
+    static double z[N * N];
+    uint64_t seed = 9;
+    const surface s = random_surface(&seed);
+    make_heights(&s, &whole, &seed, z);
+    for (size_t i = 0; i < (size_t)N * N; i++)
+        z[i] = i % N < N / 2 + 5 ? z[i] : (double)NAN;
+    write_field(before, z);
+    wt_spot_job job = job_of(DEPTH);
+    for (int known = 0; known < 2; known++) {
+        job.position_error = known ? 0 : 3 * CONTACT;
+        wt_table *t = make(&job);
+        const char *verdict = wt_table_key(t, "roughness_verdict");
+        if (strstr(verdict, known ? "smooth enough: " : "not measured about each place") == NULL)
+            fail_msg("%s", verdict);
+        assert_int_equal(isnan(cell(t, 0, "roughness")), !known);
+        wt_table_free(t);
+    }
 }
 
 static void test_cannot_say(void **state)
@@ -233,14 +288,17 @@ static bool holds(const wt_table *t, const char *low, const char *high, double t
     return cell(t, 0, low) <= truth && cell(t, 0, high) >= truth;
 }
 
-/* How many of the draws of a scene hold the truth: depth, volume, drift in x and y. */
+/* How many of the draws of a scene hold the truth: depth, volume, drift in x and y; in none the
+ * change lies elsewhere. */
 static void count_draws(const scene *c, uint64_t first, int held[4], int *yes)
 {
+    int elsewhere = 0;
     double furthest = 0;
     for (uint64_t i = 0; i < DRAWS; i++) {
         double shift[2];
         wt_table *t = draw(c, first + i, shift);
         *yes += strncmp(wt_table_key(t, "imprint_verdict"), "yes", 3) == 0;
+        elsewhere += strstr(wt_table_key(t, "imprint_verdict"), "deepest") != NULL;
         held[0] += holds(t, "imprint_low", "imprint_high", dent_depth(c->dent));
         held[1] += holds(t, "imprint_volume_low", "imprint_volume_high", dent_volume(c->dent));
         const double off[2] = {cell(t, 0, "shift_x") - shift[0], cell(t, 0, "shift_y") - shift[1]};
@@ -250,6 +308,7 @@ static void count_draws(const scene *c, uint64_t first, int held[4], int *yes)
         wt_table_free(t);
     }
     assert_true(furthest < 0.05); /* of a pixel */
+    assert_in_range(elsewhere, 0, 0.05 * DRAWS);
 }
 
 /* Intervals hold the truth in 92 to 98 % of the draws of all scenes, and no scene stands out. */
@@ -275,6 +334,97 @@ static void test_imprint(void **state)
     }
     for (int i = 0; i < 4; i++)
         assert_in_range(all[i], 0.92 * SCENES * DRAWS, 0.98 * SCENES * DRAWS);
+}
+
+/* Dents beside the place given: on the same lines they make it look higher. Further away than it is
+ * looked for, they do not count as untouched places. */
+static void test_beside(void **state)
+{
+    (void)state;
+    static const struct {
+        double dent, x, y, error; /* in contact radii, but for the dent */
+        const char *verdict;
+    } cases[] = {
+        {5e-9, 1.6, 0, 2, "the change is deepest ("},
+        {20e-9, 2, 0, 2, "the change is deepest ("},
+        {20e-9, 3, 0, 1, "lower two to four contact radii beside"},
+        {20e-9, 0, 4.8, 5, "none is seen within two contact radii: "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint64_t seed = 20 + i;
+        surface s = random_surface(&seed);
+        wt_spot_job job = job_of(DEPTH);
+        job.after = after;
+        job.x = job.y = WIDTH / 2;
+        job.position_error = cases[i].error * CONTACT;
+        write_image(before, &s, &whole, &seed);
+        s.x = job.x + cases[i].x * CONTACT;
+        s.y = job.y + cases[i].y * CONTACT;
+        s.dent = cases[i].dent;
+        const view v = {N, WIDTH, 1.5 * STEP, 0.5 * STEP, 0};
+        write_image(after, &s, &v, &seed);
+        wt_table *t = make(&job);
+        if (strstr(wt_table_key(t, "imprint_verdict"), cases[i].verdict) == NULL)
+            fail_msg("%s is not in: %s", cases[i].verdict, wt_table_key(t, "imprint_verdict"));
+        if (i < 2) {
+            assert_true(hypot(cell(t, 0, "deepest_x") - s.x, cell(t, 0, "deepest_y") - s.y) <
+                        0.3 * CONTACT);
+            assert_near(cell(t, 0, "deepest"), dent_depth(s.dent), 0.1);
+        }
+        assert_true(cell(t, 0, "imprint_standard_error") < 0.2e-9);
+        wt_table_free(t);
+    }
+}
+
+/* The images as they lie in memory, N x N of WIDTH. */
+static spot_shift align(const double *a, const double *b, double radius)
+{
+    const spot_field f = {a, N, N, STEP, STEP}, g = {b, N, N, STEP, STEP};
+    spot_shift shift;
+    assert_int_equal(spot_align(&f, &g, WIDTH / 2, WIDTH / 2, radius, &shift, NULL), WT_OK);
+    return shift;
+}
+
+/* What the second image has besides the shift: a tilt, which makes two images differ the less the
+ * less of them meets, and a deep dent in the disc that is left out. */
+static void test_shift(void **state)
+{
+    (void)state;
+    static double a[N * N], b[N * N];
+    static const struct {
+        double tilt, dent;
+    } cases[] = {{0.005, 0}, {0.3, 0}, {0, 300e-9}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint64_t seed = 40;
+        surface s = random_surface(&seed);
+        const view v = {N, WIDTH, 4.25 * STEP, -2.5 * STEP, 0};
+        make_heights(&s, &whole, &seed, a);
+        s.tilt_x += cases[i].tilt;
+        s.tilt_y += cases[i].tilt / 2;
+        s.x = s.y = WIDTH / 2;
+        s.dent = cases[i].dent;
+        make_heights(&s, &v, &seed, b);
+        const spot_shift shift = align(a, b, 3 * CONTACT);
+        assert_true(shift.found);
+        assert_int_equal(shift.blocks, 16);
+        assert_true(hypot(shift.x - v.shift_x, shift.y - v.shift_y) < 0.05 * STEP);
+    }
+}
+
+/* Discs far off the image, also further than whole numbers count. */
+static void test_far_off(void **state)
+{
+    (void)state;
+    static const double z[4] = {1, 2, 3, 4};
+    const spot_field f = {z, 2, 2, STEP, STEP};
+    static const double places[] = {-1e15, -1, 1, 1e15, 1e300};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const spot_plane x = spot_plane_fit(&f, places[i], 0, CONTACT),
+                         y = spot_plane_fit(&f, 0, places[i], CONTACT);
+        assert_int_equal(x.n + x.missing + y.n + y.missing, 0);
+        assert_true(isnan(x.rms) && isnan(y.rms));
+    }
+    assert_int_equal(spot_plane_fit(&f, 0, 0, CONTACT).n, 4);
 }
 
 /* The map: a dent of known depth at the place, on a plane. */
@@ -377,6 +527,8 @@ int main(void)
         cmocka_unit_test(test_roughness),  cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_cannot_say), cmocka_unit_test(test_imprint),
         cmocka_unit_test(test_map),        cmocka_unit_test(test_no_imprint),
+        cmocka_unit_test(test_beside),     cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_far_off),    cmocka_unit_test(test_hole),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

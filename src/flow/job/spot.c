@@ -64,7 +64,8 @@ static double contact_radius(const wt_tip *tip, double depth)
     return slope / 2;
 }
 
-static void find_range(const spot_field *f, spot *s)
+/* False where it is not measured about one of the places. */
+static bool find_range(const spot_field *f, spot *s)
 {
     s->low = s->high = s->plane.rms;
     for (int j = -WITHIN; j <= WITHIN; j++)
@@ -72,10 +73,13 @@ static void find_range(const spot_field *f, spot *s)
             const double u = s->error * i / WITHIN, v = s->error * j / WITHIN;
             if (hypot(u, v) > s->error)
                 continue;
+            if (!spot_covers(f, s->x + u, s->y + v, s->contact))
+                return false;
             const double rms = spot_plane_fit(f, s->x + u, s->y + v, s->contact).rms;
             s->low = fmin(s->low, rms);
             s->high = fmax(s->high, rms);
         }
+    return true;
 }
 
 static wt_status find_median(const spot_field *f, spot *s, wt_error *err)
@@ -93,8 +97,7 @@ static wt_status find_median(const spot_field *f, spot *s, wt_error *err)
             if (!isnan(here))
                 rms[n++] = here;
         }
-    numbers_sort(rms, n);
-    s->median = n > 0 ? 0.5 * (rms[(n - 1) / 2] + rms[n / 2]) : (double)NAN;
+    s->median = n > 0 ? numbers_median(rms, n) : (double)NAN;
     free(rms);
     return WT_OK;
 }
@@ -128,8 +131,9 @@ static void judge(const wt_spot_job *job, const spot_field *f, bool covered, spo
         clocale_print(
             s->verdict, sizeof s->verdict,
             "cannot say: the contact radius of %s is not measured about each place that the "
-            "tip may have gone in; an image that reaches %s from the place would tell",
-            contact, within);
+            "tip may have gone in (%d heights and nine tenths of its pixels); an image that has "
+            "heights up to %s from the place would tell",
+            contact, SPOT_LEAST_PIXELS, within);
     else if (isnan(limit))
         clocale_print(
             s->verdict, sizeof s->verdict,
@@ -169,14 +173,12 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image, c
     const bool inside = s->x >= s->contact + s->error && s->y >= s->contact + s->error &&
                         s->x <= image->width - s->contact - s->error &&
                         s->y <= image->height - s->contact - s->error;
-    const bool covered = inside && spot_covers(f, s->x, s->y, s->contact);
+    const bool covered = inside && find_range(f, s);
     wt_status status = WT_OK;
-    if (covered) {
-        find_range(f, s);
+    if (covered)
         status = find_median(f, s, err);
-    } else if (s->plane.n >= SPOT_LEAST_PIXELS) {
+    else
         s->plane.rms = (double)NAN;
-    }
     judge(job, f, covered, s);
     return status;
 }
