@@ -296,7 +296,8 @@ typedef struct wt_group_data {
     double common_error[WT_COMMON_SOURCES];
     wt_estimate common_gain[WT_COMMON_SOURCES];
     double loss_error, bend_error; /* what all moduli may be off by alike, the bend with the sign
-                                      that it has in all; NaN if none was found */
+                                      that it has in all; 0 if none was found, NaN
+                                      if there is one and its size is not known */
     const char *tip;               /* in words; borrowed from the table; NULL if unknown */
     bool several_levers;           /* the curves have several spring constants */
     bool spots_given;              /* the user named the spots */

@@ -144,8 +144,9 @@ WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first
         const bool inside = (delta > 0.0) & (delta < z); /* no branch: noise decides */
         w->delta[i] = inside ? delta : z;
     }
-    const double deepest =
-        first < s->n ? curve_span_of(s->position + first, s->n - first).high - p[CURVE_C] : 0.0;
+    const double deepest = /* of a curve that does not touch it is not negative */
+        first < s->n ? fmax(0.0, curve_span_of(s->position + first, s->n - first).high - p[CURVE_C])
+                     : 0.0;
     /* After a step of 1e-7 the error is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {

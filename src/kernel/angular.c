@@ -248,8 +248,8 @@ static bool series_push(series_list *list, const series *s)
 }
 
 /* A piece that has been fitted, or its halves where it is not good enough: close knots, steep
- * tables. What is narrow may be worse, for it weighs less. `least`: the error of the best so far.
- */
+ * tables. What is narrow may be worse, for it weighs less. `vain`: cuts above it that gained
+ * little. */
 static bool series_add(const angular_law *a, series_list *list, const series *s, int cuts, int vain)
 {
     const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;

@@ -48,10 +48,12 @@ typedef struct compare_known {
     bool two_levers;
     bool lever_not_stated;      /* two, and the error of a spring constant is not known */
     bool temperature_not_known; /* they differ, and nothing says what that does */
+    bool loss_not_known;        /* curves lose work, and what that does to a modulus nothing says */
     bool rates_by_dma;          /* the curves do not say what their rates do; the DMA does */
     char out_of_reach[160];     /* a temperature to which no law takes the DMA, which was asked */
     double temperature[2];      /* [K]; NaN = not known */
     char includes[256];         /* in words: what the interval has beside the scatter */
+    char lacks[160];            /* what belongs into it, and its size is not known */
     char cancels[128];          /* and what it loses, but for what the gains differ by */
 } compare_known;
 

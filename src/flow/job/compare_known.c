@@ -26,8 +26,11 @@ static void include(compare_known *k, const char *sign, const char *words)
 /* Adds a variance to that of the offset; one that is not known is named. */
 static void add_error(compare_known *k, double error, const char *words)
 {
-    if (isnan(error))
+    if (isnan(error)) {
+        const size_t used = strlen(k->lacks);
         include(k, ", but not, for it is not known: ", words);
+        snprintf(k->lacks + used, sizeof k->lacks - used, "%s%s", used > 0 ? ", " : "", words);
+    }
     if (!(error > 0))
         return;
     k->offset.standard_error = hypot(k->offset.standard_error, error);
@@ -134,12 +137,13 @@ static void add_shown(const compare_pair *p, compare_known *k)
     double loss[2], bend[2];
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
-        loss[g] = d->loss_error > 0 && !p->by_factor ? d->loss_error : 0;
-        bend[g] = isnan(d->bend_error) ? 0 : d->bend_error;
+        loss[g] = p->by_factor ? 0 : d->loss_error;
+        bend[g] = d->bend_error;
     }
     const double of_loss = hypot(loss[0], loss[1]),
                  of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]);
     k->shown = hypot(of_loss, of_bend);
+    k->loss_not_known = isnan(of_loss);
     add_error(k, of_loss, "loss of unknown spectrum");
     add_error(k, of_bend, "bend of the baselines");
 }

@@ -170,6 +170,21 @@ static void judge_twist(const compare_row *rates, size_t n, double interaction, 
         number_chance(interaction).text);
 }
 
+/* An interval that lacks something shows no difference to be small. */
+static void say_lacking(const wt_compare_job *job, const compare_known *k, compare_verdict *v)
+{
+    SAY(v->differs,
+        "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
+        "not hold, for it is not known: %s",
+        percent(job->margin).text, k->lacks);
+    if (k->loss_not_known)
+        SAY(v->settled_by, "%s",
+            "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
+            "of the curves does to their moduli");
+    else
+        SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
+}
+
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
                               const compare_known *known, const compare_row *row,
                               const compare_row *rates, size_t n_rates)
@@ -185,7 +200,9 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     }
     const double low = log(c->ratio_low), high = log(c->ratio_high);
     const bool within = low > -margin && high < margin;
-    if (low > 0 || high < 0) {
+    if (within && known->lacks[0] != '\0') {
+        say_lacking(job, known, &v);
+    } else if (low > 0 || high < 0) {
         SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
             within ? ", by less than the margin" : "");
     } else if (within) {

@@ -44,8 +44,6 @@ static const char *const judged_words[N_JUDGED] = {
     [OF_CONTACT] = "contact points of the curves",
     [OF_RATIO] = "modulus ratio by its spots"};
 
-/* 95 % of a normal number. */
-
 /* One trial of one number: whether the truth lies within, as a share where there are several. */
 typedef struct hit {
     double one, both, deviation, variance; /* squares of the last two; `one` NaN: none was stated */

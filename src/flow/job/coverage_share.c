@@ -7,7 +7,6 @@
 #include <string.h>
 
 static const double stated = 0.95, least_held = 0.9;
-/* Quantile of 95 %, two-sided. */
 /* To each side: there are several numbers, and a false alarm among them is to be rare. */
 static const double alarm = 0.0025;
 /* More than these are not run. */

@@ -25,6 +25,12 @@ static int rising(const void *a, const void *b)
                                         : (x->row > y->row) - (x->row < y->row);
 }
 
+static int by_row(const void *a, const void *b)
+{
+    const place *x = a, *y = b;
+    return (x->row > y->row) - (x->row < y->row);
+}
+
 /* Of n rows of one frequency, whose files stand one behind another. values: scratch. */
 static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool loss,
                            double *values, long *units, size_t *n_units)
@@ -86,6 +92,8 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_
             to++;
         dwell_mean *m = &made[(*n)++];
         m->angular_frequency = at[from].frequency;
+        /* by frequency, what is nearly one, files interleave, and each curve would be a unit */
+        qsort(at + from, to - from, sizeof *at, by_row);
         m->n = to - from;
         m->storage = mean_of(&v, at + from, m->n, false, values, units, &m->n_units);
         m->loss = mean_of(&v, at + from, m->n, true, values, units, &m->n_units);

@@ -161,6 +161,12 @@ static named name_of(const table_view *t, size_t row, size_t item, bool each_pla
     return n;
 }
 
+/* What curves show; none where they were not asked, NaN where it is there and not known. */
+static double shown_error(const table_view *t, indentation_key key)
+{
+    return indentation_words(t, key) == NULL ? 0 : indentation_value(t, key).value;
+}
+
 /* What its curves share. */
 static void read_common(const table_view *t, wt_group_data *d)
 {
@@ -172,8 +178,8 @@ static void read_common(const table_view *t, wt_group_data *d)
         d->common_error[i] = indentation_value(t, error).value;
         d->common_gain[i] = indentation_value(t, gain);
     }
-    d->loss_error = indentation_value(t, INDENTATION_KEY_LOSS_ERROR).value;
-    d->bend_error = indentation_value(t, INDENTATION_KEY_BEND_ERROR).value;
+    d->loss_error = shown_error(t, INDENTATION_KEY_LOSS_ERROR);
+    d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
 }
 
 wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,

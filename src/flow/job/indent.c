@@ -75,10 +75,7 @@ typedef struct indent_task {
     size_t n_moduli;
     indent_together together;
     common_errors common;
-    wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
-    size_t n_deep;
-    long n_spots; /* of them */
-    const char *last_spot;
+    indent_depths depths;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
     bool by_sensitivity;  /* that of the job made a force */
     double squares;       /* of relative standard errors of their moduli */
@@ -171,40 +168,6 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
     snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
 }
 
-/* What a curve says of the modulus against depth, also where one modulus does not describe it. */
-static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
-{
-    const wt_indent_fit *fit = &it->fit;
-    if (fit->fitted_from > 0) /* what a law misses at small depths is not in it */
-        return WT_OK;
-    if ((task->work->left_out & WT_EXTRA_MODULUS_DEPTH) != 0)
-        return WT_OK;
-    if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
-        !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
-        return WT_OK;
-    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0; /* loses work, too */
-    const bool lost = fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
-                      isnan(fit->spectrum_factor.value) && !pull;
-    wt_depth_curve *deep = array_grow(task->deep, task->n_deep, sizeof *deep);
-    if (deep == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->deep = deep;
-    deep += task->n_deep++;
-    if (task->last_spot == NULL || strcmp(task->spot, task->last_spot) != 0)
-        task->n_spots++;
-    task->last_spot = task->spot;
-    *deep = (wt_depth_curve){.modulus = fit->fitted_modulus,
-                             .depth = fit->max_indentation,
-                             .spring_constant = it->curve.cantilever.spring_constant,
-                             .baseline = fit->baseline_length,
-                             .window = fit->misfit_length,
-                             .curvature = fit->baseline_curvature,
-                             .loss_error = lost ? (double)NAN : fit->loss_error,
-                             .spot = task->n_spots};
-    memcpy(deep->misfit, fit->misfit, sizeof deep->misfit);
-    return WT_OK;
-}
-
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
     accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
@@ -234,7 +197,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     flow_indentation_row(&task->rows, task->job, task->file->name, task->spot, &it->curve,
                          &it->fit);
     task->n_curves++;
-    status = keep_depth(task, it, err);
+    if ((task->work->left_out & WT_EXTRA_MODULUS_DEPTH) == 0)
+        status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
     if (status != WT_OK)
         return status;
     if (task->rows.status != WT_OK || it->fit.verdict != WT_CURVE_ACCEPTED)
@@ -399,17 +363,6 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 
 /* ---- the group ------------------------------------------------------------------------------- */
 
-static wt_status add_depths(indent_task *task, wt_indent_tables *tables, wt_error *err)
-{
-    const wt_indent_job *job = task->job;
-    wt_curve_depth depth;
-    if (job->options.plain_least_squares || task->n_deep == 0)
-        return WT_OK;
-    const wt_status status = wt_curve_depth_make(task->contact, job->options.poisson_ratio,
-                                                 task->deep, task->n_deep, &depth, err);
-    return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
-}
-
 static void set_keys(indent_task *task, const flow_files *files)
 {
     const wt_indent_job *job = task->job;
@@ -522,7 +475,7 @@ static void release(indent_task *task)
     free(task->moduli);
     indent_together_clear(&task->together);
     common_errors_clear(&task->common);
-    free(task->deep);
+    indent_depths_clear(&task->depths);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
     wt_table_free(task->rows.table);
@@ -578,7 +531,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     set_keys(&task, &files);
     status = indent_say_together(&task.together, job, work, &task.rows, err);
     if (status == WT_OK)
-        status = add_depths(&task, tables, err);
+        status = indent_depths_table(&task.depths, job, task.contact, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)

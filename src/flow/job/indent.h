@@ -16,6 +16,7 @@ typedef struct indent_shifts {
 typedef struct indent_together {
     size_t n;
     indent_shifts bend, loss, loss_error; /* relative to the modulus */
+    size_t n_unknown;                     /* that lose what their moduli are not known to hold */
     double (*misfits)[WT_CURVE_WAVES];    /* [n_misfits] of those that have one */
     size_t n_misfits;
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
@@ -27,6 +28,24 @@ void indent_together_clear(indent_together *together);
  * and says where other estimators see contact. */
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
                               const wt_job *work, table_writer *rows, wt_error *err);
+
+/* Whether it loses work, and nothing says what that does to its modulus. */
+bool indent_loss_is_unknown(const wt_indent_fit *fit);
+
+/* The curves for the modulus against depth, also those that one modulus does not describe. */
+typedef struct indent_depths {
+    wt_depth_curve *curve; /* [n] */
+    size_t n;
+    long n_spots;
+    const char *last_spot; /* borrowed */
+} indent_depths;
+wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
+                            const wt_force_curve *curve, const char *spot, wt_error *err);
+/* Table "modulus_depth", if there are such curves. */
+wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
+                              const wt_contact_table *contact, wt_indent_tables *tables,
+                              wt_error *err);
+void indent_depths_clear(indent_depths *depths);
 
 /* Of a wt_estimate, for records: its error is below it. */
 wt_status indent_error_check(const void *estimate, wt_error *err);

@@ -23,6 +23,7 @@ wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit, boo
     add_shift(&to->bend, fit->bend_shift / fit->modulus.value);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
+    to->n_unknown += indent_loss_is_unknown(fit);
     if (contacts) {
         double(*more)[WT_CONTACT_ESTIMATORS] = array_grow(to->contacts, to->n, sizeof *more);
         if (more == NULL)
@@ -53,6 +54,16 @@ static double mean_shift(const indent_together *together, const indent_shifts *a
     return 2 * all->n > together->n ? all->sum / (double)all->n : 0;
 }
 
+/* Of those of most curves, as above; NaN where most lose work, and by how much that may put the
+ * moduli off is known of too few. */
+static double loss_error(const indent_together *together)
+{
+    const size_t known = together->loss_error.n, unknown = together->n_unknown;
+    const bool lacks = unknown > 0 && 2 * (known + unknown) >= together->n;
+    return lacks && 2 * known <= together->n ? (double)NAN
+                                             : mean_shift(together, &together->loss_error);
+}
+
 /* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
  * which is that of the piezo, and loss whose spectrum is not known. */
 static void say_shifts(const indent_together *together, const wt_indent_job *job,
@@ -67,7 +78,7 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
             "so in contact changes these moduli by %+.2g %% in the mean, which their "
             "scatter does not show",
             job->group, together->bend.n, together->n, 100 * bend);
-    const double error = mean_shift(together, &together->loss_error);
+    const double error = loss_error(together);
     const double loss = mean_shift(together, &together->loss);
     indentation_set_value(rows, INDENTATION_KEY_LOSS_ERROR, error, 0, 0);
     if (error > 0)
@@ -79,6 +90,12 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
             "which all of them share and the DMA of the rubber takes away",
             job->group, together->loss.n, together->n, 100 * fabs(loss), loss > 0 ? "less" : "more",
             100 * error);
+    if (isnan(error))
+        wt_parselog_add(
+            work->log, WT_NOTE, NULL, NULL,
+            "%s: %zu of %zu accepted curves lose work on the way out, and nothing says what that "
+            "does to their moduli; times of the samples or the DMA of the rubber would tell",
+            job->group, together->n_unknown, together->n);
 }
 
 /* Tests the mean residual of the accepted curves. */
@@ -109,8 +126,7 @@ static double median_of(const indent_together *together, int estimator, double *
             scratch[found++] = together->contacts[i][estimator];
     if (found == 0)
         return (double)NAN;
-    numbers_sort(scratch, found);
-    return 0.5 * (scratch[(found - 1) / 2] + scratch[found / 2]);
+    return numbers_median(scratch, found);
 }
 
 static wt_status say_contacts(const indent_together *together, const wt_indent_job *job,

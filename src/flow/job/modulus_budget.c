@@ -55,11 +55,11 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
                            d->loss_error,
                            d->loss_error,
                            {1, 0, 0, "1"},
-                           d->loss_error > 0};
+                           d->loss_error != 0};
     const double bend = fabs(d->bend_error);
-    b->part[BEND] = (part){"bend of the baselines", bend, bend, {1, 0, 0, "1"}, bend > 0};
+    b->part[BEND] = (part){"bend of the baselines", bend, bend, {1, 0, 0, "1"}, bend != 0};
     for (int i = 0; i < SCATTER; i++) /* an error whose effect is not known makes all of it so */
-        if (b->part[i].applies && b->part[i].source_error > 0)
+        if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_COMMON_SOURCES))
             variance += b->part[i].error * b->part[i].error;
     b->scatter = (t_error){b->group.log_standard_error, (double)b->group.n_spots - 1};
     b->all = (t_error){(double)NAN, (double)NAN};
@@ -153,8 +153,9 @@ static void say(const char *group, const budget *b, char *text, size_t size)
     if (isnan(b->all.error)) {
         add(text, size, "modulus of the %s %s; its standard error is not known, for %s", group,
             value,
-            b->group.n_spots > 1 ? "no curve could be fitted anew with what is stated"
-                                 : "one spot tells nothing of how the sample scatters");
+            b->group.n_spots <= 1        ? "one spot tells nothing of how the sample scatters"
+            : isnan(b->part[LOSS].error) ? "nothing says what the loss of its curves does"
+                                         : "no curve could be fitted anew with what is stated");
         const char *before = "; what its curves share makes ";
         for (int i = 0; i < SCATTER; i++)
             if (b->part[i].applies && b->part[i].error > 0) {

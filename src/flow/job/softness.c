@@ -59,7 +59,6 @@ typedef struct one_sweep {
     double *log_strain, *f, *g;
 } one_sweep;
 
-/* Quantile of 95 %, two-sided. */
 /* Amplitudes that are closer than this are one. */
 static const double same_strain = 0.05;
 

@@ -1,0 +1,54 @@
+/* What is said of curves together that lose work on the way out: what their moduli may be off by
+ * alike. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+
+#include "flow/job/indent.h"
+
+enum { CURVES = 8 };
+
+/* The key loss_error of curves of which so many lose work that tells its size, so many more work
+ * whose effect is not known, and the others none. */
+static double error_of(size_t known, size_t unknown)
+{
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    indent_together together = {0};
+    table_writer rows = table_begin(&indentation_schema, &err);
+    job.group = "bulk";
+    work.log = wt_parselog_new();
+    for (size_t i = 0; i < CURVES; i++) {
+        wt_indent_fit fit = {.modulus = {1e6, 1e4, 0, "Pa"},
+                             .loss = i < known + unknown ? 0.3 : 0.01,
+                             .loss_bias = i < known ? 0.05 : (double)NAN,
+                             .loss_error = i < known ? 0.04 : (double)NAN,
+                             .spectrum_factor = {(double)NAN, (double)NAN, 0, "1"},
+                             .misfit = {(double)NAN}};
+        assert_int_equal(indent_together_add(&together, &fit, false, &err), WT_OK);
+    }
+    assert_int_equal(indent_say_together(&together, &job, &work, &rows, &err), WT_OK);
+    wt_estimate error = {0};
+    assert_true(wt_table_estimate(rows.table, "loss_error", &error));
+    indent_together_clear(&together);
+    wt_parselog_free(work.log);
+    wt_table_free(rows.table);
+    return error.value;
+}
+
+static void test_loss(void **state)
+{
+    (void)state;
+    assert_near(error_of(0, 0), 0, 0);
+    assert_near(error_of(CURVES, 0), 0.04, 1e-12);
+    assert_true(isnan(error_of(0, CURVES)));
+    assert_true(isnan(error_of(0, CURVES / 2)));
+    assert_near(error_of(0, CURVES / 2 - 1), 0, 0);
+    assert_near(error_of(5, 3), 0.04, 1e-12);
+    assert_true(isnan(error_of(3, 3))); /* most lose, and of few is it known */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_loss)};
+    return cmocka_run_group_tests_name("curves with loss", tests, NULL, NULL);
+}
