@@ -256,7 +256,8 @@ static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
 /* ---- what is told ---------------------------------------------------------------------------- */
 
 /* Chance that noise, and what is assumed of the spectrum, leave as much of its ripples: single
- * relaxation times are seen by them long before all of the misfit shows that something is off. */
+ * relaxation times are seen by them long before all of the misfit shows that something is off. NaN
+ * where what is fitted leaves nothing of a ripple, or noise decides: then it was not tested. */
 static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *covariance)
 {
     const size_t n = t->nodes.n;
@@ -284,7 +285,7 @@ static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *co
     gsl_vector_view x = gsl_vector_view_array(solved, RIPPLES);
     if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
         gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
-        return 1;
+        return (double)NAN;
     for (size_t k = 0; k < RIPPLES; k++)
         sum += left[k] * solved[k];
     return gsl_cdf_chisq_Q(sum, RIPPLES);
@@ -312,7 +313,7 @@ static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covari
                         wt_dwell *to)
 {
     /* No error is known of what the model does not describe. */
-    const double known = to->misfit_chance < least_chance ? (double)NAN : 1;
+    const double known = to->misfit_chance >= least_chance ? 1 : (double)NAN;
     const double low = ceil(-log10(to->load_time + to->duration) * PER_DECADE),
                  high = floor(-log10(to->load_time) * PER_DECADE);
     for (double at = low; at <= high && to->n < WT_DWELL_FREQUENCIES; at++) {
@@ -344,7 +345,7 @@ static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *c
     const dwell_nodes *n = &t->nodes;
     const size_t last = n->first_free - 1;
     const double k = t->history->spring_constant;
-    const bool described = !(to->misfit_chance < least_chance);
+    const bool described = to->misfit_chance >= least_chance;
     double gradient[N_PARAMETERS] = {0}, all;
     to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
     to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
@@ -400,6 +401,16 @@ static double load_time(const dwell_task *t, const double *p)
     return n->from[n->first_held] - n->time[i - 1] - part * (n->time[i] - n->time[i - 1]);
 }
 
+/* Of the smaller of two. One test alone can say that the law does not describe the dwell; that it
+ * does needs both, for the misfit as a whole is blind to what the ripples see. */
+static double chance_of_two(double misfit, double ripples)
+{
+    if (isnan(ripples))
+        return misfit * (2 - misfit) < least_chance ? misfit * (2 - misfit) : (double)NAN;
+    const double chance = fmin(misfit, ripples);
+    return chance * (2 - chance);
+}
+
 static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAMETERS][N_PARAMETERS],
                  wt_dwell *to)
 {
@@ -415,8 +426,8 @@ static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAME
     }
     to->duration = n->to[n->first_free - 1] - n->from[n->first_held];
     to->misfit = cost / freedom;
-    const double chance = fmin(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
-    to->misfit_chance = chance * (2 - chance); /* the smaller of two */
+    to->misfit_chance =
+        chance_of_two(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
     tell_points(t, p, to);
     if (to->why_not[0] != '\0')
         return;

@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
+#include "data/tables/tables.h"
+#include "flow/job/compare.h"
 #include "weartrack/flow.h"
 
 enum { SPOTS = 3, RATES = 2 };
@@ -607,15 +609,93 @@ static void test_loss_not_known(void **state)
     assert_non_null(strstr(wt_table_key(budget, "says_bulk"), "nothing says what the loss"));
 }
 
+/* E' of the rubber above at an angular frequency, so many kelvin above its reference. */
+static double storage_at(double omega, double step)
+{
+    const double z = omega * 1e-3 * pow(10, -6.5 * step / (110 + step));
+    return 2e6 + 6e6 * z * z / (1 + z * z);
+}
+
+/* The error of the temperature is in that of the DMA, and where no law reaches it is named. */
+static void test_temperature_error(void **state)
+{
+    (void)state;
+    static double tau = 1e-3, term = 6e6;
+    static const double normal_95 = 1.959963984540054, omega = 800, own = 0.01;
+    wt_rubber rubber = rubber_of(&tau, &term);
+    const wt_job work = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_table *moduli = NULL, *dma = NULL;
+    table_writer t = table_begin(&dwell_moduli_schema, &err);
+    table_row(&t);
+    dwell_moduli_put_text(&t, DWELL_MODULI_FILE, "a");
+    dwell_moduli_put(&t, DWELL_MODULI_CURVE, 0);
+    dwell_moduli_put(&t, DWELL_MODULI_SEGMENT, 1);
+    dwell_moduli_put_text(&t, DWELL_MODULI_KIND, "relaxation");
+    dwell_moduli_put(&t, DWELL_MODULI_ANGULAR_FREQUENCY, omega);
+    dwell_moduli_put(&t, DWELL_MODULI_STORAGE, 3e6);
+    dwell_moduli_put(&t, DWELL_MODULI_STORAGE_STANDARD_ERROR, own * 3e6);
+    dwell_moduli_put(&t, DWELL_MODULI_STORAGE_COMMON, 0);
+    dwell_moduli_put(&t, DWELL_MODULI_LOSS, 1e6);
+    dwell_moduli_put(&t, DWELL_MODULI_LOSS_STANDARD_ERROR, own * 1e6);
+    dwell_moduli_put(&t, DWELL_MODULI_LOSS_COMMON, 0);
+    assert_int_equal(table_end(&t, &moduli), WT_OK);
+    for (int i = 0; i < 3; i++) {
+        const double error = i == 0 ? 0 : i == 1 ? 2 : 150; /* the last is beyond the pole */
+        wt_compare_job job = wt_compare_job_defaults();
+        job.bulk = moduli;
+        job.rubber = &rubber;
+        job.temperature = (wt_estimate){303.15, error, 0, "K"};
+        assert_int_equal(wt_compare_dwells(&job, &work, &dma, &err), WT_OK);
+        const double of = storage_at(omega, 10),
+                     by = i == 1 ? (storage_at(omega, 12) - storage_at(omega, 8)) / 2 / of : 0;
+        assert_near(cell(dma, 0, "storage_ratio"), 3e6 / of, 1e-9);
+        assert_near(cell(dma, 0, "storage_ratio_high") - cell(dma, 0, "storage_ratio"),
+                    3e6 / of * normal_95 * hypot(own, by), 1e-9);
+        assert_near(key_estimate(dma, "temperature").standard_error, error, 1e-12);
+        assert_string_equal(wt_table_key(dma, "standard_error_lacks"),
+                            i == 2 ? "material, temperature" : "material");
+        char sentence[1024];
+        wt_result *result = wt_result_new();
+        assert_int_equal(wt_result_add(result, dma, &err), WT_OK);
+        wt_result_sentence(result, sentence, sizeof sentence);
+        wt_result_free(result);
+        assert_non_null(strstr(sentence, "without the error of the DMA"));
+        const condition at = {303.15, sqrt(frequency[0] * frequency[1])};
+        double relative = 1;
+        assert_int_equal(compare_temperature_error(&rubber, at, error, &work, &relative, &err),
+                         WT_OK);
+        if (i == 2)
+            assert_true(isnan(relative));
+        else
+            assert_near(relative, i * fabs(log(complex_modulus(12) / complex_modulus(8))) / 2,
+                        1e-9);
+    }
+    wt_table_free(moduli);
+    compare(RATIO, 303.15);
+    wt_compare_job job = wt_compare_job_defaults();
+    job.rubber = &rubber;
+    job.temperature = (wt_estimate){303.15, 2, 0, "K"};
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.dma_comparison, "temperature").standard_error, 2, 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comparison),   cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_two_spots),    cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_rates),        cmocka_unit_test(test_dma),
-        cmocka_unit_test(test_warmer),       cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_out_of_reach), cmocka_unit_test(test_common),
-        cmocka_unit_test(test_shown),        cmocka_unit_test(test_loss_not_known),
+        cmocka_unit_test(test_comparison),
+        cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_two_spots),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_rates),
+        cmocka_unit_test(test_dma),
+        cmocka_unit_test(test_warmer),
+        cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_out_of_reach),
+        cmocka_unit_test(test_common),
+        cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_loss_not_known),
+        cmocka_unit_test(test_temperature_error),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

@@ -221,6 +221,9 @@ static void say_dwell_ratio(sentence *s, const char *modulus, double ratio, doub
 /* Of each group the row in the middle of those that the DMA was measured at. */
 static void say_dwell_dma(sentence *s, const table_view *v)
 {
+    if (v->table == NULL)
+        return;
+    const char *lacks = dwell_dma_words(v, DWELL_DMA_KEY_ERROR_LACKS);
     for (size_t from = 0, to; from < v->n_rows; from = to) {
         const char *group = dwell_dma_text(v, from, DWELL_DMA_GROUP);
         size_t first = SIZE_MAX, last = 0;
@@ -246,6 +249,9 @@ static void say_dwell_dma(sentence *s, const table_view *v)
         say_dwell_ratio(s, "E''", dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO),
                         dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_LOW),
                         dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_HIGH));
+        if (lacks != NULL)
+            say(s, ", without the error of the %s",
+                strcmp(lacks, "temperature") == 0 ? "temperature of the DMA" : "DMA");
     }
 }
 

@@ -177,9 +177,10 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
 
 /* The rows of a group, at its temperature. */
 static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const wt_rubber *rubber,
-                          double temperature, const wt_job *work, char statement[256],
+                          wt_estimate given, const wt_job *work, char statement[256], bool *lacks,
                           wt_error *err)
 {
+    const double temperature = given.value;
     wt_material *material = NULL;
     wt_error why = WT_ERROR_INIT;
     wt_status status = WT_OK;
@@ -193,11 +194,17 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
         const rate_point *point = &p->point[g][b];
         const condition at = {temperature, point->frequency};
         wt_estimate modulus = {0};
+        double by_temperature = 0;
         if (point->n == 0)
             continue;
-        if (point->frequency > 0 && material != NULL)
+        if (point->frequency > 0 && material != NULL) {
             status = compare_material(rubber, &at, 1, work, &modulus, err);
-        dma_row(t, g, point, material, modulus.standard_error);
+            if (status == WT_OK)
+                status = compare_temperature_error(rubber, at, given.standard_error, work,
+                                                   &by_temperature, err);
+        }
+        *lacks = *lacks || isnan(by_temperature);
+        dma_row(t, g, point, material, hypot(modulus.standard_error, by_temperature));
     }
     wt_material_free(material);
     return status;
@@ -208,25 +215,23 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
                                 const wt_job *work, wt_table **table, wt_error *err)
 {
     char statement[2][256] = {"", ""};
-    const double given[2] = {job->temperature.value, isnan(job->track_temperature.value)
-                                                         ? job->temperature.value
-                                                         : job->track_temperature.value};
-    const double reference = job->rubber->prony.reference_temperature;
-    const bool apart = !isnan(given[1]) && given[1] != (isnan(given[0]) ? reference : given[0]);
+    const wt_estimate given[2] = {compare_temperature(job, 0), compare_temperature(job, 1)};
+    const bool apart = given[1].value != given[0].value;
+    bool lacks = false;
     table_writer t = table_begin(&dma_comparison_schema, err);
     for (int g = 0; t.status == WT_OK && g < 2; g++) {
         if (apart)
             table_block(&t);
-        t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement[g], err);
+        t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement[g], &lacks, err);
     }
-    dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TEMPERATURE,
-                             isnan(given[0]) ? reference : given[0], 0, 0);
+    dma_comparison_set(&t, DMA_COMPARISON_KEY_TEMPERATURE, given[0]);
     if (!isnan(job->track_temperature.value))
-        dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TRACK_TEMPERATURE, given[1], 0, 0);
+        dma_comparison_set(&t, DMA_COMPARISON_KEY_TRACK_TEMPERATURE, given[1]);
     dma_comparison_set_text(&t, DMA_COMPARISON_KEY_RATIO_OF,
                             "indentation modulus over |E*| of the DMA");
-    if (job->rubber->n_draws == 0)
-        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_ERROR_LACKS, "material");
+    if (job->rubber->n_draws == 0 || lacks)
+        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_ERROR_LACKS,
+                                compare_lacks(job->rubber->n_draws == 0, lacks));
     const bool both = statement[0][0] != '\0' && strcmp(statement[0], statement[1]) != 0;
     if (statement[0][0] != '\0' || statement[1][0] != '\0')
         dma_comparison_set_print(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "%s%s%s", statement[0],

@@ -70,6 +70,22 @@ typedef struct condition {
 wt_status compare_material(const wt_rubber *rubber, const condition *at, int n, const wt_job *work,
                            wt_estimate *value, wt_error *err) WT_NODISCARD;
 
+/* What a standard error of the temperature makes of ln |E*|: half of what lies between both ends of
+ * it; 0 if none is stated, NaN where no law takes the DMA there. */
+wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
+                                    const wt_job *work, double *relative,
+                                    wt_error *err) WT_NODISCARD;
+
+static inline const char *compare_lacks(bool material, bool temperature)
+{
+    return material && temperature ? "material, temperature"
+           : material              ? "material"
+                                   : "temperature";
+}
+
+/* The temperature of a group with its error: its own, that of the bulk, that of the DMA. */
+wt_estimate compare_temperature(const wt_compare_job *job, int group);
+
 /* One row of "comparison" before Holm's correction is known. */
 typedef struct compare_row {
     double low, high; /* rate; NaN = all */

@@ -48,6 +48,41 @@ static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_
     return WT_OK;
 }
 
+static bool is_reached(const wt_rubber *rubber, double temperature)
+{
+    wt_error why = WT_ERROR_INIT;
+    return temperature > 0 && flow_rubber_reaches(rubber, temperature, &why);
+}
+
+/* Adds half of what lies between both ends of the error of the temperature; *lacks where no law
+ * takes the DMA to one of them. */
+static wt_status add_temperature(const wt_rubber *rubber, wt_estimate at, const wt_job *work,
+                                 const dwell_mean *means, size_t n, dma_moduli *to, bool *lacks,
+                                 wt_error *err)
+{
+    const double ends[2] = {at.value - at.standard_error, at.value + at.standard_error};
+    if (!(at.standard_error > 0))
+        return WT_OK;
+    if (!is_reached(rubber, ends[0]) || !is_reached(rubber, ends[1])) {
+        *lacks = true;
+        return WT_OK;
+    }
+    wt_status status = WT_OK;
+    dma_moduli *end[2] = {calloc(n + 1, sizeof **end), calloc(n + 1, sizeof **end)};
+    if (end[0] == NULL || end[1] == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for the moduli of the DMA");
+    for (int i = 0; status == WT_OK && i < 2; i++)
+        status =
+            add_draw(rubber, ends[i], work, WT_NO_REPLICATE, means, n, end[i], NULL, NULL, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        to[i].storage_variance += pow((end[1][i].storage - end[0][i].storage) / 2, 2);
+        to[i].loss_variance += pow((end[1][i].loss - end[0][i].loss) / 2, 2);
+    }
+    free(end[0]);
+    free(end[1]);
+    return status;
+}
+
 /* The interval of a ratio of two numbers with errors. */
 static void put_ratio(table_writer *t, dwell_dma_column ratio, dwell_dma_column low,
                       dwell_dma_column high, const wt_interval *of, double by, double by_variance)
@@ -89,9 +124,10 @@ static void put_row(table_writer *t, int g, const dwell_mean *m, const dma_modul
 
 /* The rows of a group, at its temperature. */
 static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const wt_rubber *rubber,
-                           double temperature, const wt_job *work, char statement[256],
+                           wt_estimate at, const wt_job *work, char statement[256], bool *lacks,
                            wt_error *err)
 {
+    const double temperature = at.value;
     dwell_mean *means = NULL;
     size_t n = 0;
     wt_error why = WT_ERROR_INIT;
@@ -109,8 +145,12 @@ static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const
                           statement, err);
     for (size_t i = 0; status == WT_OK && reaches && rubber->n_draws > 0 && i < DRAWS; i++)
         status = add_draw(rubber, temperature, work, i, means, n, dma, NULL, NULL, err);
+    bool unknown = false;
+    if (status == WT_OK && reaches)
+        status = add_temperature(rubber, at, work, means, n, dma, &unknown, err);
+    *lacks = *lacks || unknown;
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        put_row(t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0,
+        put_row(t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
                 means[i].angular_frequency < measured[0] ||
                     means[i].angular_frequency > measured[1]);
     free(means);
@@ -127,22 +167,21 @@ wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_ta
     if (status != WT_OK)
         return status;
     const wt_table *given[2] = {job->bulk, job->track};
-    const double reference = job->rubber->prony.reference_temperature,
-                 bulk = isnan(job->temperature.value) ? reference : job->temperature.value,
-                 track = isnan(job->track_temperature.value) ? bulk : job->track_temperature.value;
+    bool lacks = false;
     char statement[2][256] = {"", ""};
     table_writer t = table_begin(&dwell_dma_schema, err);
     for (int g = 0; t.status == WT_OK && g < 2; g++)
         if (given[g] != NULL) {
             table_block(&t);
-            t.status = put_group(&t, g, given[g], job->rubber, g == 0 ? bulk : track, work,
-                                 statement[g], err);
+            t.status = put_group(&t, g, given[g], job->rubber, compare_temperature(job, g), work,
+                                 statement[g], &lacks, err);
         }
-    dwell_dma_set_value(&t, DWELL_DMA_KEY_TEMPERATURE, bulk, 0, 0);
+    dwell_dma_set(&t, DWELL_DMA_KEY_TEMPERATURE, compare_temperature(job, 0));
     if (job->track != NULL)
-        dwell_dma_set_value(&t, DWELL_DMA_KEY_TRACK_TEMPERATURE, track, 0, 0);
-    if (job->rubber->n_draws == 0)
-        dwell_dma_set_text(&t, DWELL_DMA_KEY_ERROR_LACKS, "material");
+        dwell_dma_set(&t, DWELL_DMA_KEY_TRACK_TEMPERATURE, compare_temperature(job, 1));
+    if (job->rubber->n_draws == 0 || lacks)
+        dwell_dma_set_text(&t, DWELL_DMA_KEY_ERROR_LACKS,
+                           compare_lacks(job->rubber->n_draws == 0, lacks));
     if (statement[0][0] != '\0')
         dwell_dma_set_text(&t, DWELL_DMA_KEY_MATERIAL_STATEMENT, statement[0]);
     if (statement[1][0] != '\0')

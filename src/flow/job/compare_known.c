@@ -199,6 +199,28 @@ wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_a
     return WT_OK;
 }
 
+wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
+                                    const wt_job *work, double *relative, wt_error *err)
+{
+    wt_error why = WT_ERROR_INIT;
+    double y[2] = {0, 0};
+    wt_status status = WT_OK;
+    const double below = at.temperature - error;
+    *relative = 0;
+    if (!(error > 0))
+        return WT_OK;
+    for (int i = 0; status == WT_OK && i < 2; i++) {
+        at.temperature = below + 2 * error * i;
+        if (!(at.temperature > 0) || !flow_rubber_reaches(rubber, at.temperature, &why)) {
+            *relative = (double)NAN;
+            return WT_OK;
+        }
+        status = log_modulus(rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
+    }
+    *relative = fabs(y[1] - y[0]) / 2;
+    return status;
+}
+
 static bool reaches(const wt_rubber *rubber, double temperature, compare_known *k)
 {
     wt_error why = WT_ERROR_INIT;
@@ -237,6 +259,17 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     status = compare_material(job->rubber, near, 2, work, &change, err);
     add_error(k, fabs(change.value / 2) * step_error, "temperatures");
     return status;
+}
+
+wt_estimate compare_temperature(const wt_compare_job *job, int group)
+{
+    wt_estimate t = group == 1 && !isnan(job->track_temperature.value) ? job->track_temperature
+                                                                       : job->temperature;
+    if (isnan(t.value)) /* a default, which the caveats name */
+        t = (wt_estimate){job->rubber->prony.reference_temperature, 0, 0, "K"};
+    if (!(t.standard_error > 0))
+        t.standard_error = 0;
+    return t;
 }
 
 static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job,

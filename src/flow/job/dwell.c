@@ -103,16 +103,31 @@ static void begin_row(dwell_task *task, const flow_file *file, const wt_force_cu
     dwell_put_text(t, DWELL_NOTE, note);
 }
 
+static const char *note_of(const wt_dwell *d)
+{
+    bool all = true;
+    for (size_t i = 0; i < d->n; i++)
+        all = all && is_possible(&d->moduli[i]);
+    if (!d->found)
+        return d->why_not;
+    if (d->misfit_chance < least_chance)
+        return all ? "a rubber of a broad spectrum does not describe it; no errors are told"
+                   : "a rubber of a broad spectrum does not describe it; no errors are told; "
+                     "moduli that are not positive were left out";
+    if (isnan(d->misfit_chance))
+        return all ? "whether a rubber of a broad spectrum describes it could not be tested; no "
+                     "errors are told"
+                   : "whether a rubber of a broad spectrum describes it could not be tested; no "
+                     "errors are told; moduli that are not positive were left out";
+    return all ? "" : "moduli that are not positive were left out";
+}
+
 static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                       const wt_segment *s, const wt_dwell *d)
 {
     table_writer *t = &task->rows;
     const char *kind = d->n_points == 0 ? "" : d->creep ? "creep" : "relaxation";
-    begin_row(task, file, curve, s, kind,
-              !d->found                         ? d->why_not
-              : d->misfit_chance < least_chance ? "a rubber of a broad spectrum does not describe "
-                                                  "it; no errors are told"
-                                                : "");
+    begin_row(task, file, curve, s, kind, note_of(d));
     if (d->n_points == 0)
         return;
     dwell_put(t, DWELL_LOAD_TIME, d->load_time);
