@@ -589,6 +589,15 @@ typedef struct wt_master_shift {
     char note[128];           /* "" or what is odd */
 } wt_master_shift;
 
+/* Where the shifts are from. */
+typedef enum wt_shift_route {
+    WT_SHIFTS_OF_SPECTRUM, /* fitted with one spectrum of all isotherms */
+    WT_SHIFTS_OF_OVERLAP   /* from neighbour to neighbour, by the overlap of the storage moduli alone:
+                              one spectrum is far off the isotherms, or was not found. Of it the
+                              shifts are given; the error of a shift holds what the places of an
+                              overlap disagree by */
+} wt_shift_route;
+
 typedef enum wt_superposition {
     WT_SUPERPOSITION_HOLDS,
     WT_SUPERPOSITION_FAILS,
@@ -603,6 +612,7 @@ typedef struct wt_master {
     wt_deformation deformation;
     double reference_temperature; /* [K] */
     wt_vertical_shift vertical;
+    wt_shift_route shift_route;
     double terms_per_decade; /* of the spectrum */
     size_t n_shifts;
     wt_master_shift *shifts; /* [n_shifts], rising temperature */
@@ -635,6 +645,8 @@ typedef struct wt_master {
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
+    double holds_from, holds_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
+    bool settled;                   /* false: a fit ended at its last step */
     char because[256];              /* of the verdict, and what would settle it */
     size_t evaluations;             /* of the model, at all points */
     double step_allowed, step_left; /* what a further step may change, and would at most

@@ -69,6 +69,13 @@
       HEADLINE("Reference temperature"))                                                           \
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
     X(SHIFT_FACTORS_KEY_SHIFTED_BY, "shifted_by", TEXT, LABEL("Shifted by"), OPTIONAL)             \
+    X(SHIFT_FACTORS_KEY_ROUTE, "route", TEXT, LABEL("Shifts by"), OPTIONAL)                        \
+    X(SHIFT_FACTORS_KEY_HOLDS_FROM, "holds_from", SI(TEMPERATURE),                                 \
+      LABEL("Superposition holds from"), OPTIONAL)                                                 \
+    X(SHIFT_FACTORS_KEY_HOLDS_TO, "holds_to", SI(TEMPERATURE), LABEL("Superposition holds to"),    \
+      OPTIONAL)                                                                                    \
+    X(SHIFT_FACTORS_KEY_STEP_LEFT, "step_left", PLAIN,                                             \
+      LABEL("Not settled: a further step moves a number by up to (standard errors)"), OPTIONAL)    \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
       HEADLINE("Time-temperature superposition"))                                                  \

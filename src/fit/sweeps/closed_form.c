@@ -5,9 +5,11 @@
 
 #include <math.h>
 
-/* Ordinates that neighbours share at least [decade], and points of each that lie there. */
-static const double least_height = 0.05;
-enum { LEAST_POINTS = 2 };
+/* Ordinates that neighbours share at least [decade], or this share of what the flatter one has (in
+ * a glass it has no more to give), and points of each that lie there. */
+static const double least_height = 0.05, least_share = 0.25;
+/* So many isotherms towards the anchor are tried: one that is bad leaves a gap, not an end. */
+enum { LEAST_POINTS = 2, NEIGHBOURS = 2 };
 
 /* The integral of x over the ordinates from low to high along the running maximum of a curve, and
  * how many points lie there. */
@@ -37,29 +39,33 @@ static double highest(const shift_curve *c)
     return most;
 }
 
-/* Where curve s goes on curve p; NaN if they share too little. */
-static double step_to(const shift_curve *p, const shift_curve *s)
+double closed_form_step(const shift_set *set, size_t onto, size_t from, double b)
 {
-    if (p->n < LEAST_POINTS || s->n < LEAST_POINTS)
+    const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
+    if (!set->used[STORAGE] || p->n < LEAST_POINTS || s->n < LEAST_POINTS)
         return (double)NAN;
-    const double low = fmax(p->y[STORAGE][0], s->y[STORAGE][0]),
-                 high = fmin(highest(p), highest(s));
+    const double first[2] = {p->y[STORAGE][0], s->y[STORAGE][0] + b},
+                 last[2] = {highest(p), highest(s) + b};
+    const double low = fmax(first[0], first[1]), high = fmin(last[0], last[1]);
+    const double flatter = fmin(last[0] - first[0], last[1] - first[1]);
     size_t points[2];
-    const double between = area(p, low, high, &points[0]) - area(s, low, high, &points[1]);
-    const bool enough =
-        high - low > least_height && points[0] >= LEAST_POINTS && points[1] >= LEAST_POINTS;
+    const double between = area(p, low, high, &points[0]) - area(s, low - b, high - b, &points[1]);
+    const bool enough = high > low && high - low >= fmin(least_height, least_share * flatter) &&
+                        points[0] >= LEAST_POINTS && points[1] >= LEAST_POINTS;
     return enough ? between / (high - low) : (double)NAN;
 }
 
 void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a)
 {
-    for (size_t i = 0; !set->used[STORAGE] && i < set->n; i++)
+    for (size_t i = 0; i < set->n; i++)
         log_a[i] = (double)NAN;
     if (!set->used[STORAGE])
         return;
     log_a[anchor] = 0.0;
     for (size_t i = anchor + 1; i < set->n; i++)
-        log_a[i] = log_a[i - 1] + step_to(&set->curves[i - 1], &set->curves[i]);
+        for (size_t k = 1; isnan(log_a[i]) && k <= NEIGHBOURS && anchor + k <= i; k++)
+            log_a[i] = log_a[i - k] + closed_form_step(set, i - k, i, 0.0);
     for (size_t i = anchor; i-- > 0;)
-        log_a[i] = log_a[i + 1] + step_to(&set->curves[i + 1], &set->curves[i]);
+        for (size_t k = 1; isnan(log_a[i]) && k <= NEIGHBOURS && i + k <= anchor; k++)
+            log_a[i] = log_a[i + k] + closed_form_step(set, i + k, i, 0.0);
 }

@@ -1,12 +1,15 @@
-/* The shifts of ISO 18437-6, for comparison (internal to the fit room).
+/* Shifts by the closed form of ISO 18437-6 (internal to the fit room).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_FIT_SWEEPS_CLOSED_FORM_H
 #define WEARTRACK_FIT_SWEEPS_CLOSED_FORM_H
 
 #include "fit/sweeps/isotherm.h"
 
-/* log10 a of every isotherm against the anchor; NaN where a neighbour on the way shares too little
- * of the storage modulus. log_a: [set->n]. */
+/* log_a: [set->n] decades, 0 at the anchor; NaN where no isotherm on the way to the anchor shares
+ * enough height, and everywhere without a storage modulus. */
 void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);
+/* Where curve `from` goes on curve `onto`, its storage modulus times 10^b [decade]; NaN if they
+ * share too little. */
+double closed_form_step(const shift_set *set, size_t onto, size_t from, double b);
 
 #endif

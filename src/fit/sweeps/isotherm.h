@@ -19,6 +19,7 @@ typedef struct shift_curve {
     double *x;         /* [n] */
     double *y[MODULI]; /* [n] */
     size_t n_left_out; /* points with a modulus <= 0 */
+    size_t n_together; /* measured points, if neighbours became one; else 0 */
     bool given;        /* its shift is not fitted */
     double given_a;    /* its difference to another given one counts [decade] */
     bool held;         /* so is its vertical shift */

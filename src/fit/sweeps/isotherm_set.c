@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/isotherm.h"
 
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,6 +63,85 @@ static void values_of(const wt_isotherm *t, wt_shift_by by, size_t k, double val
         value[LOSS] = factor_of(t, k);
 }
 
+/* Measured points that lie within so much of each other become one, their mean [decade]: a
+ * relaxation smears moduli over a decade, so that nothing turns within a tenth of one. */
+static const double one_point = 0.09;
+/* Points that stand evenly do so from two of them on, others from so many of all: a few that happen
+ * to lie together cost little and are kept as they are. */
+enum { LEAST_EVEN = 2, LEAST_TOGETHER = 5 };
+static const double even = 1.5; /* the largest step against the mean one */
+/* Of so many or more, those that lie further from their median are not in the mean [standard
+ * deviations]. */
+static const double far_off = 5.0;
+enum { LEAST_MANY = 5 };
+
+/* The end of the points that become one from `from` on; alone: none do. */
+static size_t together(const struct point *point, size_t n, size_t from, bool alone)
+{
+    size_t to = from + 1;
+    while (!alone && to < n && point[to].x - point[from].x < one_point)
+        to++;
+    return to;
+}
+
+static bool is_even(const struct point *point, size_t n)
+{
+    const double mean = (point[n - 1].x - point[0].x) / (double)(n - 1);
+    bool is = true;
+    for (size_t k = 1; k < n; k++)
+        is = is && point[k].x - point[k - 1].x <= even * mean;
+    return is;
+}
+
+/* Too few points to be worth it, or too few that were left. */
+static bool is_sparse(const struct point *point, size_t n)
+{
+    size_t left = 0;
+    for (size_t k = 0; k < n; k = together(point, n, k, false))
+        left++;
+    return left < SHIFT_MIN_POINTS ||
+           n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
+}
+
+/* Mean of the neighbours without those far off; copy: [n]. */
+static double middle_of(const struct point *point, size_t n, int q, double *copy)
+{
+    double sum = 0.0, weights = 0.0;
+    for (size_t k = 0; k < n; k++)
+        copy[k] = point[k].y[q];
+    gsl_sort(copy, 1, n);
+    const double median = gsl_stats_median_from_sorted_data(copy, 1, n);
+    for (size_t k = 0; k < n; k++)
+        copy[k] = fabs(point[k].y[q] - median);
+    gsl_sort(copy, 1, n);
+    const double far = far_off * 1.4826 * gsl_stats_median_from_sorted_data(copy, 1, n);
+    for (size_t k = 0; k < n; k++) {
+        const bool near = n < LEAST_MANY || fabs(point[k].y[q] - median) <= far;
+        sum += near ? point[k].y[q] : 0.0;
+        weights += near;
+    }
+    return sum / weights; /* half of them are nearer than that */
+}
+
+/* The points, rising, as they are fitted; curve->y is scratch, too. */
+static void fill_points(const struct point *point, size_t n, shift_curve *curve)
+{
+    const bool alone = is_sparse(point, n);
+    curve->n = 0;
+    for (size_t from = 0, to; from < n; from = to, curve->n++) {
+        to = together(point, n, from, alone);
+        double x = 0.0;
+        for (size_t i = from; i < to; i++)
+            x += point[i].x / (double)(to - from);
+        curve->x[curve->n] = x;
+        for (int q = 0; q < MODULI; q++)
+            curve->y[q][curve->n] = to - from > 1
+                                        ? middle_of(point + from, to - from, q, curve->y[q] + from)
+                                        : point[from].y[q];
+    }
+    curve->n_together = alone ? 0 : n;
+}
+
 /* Fills one curve from an isotherm; scratch: [isotherm->n]. */
 static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
                             struct point *scratch, shift_curve *curve, wt_parselog *log,
@@ -106,12 +187,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
                         isotherm->angular_frequency[first_bad],
                         isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
     qsort(scratch, n, sizeof *scratch, by_x);
-    for (size_t k = 0; k < n; k++) {
-        curve->x[k] = scratch[k].x;
-        for (int q = 0; q < MODULI; q++)
-            curve->y[q][k] = scratch[k].y[q];
-    }
-    curve->n = n;
+    fill_points(scratch, n, curve);
     return WT_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef WEARTRACK_FIT_SWEEPS_MASTER_H
 #define WEARTRACK_FIT_SWEEPS_MASTER_H
 
+#include "fit/sweeps/overlap_chain.h"
 #include "fit/sweeps/posterior.h"
 #include "fit/sweeps/superposition.h"
 
@@ -25,8 +26,43 @@ typedef struct master_work {
     vertical vertical;
     spectrum_prior prior;
     spectrum_within within; /* noise within the isotherms */
-    lack_of_fit lack;
+    lack_of_fit lack;       /* of one spectrum with shifts of its own */
+    bool tested;
+    bool plain;             /* no other start, and no shifts by overlaps */
+    bool gross;             /* it misses the isotherms by so much that its shifts mean nothing */
+    overlap_link *link;     /* [set.n] by the overlap of neighbours */
+    double missed[MODULI];  /* what one spectrum is off, in ln */
+    wt_shift_route route;
+    char no_spectrum[256];  /* why there is none with shifts of its own, or "" */
+    bool part;              /* the spectrum is that of the isotherms from `first` to `last`: one of
+                               all fails, by `whole` */
+    size_t first, last;
+    lack_of_fit whole;
 } master_work;
+
+/* A spectrum for the placed curves at the shifts as they are, without outliers. */
+wt_status master_make_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
+/* Fills link with the vertical shifts that go with them. */
+wt_status master_overlaps(master_work *work, wt_error *err) WT_NODISCARD;
+/* The shifts of the overlaps in the place of those of the spectrum, which is fitted to them. */
+wt_status master_by_overlap(master_work *work, wt_error *err) WT_NODISCARD;
+/* Looks for isotherms about the anchor that one spectrum describes, from `first` to `last`, where
+ * it does not describe all. */
+wt_status master_find_part(master_work *work, wt_error *err) WT_NODISCARD;
+/* Whether one spectrum describes the isotherms from `first` to `last`. */
+wt_status master_try_part(const master_work *work, size_t first, size_t last, bool *holds,
+                          wt_error *err) WT_NODISCARD;
+/* The shift of an isotherm beside that part, with its error. */
+bool master_beside_part(const master_work *work, size_t i, double *a, double *error);
+/* Whether the overlaps tell shifts: of storage moduli, and none are given; they are in `link` then.
+ */
+wt_status master_may_overlap(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
+/* Whether the shifts of the spectrum are what the overlaps say, with the vertical shift of rubber
+ * elasticity or with none. */
+wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
+/* Whether the lack of fit is real and matters. */
+bool master_misfit_is_real(const lack_of_fit *lack);
 
 /* For the reference of the options. *better: where the fit failed for want of overlap, NaN or the
  * temperature of an isotherm that changes much more than the one it was started from. */

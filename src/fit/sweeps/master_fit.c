@@ -9,6 +9,7 @@
 #include "fit/sweeps/spectrum_start.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. Cells:
@@ -39,6 +40,10 @@ static const double far = 0.5;
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
 /* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
 static const double much_steeper = 2.0;
+/* What one spectrum is off a modulus by, beyond the noise within the isotherms, from which on its
+ * shifts mean nothing [ln]: isotherms of which superposition holds or nearly holds miss by 0.3 to 3
+ * %, those of glassy polymers by 5 to 20 % of E''. */
+static const double gross_misfit = 0.04;
 /* Bends of lines, to start from; noise over what lines leave of it that is more than smooth spectra
  * have (they have 1.17 at most: tests/study), and by how many of its standard errors. */
 static const double lines_smooth = 5.0, more_noise = 1.3, surely = 6.0;
@@ -137,6 +142,7 @@ static wt_status work_alloc(master_work *work, wt_error *err)
     work->physical = pool_numbers(m, n);
     work->overlap = pool_numbers(m, n);
     work->vertical.precision = pool_matrix(m, n, n);
+    work->link = pool_alloc(m, n, sizeof *work->link);
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
         work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
@@ -162,7 +168,7 @@ static wt_status set_widths(master_work *work, wt_vertical_shift kind, double ge
 }
 
 /* A spectrum for the placed curves, and what the posterior keeps of each. */
-static wt_status make_spectrum(master_work *work, wt_error *err)
+wt_status master_make_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
     const size_t evaluations = work->s->evaluations;
@@ -190,10 +196,10 @@ static wt_status make_spectrum(master_work *work, wt_error *err)
     return set_widths(work, work->options.vertical, geometry_widths[1], departure_widths[1], err);
 }
 
-/* First with heavy tails, then without the points that are far off. */
-static wt_status fit_robust(master_work *work, wt_error *err)
+/* Without the points that are far off. */
+static wt_status leave_out(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+    wt_status status = WT_OK;
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
         const size_t changed = spectrum_outliers(work->s);
         if (round > 0 && changed == 0)
@@ -201,6 +207,13 @@ static wt_status fit_robust(master_work *work, wt_error *err)
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
     }
     return status;
+}
+
+/* First with heavy tails. */
+wt_status master_fit_robust(master_work *work, wt_error *err)
+{
+    const wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+    return status == WT_OK ? leave_out(work, err) : status;
 }
 
 /* Takes the shifts over; how far one has moved. */
@@ -261,30 +274,82 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
     return status;
 }
 
-/* More terms where they are needed: few of them either bend, or take lines for noise. */
-static wt_status sharpen(master_work *work, wt_error *err)
+/* Whether more terms are needed: few of them either bend, or take lines for noise. */
+static wt_status needs_lines(master_work *work, bool *better, wt_error *err)
 {
-    bool better = work->s->smooth > sharp;
+    *better = work->s->smooth > sharp;
     wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
     (void)take_shifts(work);
-    if (!better && try_lines(work, &better, &no_lines) == WT_E_MEMORY)
+    if (!*better && try_lines(work, better, &no_lines) == WT_E_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
-    if (!better)
-        return WT_OK;
+    return WT_OK;
+}
+
+static wt_status sharpen(master_work *work, wt_error *err)
+{
+    bool better = false;
+    wt_status lines = needs_lines(work, &better, err);
+    if (lines != WT_OK || !better)
+        return lines;
     work->lines = true;
     work->terms_per_decade = sharp_terms;
-    const wt_status status = make_spectrum(work, err);
+    const wt_status status = master_make_spectrum(work, err);
     work->s->smooth = lines_smooth;
-    return status == WT_OK ? fit_robust(work, err) : status;
+    return status == WT_OK ? master_fit_robust(work, err) : status;
+}
+
+/* How far the fit is from what is within the isotherms. */
+static wt_status measure_misfit(master_work *work, wt_error *err)
+{
+    double all[MODULI], within[MODULI];
+    const wt_status status = spectrum_misses(work->s, all, within, err);
+    work->gross = false;
+    for (int q = 0; status == WT_OK && q < MODULI; q++) {
+        const double missed = all[q] * all[q] - within[q] * within[q];
+        work->gross = work->gross || missed > gross_misfit * gross_misfit;
+        work->missed[q] = sqrt(fmax(missed, 0.0));
+    }
+    return status;
+}
+
+/* Where one spectrum is far off it may have begun in a wrong place: the overlaps of the storage
+ * modulus alone are another one. Sharp lines are far off, too, until there are terms for them. */
+static wt_status start_again(master_work *work, wt_error *err)
+{
+    bool lines = false;
+    wt_status status = measure_misfit(work, err);
+    if (status != WT_OK || !work->gross)
+        return status;
+    if (isnan(work->options.terms_per_decade))
+        status = needs_lines(work, &lines, err);
+    if (status != WT_OK || lines || !work->set.used[STORAGE]) {
+        work->gross = work->gross && !lines;
+        return status;
+    }
+    status = master_overlaps(work, err);
+    for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
+        if (work->link[i].placed && !work->set.curves[i].given) {
+            work->placed[i] = true;
+            work->a[i] = work->link[i].a;
+        }
+    (void)spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
+    if (status == WT_OK)
+        status = master_make_spectrum(work, err);
+    if (status == WT_OK)
+        status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+    return status == WT_OK ? measure_misfit(work, err) : status;
 }
 
 static wt_status place_all(master_work *work, wt_error *err)
 {
     const double asked = work->options.terms_per_decade;
     wt_status status = WT_OK;
+    work->gross = false;
     work->terms_per_decade = isnan(asked) ? smooth_terms : asked;
     spectrum_start(&work->set, work->anchor, work->options.vertical, work->physical, work->placed,
                    work->a, work->b);
+    for (size_t i = 0; work->part && i < work->set.n; i++)
+        work->placed[i] = work->placed[i] && i >= work->first && i <= work->last;
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
         const size_t before = work->s->n_curves;
         const double moved = round > 0 ? take_shifts(work) : 0.0;
@@ -292,11 +357,17 @@ static wt_status place_all(master_work *work, wt_error *err)
             spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
         if (round > 0 && n == before && moved < far)
             break;
-        status = make_spectrum(work, err);
+        status = master_make_spectrum(work, err);
         if (status == WT_OK)
-            status = fit_robust(work, err);
+            status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+        if (status == WT_OK && round == 0 && !work->part && !work->plain)
+            status = start_again(work, err);
+        if (work->gross)
+            break;
+        if (status == WT_OK)
+            status = leave_out(work, err);
     }
-    if (status == WT_OK && isnan(asked))
+    if (status == WT_OK && isnan(asked) && !work->gross)
         status = sharpen(work, err);
     if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
         status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
@@ -412,13 +483,16 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
         return WT_OK;
     spectrum *s = work->s;
+    work->tested = true;
     const double rho = s->rho;
     wt_status status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_spread(s, work->within.shape);
     if (status == WT_OK)
-        status = spectrum_fit(s, SPECTRUM_NOISE, err);
-    if (status == WT_OK && !work->options.series_only)
+        status = spectrum_fit(s, work->gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
+    if (status == WT_OK && work->gross) /* vertical shifts that are held may be all that misses */
+        status = measure_misfit(work, err);
+    if (status == WT_OK && work->tested)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
     spectrum_spread(s, even);
@@ -443,6 +517,93 @@ static double steeper(const master_work *work)
                : (double)NAN;
 }
 
+wt_status master_try_part(const master_work *whole, size_t first, size_t last, bool *holds,
+                          wt_error *err)
+{
+    master_work work = {.options = whole->options, .part = true, .set = whole->set};
+    work.options.reference_temperature = whole->reference;
+    work.set.curves += first;
+    work.set.n = work.last = last - first + 1;
+    *holds = false;
+    wt_status status = work_alloc(&work, err);
+    if (status == WT_OK)
+        status = choose_anchor(&work, err);
+    if (status == WT_OK)
+        status = place_all(&work, err);
+    if (status == WT_OK)
+        status = measure_misfit(&work, err);
+    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
+        status = find_noise(&work, err);
+    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
+        status = test_superposition(&work, err);
+    if (status == WT_OK && work.tested && !master_misfit_is_real(&work.lack))
+        status = master_agrees(&work, holds, err);
+    posterior_free(work.posterior);
+    pool_free(&work.memory);
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+/* One spectrum with shifts of its own. */
+static wt_status fit_own(master_work *work, wt_error *err)
+{
+    wt_status status = place_all(work, err);
+    if (status == WT_OK && work->gross) { /* the noise of a spectrum that is none does not matter */
+        status = spectrum_noise_within(work->s, &work->within, err);
+        spectrum_spread(work->s, even);
+    } else if (status == WT_OK) {
+        status = find_noise(work, err);
+    }
+    if (status == WT_OK)
+        status = test_superposition(work, err);
+    /* what was a start that is near enough may have ended far off */
+    if (status == WT_OK && !work->gross && !work->plain && work->tested &&
+        master_misfit_is_real(&work->lack))
+        status = measure_misfit(work, err);
+    return status;
+}
+
+/* The misfit is no matter of vertical shifts that are held, or of a factor on E'', which leave the
+ * shifts what they are. */
+static bool is_real(const master_work *work)
+{
+    const lack_of_fit *lack = &work->lack;
+    return !work->tested || (master_misfit_is_real(lack) &&
+                             fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
+}
+
+/* Where that is far off, or is not found: of the isotherms about the reference that one describes,
+ * or, if there are none, one at the shifts of the overlaps. */
+static wt_status fit_spectrum(master_work *work, wt_error *err)
+{
+    wt_error failure = WT_ERROR_INIT;
+    wt_status status = fit_own(work, &failure);
+    if (status == WT_E_CONVERGENCE)
+        snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
+    bool overlap = false;
+    if (work->no_spectrum[0] != '\0' || (status == WT_OK && work->gross && is_real(work))) {
+        const wt_status may = master_may_overlap(work, &overlap, err);
+        if (may != WT_OK)
+            return may;
+    }
+    if (!overlap && status == WT_OK && work->gross) { /* as if it had never been in doubt */
+        work->plain = true;
+        status = fit_own(work, &failure);
+    }
+    if (!overlap) {
+        if (status != WT_OK && err != NULL)
+            *err = failure;
+        return status;
+    }
+    status = master_find_part(work, err);
+    if (status == WT_OK && work->part) {
+        work->whole = work->lack;
+        return fit_own(work, err);
+    }
+    if (status == WT_OK)
+        status = master_by_overlap(work, err);
+    return status == WT_OK ? find_noise(work, err) : status;
+}
+
 wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
                           wt_master *master, double *better, wt_error *err)
 {
@@ -458,12 +619,8 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = choose_anchor(&work, err);
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
-        status = place_all(&work, err);
+        status = fit_spectrum(&work, err);
     }
-    if (status == WT_OK)
-        status = find_noise(&work, err);
-    if (status == WT_OK)
-        status = test_superposition(&work, err);
     if (status == WT_OK)
         status = fit_widths(&work, err);
     if (status == WT_OK)

@@ -45,7 +45,7 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
         master_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)
         return;
-    if (work->set.curves[i].given)
+    if (work->set.curves[i].given && work->route == WT_SHIFTS_OF_SPECTRUM)
         master_note(shift, "as given");
     if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
         fabs(shift->log_b.value - shift->log_b_physical) > odd_vertical)
@@ -116,9 +116,42 @@ static void note_quantity(const master_work *work, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 
+/* The way the shifts were found, where it is not one spectrum. */
+static void note_route(const master_work *work, wt_parselog *log)
+{
+    size_t measured = 0, left = 0;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->set.curves[i].n_together > 0) {
+            measured += work->set.curves[i].n_together;
+            left += work->set.curves[i].n;
+        }
+    if (measured > 0)
+        wt_parselog_add(log, WT_NOTE, NULL, NULL,
+                        "%zu points of dense isotherms are fitted as %zu means, each over a tenth "
+                        "of a decade at most",
+                        measured, left);
+    if (work->part)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "spectrum, law and series are those of the isotherms from %.1f to %.1f °C, "
+                        "which one spectrum describes; shifts of the others are by the overlap of "
+                        "their storage modulus with their neighbours'",
+                        work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
+                        work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
+    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "shifts are by the overlap of the storage modulus alone, from neighbour to "
+                        "neighbour and %s: their errors hold what the places of an overlap "
+                        "disagree by, not what a vertical shift would change, and E'' of the "
+                        "spectrum is off by what superposition fails by",
+                        work->options.vertical == WT_VERTICAL_PHYSICAL
+                            ? "with the vertical shift of rubber elasticity"
+                            : "without a vertical shift");
+}
+
 void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
 {
     note_quantity(work, log);
+    note_route(work, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         note_shift(work, i, &m->shifts[i]);
     note_runs(m);
@@ -140,9 +173,9 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
                         "extrapolated");
     if (m->n_shifts > 1 && work->set.by == WT_BY_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s: %s",
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
-                        m->because);
+                        isnan(m->holds_from) ? ": " : " ", m->because);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
 }

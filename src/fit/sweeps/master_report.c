@@ -143,6 +143,7 @@ static void forget_errors(const spectrum *s, wt_master *m)
     bool given = s->n_curves > 1;
     for (size_t i = 0; i < s->n_curves; i++)
         given = given && s->given[i];
+    given = given && m->shift_route != WT_SHIFTS_OF_OVERLAP; /* those have errors */
     for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
         *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
     if (given)
@@ -355,6 +356,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
     wt_master m = {.deformation = sweep->deformation,
                    .reference_temperature = work->reference,
                    .vertical = work->options.vertical,
+                   .shift_route = work->route,
                    .terms_per_decade = work->terms_per_decade,
                    .noise_storage = work->s->used[STORAGE] ? work->s->noise[STORAGE] : (double)NAN,
                    .noise_loss = work->s->used[LOSS] ? work->s->noise[LOSS] : (double)NAN,
@@ -363,6 +365,9 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
                    .step_allowed = sqrt(SPECTRUM_LEAST_GAIN),
                    .step_left = work->posterior->step_left};
     work->posterior->by = work->set.by;
+    m.settled = true;
+    for (size_t i = 0; i < work->posterior->n_parts; i++)
+        m.settled = m.settled && work->posterior->parts[i].cell->settled;
     wt_status status = master_fill_shifts(work, &m, err);
     if (status == WT_OK) {
         fill_law(work->posterior, &m);
@@ -386,6 +391,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
         return status;
     }
     m.superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m.holds_from = m.holds_to = (double)NAN;
     m.lack_of_fit_p = (double)NAN;
     if (!work->options.series_only)
         master_judge(work, &m);

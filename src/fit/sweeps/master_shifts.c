@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/master.h"
 
+#include "base/normal.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -26,7 +28,11 @@ static bool undetermined(const master_work *work, size_t i, const wt_interval *a
     if (work->set.curves[i].n < SHIFT_MIN_POINTS)
         master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
     else if (!work->placed[i])
-        master_note(shift, "not determined: no overlap with the others");
+        master_note(shift, work->route == WT_SHIFTS_OF_OVERLAP
+                               ? "not determined: shares too little of E' with its neighbours"
+                               : "not determined: no overlap with the others");
+    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+        return false; /* each step is */
     else if (!(a->standard_error <= largest_sigma))
         master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
                     a->standard_error);
@@ -37,6 +43,19 @@ static bool undetermined(const master_work *work, size_t i, const wt_interval *a
                     "aT",
                     clamping, largest_sigma);
     return shift->note[0] != '\0';
+}
+
+/* An isotherm beside the part that one spectrum describes is not in the curve, but it has a shift. */
+static bool fill_beside(const master_work *work, size_t i, wt_master_shift *shift)
+{
+    double a, error;
+    if (!master_beside_part(work, i, &a, &error))
+        return false;
+    if (!work->measured_reference)
+        a += posterior_a_to_reference(work->posterior, work->curve[work->anchor]).value;
+    shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
+    master_note(shift, "by the overlap of E' with its neighbour, not in the curve");
+    return true;
 }
 
 static void fill_shift(const master_work *work, size_t i, const double *log_b_material,
@@ -58,7 +77,7 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         shift->n_outliers = count_outliers(work->s, curve);
         a = posterior_a(work->posterior, curve);
     }
-    if (undetermined(work, i, &a, shift))
+    if (fill_beside(work, i, shift) || undetermined(work, i, &a, shift))
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);

@@ -39,10 +39,39 @@ static double widest_of_half(const master_work *work)
     return widest;
 }
 
+bool master_misfit_is_real(const lack_of_fit *lack)
+{
+    return lack->p_sure < significant && lack->misfit_low > matters;
+}
+
 /* A bound in per cent, which rounding does not make smaller. */
 static double at_most(double share)
 {
     return fmax(0.1, 0.1 * ceil(1e3 * share));
+}
+
+/* Of which temperatures, and by how much one spectrum of all misses them. */
+static void because_gross(const master_work *work, wt_master *m)
+{
+    const shift_curve *c = work->set.curves;
+    char where[128] = "", *at = where;
+    const double zero = WT_ZERO_CELSIUS;
+    if (work->part) {
+        const bool cold = work->first > 0, warm = work->last + 1 < work->set.n;
+        m->holds_from = c[work->first].temperature;
+        m->holds_to = c[work->last].temperature;
+        if (cold)
+            at += clocale_print(at, 32, "up to %.1f °C%s", c[work->first - 1].temperature - zero,
+                                warm ? " and " : "");
+        if (warm)
+            at += clocale_print(at, 32, "from %.1f °C on", c[work->last + 1].temperature - zero);
+        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->holds_from - zero,
+                      m->holds_to - zero);
+    }
+    clocale_print(m->because, sizeof m->because,
+                  "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
+                  "other processes, as in a glass, or a change of the material",
+                  where, 100.0 * work->missed[STORAGE], 100.0 * work->missed[LOSS]);
 }
 
 void master_judge(const master_work *work, wt_master *m)
@@ -51,9 +80,9 @@ void master_judge(const master_work *work, wt_master *m)
     for (size_t i = 0; i < m->n_shifts; i++)
         determined += m->shifts[i].determined && work->overlap[i] >= least_overlap;
     const size_t undetermined = m->n_shifts - determined;
-    const lack_of_fit *lack = &work->lack;
+    const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
     const double window = widest_of_half(work);
-    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->s->n_curves > 1;
+    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->tested;
     m->lack_of_fit_p = tested ? lack->p : (double)NAN;
     m->misfit_low = tested ? lack->misfit_low : (double)NAN;
     m->misfit_high = tested ? lack->misfit_high : (double)NAN;
@@ -61,10 +90,17 @@ void master_judge(const master_work *work, wt_master *m)
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
     m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m->holds_from = m->holds_to = (double)NAN;
     if (!both) {
         clocale_print(m->because, sizeof m->because,
                       "%s alone does not tell; storage and loss modulus together would",
                       work->set.by == WT_BY_LOSS_FACTOR ? "the loss factor" : "one modulus");
+    } else if (work->no_spectrum[0] != '\0') {
+        clocale_print(m->because, sizeof m->because, "one spectrum of all was not found (%s)",
+                      work->no_spectrum);
+    } else if (work->part || work->route == WT_SHIFTS_OF_OVERLAP) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        because_gross(work, m);
     } else if (determined >= 2 && lack->kk < loss_significant &&
                fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
@@ -72,8 +108,7 @@ void master_judge(const master_work *work, wt_master *m)
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
                       "instrument, the columns, and whether the material changed meanwhile",
                       100.0 * expm1(lack->factor), number_chance(lack->kk).text);
-    } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
-               lack->misfit_low > matters) {
+    } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_real(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         char low[16], high[16];
         clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);

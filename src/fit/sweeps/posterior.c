@@ -55,7 +55,8 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
                           .smoothness = s->smooth,
                           .geometry = v->geometry,
                           .departure = v->departure,
-                          .log_weight = log_weight};
+                          .log_weight = log_weight,
+                          .settled = s->settled};
     if (kind == WT_VERTICAL_TIED)
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
@@ -123,6 +124,8 @@ static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
                 gsl_matrix_set(covariance, i, k,
                                gsl_matrix_get(cell->covariance, at, with) / (M_LN10 * M_LN10));
     }
+    if (p->given != NULL)
+        gsl_matrix_add(covariance, p->given);
 }
 
 static void part_alloc(wt_posterior *p, posterior_part *part)

@@ -18,6 +18,7 @@ typedef struct posterior_cell {
     double noise[MODULI], smoothness;
     double geometry, departure; /* widths of the vertical shift */
     double log_weight, weight;  /* without the law */
+    bool settled;               /* the fit ended by itself */
 } posterior_cell;
 
 /* The same with a law and a spread of the temperatures. */
@@ -43,6 +44,8 @@ struct wt_posterior {
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
     wt_shift_by by;
+    double *given_error; /* [n_curves] of shifts that are given [decade]; NULL: they are exact */
+    gsl_matrix *given;   /* [n_curves^2] their covariance as the law takes it */
     double anchor_a; /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;

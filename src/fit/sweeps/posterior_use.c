@@ -15,9 +15,17 @@
 
 enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
 
-static wt_interval of_column(const wt_posterior *p, long column, double held)
+/* Variance of a shift that is given. */
+static double given_variance(const wt_posterior *p, size_t curve)
 {
-    mixture_part part[MOST_PARTS];
+    return p->given_error != NULL ? pow(p->given_error[curve], 2) : 0.0;
+}
+
+static wt_interval of_column(const wt_posterior *p, long column, double held, double variance)
+{
+    mixture_part part[MOST_PARTS] = {{1.0, held, sqrt(variance)}};
+    if (column < 0 && variance > 0.0)
+        return mixture_interval(part, 1);
     if (column < 0)
         return (wt_interval){held, 0.0, held, held};
     const size_t c = (size_t)column;
@@ -29,7 +37,8 @@ static wt_interval of_column(const wt_posterior *p, long column, double held)
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10);
+    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
+                     given_variance(p, curve));
 }
 
 /* ln b of a curve whose b is no unknown. */
@@ -41,7 +50,7 @@ static double held_b(const wt_posterior *p, size_t curve)
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_b[curve], held_b(p, curve) / M_LN10);
+    return of_column(p, p->frame.column_b[curve], held_b(p, curve) / M_LN10, 0.0);
 }
 
 double posterior_tie(const wt_posterior *p, size_t curve)
@@ -169,10 +178,10 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
         modulus[q] = mixture_interval(part[q], p->n_parts);
 }
 
-/* One unknown of the spectrum, or what is given in its place, times `scale`, less the offset of the
- * law times `offset`. */
-static wt_interval of_unknown(const wt_posterior *p, long column, double given, double scale,
-                              double offset)
+/* One unknown of the spectrum, or what is given in its place with a variance of its own, times
+ * `scale`, less the offset of the law times `offset`. */
+static wt_interval of_unknown(const wt_posterior *p, long column, double given, double variance,
+                              double scale, double offset)
 {
     mixture_part part[MOST_PARTS];
     double *by_unknown = p->scratch + p->frame.n_curves;
@@ -183,25 +192,27 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double given, 
         struct quantity x = {-offset * p->parts[i].law.unknown[0], by_unknown, {-offset}};
         x.value += scale * (column >= 0 ? p->parts[i].cell->value[column] : given);
         part[i] = of_part(p, &p->parts[i], &x, p->scratch);
+        part[i].deviation = sqrt(part[i].deviation * part[i].deviation + variance);
     }
     return mixture_interval(part, p->n_parts);
 }
 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
-    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve], 1.0 / M_LN10, 1.0);
+    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve],
+                      given_variance(p, curve), 1.0 / M_LN10, 1.0);
 }
 
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    return of_unknown(p, (long)p->frame.n_terms, 0.0, 1.0, 0.0);
+    return of_unknown(p, (long)p->frame.n_terms, 0.0, 0.0, 1.0, 0.0);
 }
 
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 {
     double mean[LAW_MOST];
     posterior_mean_law(p, mean);
-    wt_interval x = of_unknown(p, (long)term, 0.0, 1.0, slope * M_LN10);
+    wt_interval x = of_unknown(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
     const double by = slope * M_LN10 * mean[0];
     x.value += by;
     x.low += by;

@@ -56,6 +56,7 @@ typedef struct spectrum {
     double smooth_move;     /* its last step, ln */
     double rho;             /* correlation of neighbouring points */
 
+    bool settled;       /* the last fit ended by itself */
     size_t evaluations; /* so far */
     /* of the last evaluation: whitened rows, curve by curve; E' of a point, then E'' */
     double *residual[MODULI]; /* [n] */
@@ -150,6 +151,10 @@ typedef struct spectrum_within {
 } spectrum_within;
 /* Sets the factors of the isotherms, and leaves the rest to the caller. */
 wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err) WT_NODISCARD;
+/* What the moduli are off, in ln, and what of it a polynomial of each isotherm leaves; points are
+ * taken as independent. */
+wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI],
+                          wt_error *err) WT_NODISCARD;
 /* Factors of the points: of their isotherm, and by their place on it. */
 void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 

@@ -7,6 +7,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
 enum { RHOS = sizeof rhos / sizeof *rhos };
@@ -219,13 +220,50 @@ void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
     }
 }
 
+static wt_status noise_work_new(const spectrum *s, struct noise_work *w, wt_error *err)
+{
+    *w = (struct noise_work){.v = calloc(s->n * (MOST_WIDTH + 2 + MODULI), sizeof *w->v)};
+    if (w->v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
+    w->rest = w->v + s->n * MOST_WIDTH;
+    w->left = w->rest + s->n;
+    return WT_OK;
+}
+
+wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI], wt_error *err)
+{
+    const double rho = s->rho;
+    struct noise_work w;
+    const wt_status status = noise_work_new(s, &w, err);
+    if (status != WT_OK)
+        return status;
+    double *const weights = w.left + s->n; /* E', then E'' */
+    s->rho = 0.0;
+    for (int q = 0; q < MODULI; q++)
+        memcpy(weights + (size_t)q * s->n, s->weight[q], s->n * sizeof *weights);
+    (void)spectrum_outliers(s);
+    spectrum_evaluate(s, s->value, false);
+    (void)within_all(s, &w);
+    for (int q = 0; q < MODULI; q++) {
+        double n = 0.0;
+        for (size_t k = 0; k < s->n; k++)
+            n += s->weight[q][k] > 0.0;
+        all[q] = n > 0.0 ? sqrt(spectrum_squares(s, q) / n) : 0.0;
+        within[q] = sqrt(w.scale[q]);
+    }
+    for (int q = 0; q < MODULI; q++)
+        memcpy(s->weight[q], weights + (size_t)q * s->n, s->n * sizeof *weights);
+    s->rho = rho;
+    free(w.v);
+    return WT_OK;
+}
+
 wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err)
 {
-    struct noise_work w = {.v = calloc(s->n * (MOST_WIDTH + 2), sizeof *w.v)};
-    if (w.v == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
-    w.rest = w.v + s->n * MOST_WIDTH;
-    w.left = w.rest + s->n;
+    struct noise_work w;
+    const wt_status status = noise_work_new(s, &w, err);
+    if (status != WT_OK)
+        return status;
     *within = (spectrum_within){0};
     for (size_t i = 0; i < s->n_curves; i++)
         s->kappa[i] = 1.0;

@@ -10,7 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
+enum { MAX_DAMPINGS = 12 };
+/* What has not settled by then is said to be unsettled; a start need not. */
+static const int most_steps[] = {[SPECTRUM_NOISE] = 300,
+                                 [SPECTRUM_ROUGH] = 80,
+                                 [SPECTRUM_ROBUST] = 40,
+                                 [SPECTRUM_HELD] = 80,
+                                 [SPECTRUM_TRIAL] = 80};
 /* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
  * smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
@@ -105,7 +111,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
     gsl_quiet();
     s->smooth_move = 0.0;
     prepare(s);
-    for (int i = 0; status == WT_OK && !done && i < MAX_STEPS; i++) {
+    for (int i = 0; status == WT_OK && !done && i < most_steps[mode]; i++) {
         status = step(s, &damping, &gain, err);
         if (status != WT_OK)
             break;
@@ -125,6 +131,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         done = gain < enough_gain && change < (rough ? rough_change : least_change);
         done = done || (mode == SPECTRUM_TRIAL && gain < trial_gain * s->objective);
     }
+    s->settled = done;
     if (status == WT_OK)
         status = invert(s, err);
     if (status == WT_OK)

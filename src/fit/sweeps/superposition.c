@@ -257,9 +257,16 @@ static double noncentral_below(double x, double freedom, double lambda)
     return sum;
 }
 
+/* Beyond it the square root of noncentral chi-square is normal to four digits, and the sum above
+ * has too many terms. */
+static const double many = 1e4;
+
 /* Lambda with which x has this probability to be exceeded from below. */
 static double noncentrality(double x, double freedom, double probability)
 {
+    const double half = 0.5 * (freedom - 1.0);
+    if (x > many + freedom)
+        return pow(sqrt(x - half) - gsl_cdf_ugaussian_Pinv(probability), 2) - half;
     double low = 0.0, high = 4.0 * x + 100.0;
     if (noncentral_below(x, freedom, 0.0) <= probability)
         return 0.0;

@@ -141,8 +141,8 @@ static void set_law(table_writer *t, const wt_master *m)
 static void set_verdict(table_writer *t, const wt_master *m)
 {
     static const char *const words[] = {"holds", "fails", "cannot say"};
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s: %s", words[m->superposition],
-                            m->because);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", words[m->superposition],
+                            isnan(m->holds_from) ? ": " : " ", m->because);
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
@@ -152,6 +152,27 @@ static void set_verdict(table_writer *t, const wt_master *m)
     shift_factors_set_value(t, SHIFT_FACTORS_KEY_LOSS_FACTOR, factor, factor * m->loss_factor_error,
                             0);
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "%.3g", m->kramers_kronig_p);
+}
+
+/* More of a standard error than this is seen in an interval. */
+static const double seen = 0.1;
+
+static bool is_settled(const wt_master *m)
+{
+    return m->settled && !(m->step_left > seen);
+}
+
+static void set_route(table_writer *t, const wt_master *m)
+{
+    if (m->shift_route == WT_SHIFTS_OF_OVERLAP)
+        shift_factors_set_text(t, SHIFT_FACTORS_KEY_ROUTE,
+                               "overlap of the storage modulus, neighbour by neighbour");
+    if (!isnan(m->holds_from)) {
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_FROM, m->holds_from, 0, 0);
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_TO, m->holds_to, 0, 0);
+    }
+    if (!is_settled(m))
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_STEP_LEFT, "%.3g", m->step_left);
 }
 
 static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err)
@@ -166,6 +187,7 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
     if (wt_master_shifted_by(m) != WT_BY_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY,
                                shifted_by_name(wt_master_shifted_by(m)));
+    set_route(&t, m);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
                            flow_deformation_name(m->deformation));
     set_verdict(&t, m);
@@ -471,12 +493,9 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
-/* More of a standard error than this is seen in an interval. */
-static const double seen = 0.1;
-
 static void say_unfinished(const wt_master *m, const wt_job *work)
 {
-    if (m->step_left > seen)
+    if (!is_settled(m))
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "the fit ended before it was settled: a further step would move a number "
                         "by up to %.2g of its standard error",

@@ -1,0 +1,212 @@
+/* The master curve of isotherms that one spectrum does not describe: shifts by the overlap of
+ * neighbours, and a spectrum for them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/sweeps/master.h"
+
+#include "fit/pool_gsl.h"
+#include "fit/sweeps/spectrum_start.h"
+
+#include <math.h>
+
+/* Shifts of a spectrum and of the overlaps that differ by more than so many standard errors of
+ * those do not agree. */
+static const double agree = 2.0;
+
+/* The overlaps with the vertical shift of rubber elasticity, or with none. */
+static wt_status overlaps(const master_work *work, bool physical, double *b, overlap_link *link,
+                          wt_error *err)
+{
+    for (size_t i = 0; i < work->set.n; i++)
+        b[i] = physical ? work->physical[i] - work->physical[work->anchor] : 0.0;
+    return overlap_chain(&work->set, work->anchor, b, link, err);
+}
+
+/* Whether all shifts of the spectrum are what the overlaps say. */
+static bool all_agree(const master_work *work, const overlap_link *link)
+{
+    const spectrum *s = work->s;
+    for (size_t i = 0; i < work->set.n; i++) {
+        const long column = work->placed[i] ? s->column_a[work->curve[i]] : -1;
+        if (column < 0)
+            continue;
+        const double variance = gsl_matrix_get(s->covariance, (size_t)column, (size_t)column);
+        const double off = spectrum_a(s, work->curve[i]) / M_LN10 - link[i].a;
+        if (!(fabs(off) <= agree * hypot(link[i].error, sqrt(variance) / M_LN10)))
+            return false;
+    }
+    return true;
+}
+
+wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
+{
+    const size_t n = work->set.n;
+    pool memory = {0};
+    double *b = pool_numbers(&memory, n);
+    overlap_link *link = pool_alloc(&memory, n, sizeof *link);
+    wt_status status =
+        memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
+    *agrees = false;
+    for (int physical = 0; physical < 2 && status == WT_OK && !*agrees; physical++) {
+        status = overlaps(work, physical == 1, b, link, err);
+        *agrees = status == WT_OK && all_agree(work, link);
+    }
+    pool_free(&memory);
+    return status;
+}
+
+/* Vertical shifts are those of rubber elasticity if they are asked for, else there are none: the
+ * storage modulus alone does not tell them from horizontal ones, and a glass has none. */
+wt_status master_overlaps(master_work *work, wt_error *err)
+{
+    double *b = pool_numbers(&work->memory, work->set.n);
+    if (b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
+    return overlaps(work, work->options.vertical == WT_VERTICAL_PHYSICAL, b, work->link, err);
+}
+
+wt_status master_may_overlap(master_work *work, bool *may, wt_error *err)
+{
+    size_t placed = 0;
+    bool given = !work->set.used[STORAGE];
+    for (size_t i = 0; i < work->set.n; i++)
+        given = given || work->set.curves[i].given;
+    *may = false;
+    if (given)
+        return WT_OK;
+    const wt_status status = master_overlaps(work, err);
+    for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
+        placed += work->link[i].placed;
+    *may = placed > 1;
+    return status;
+}
+
+static size_t away(const master_work *work, size_t i)
+{
+    return i > work->anchor ? i - work->anchor : work->anchor - i;
+}
+
+/* Squared errors of the steps that two isotherms have in common. */
+static double common_steps(const master_work *work, size_t one, size_t other)
+{
+    double sum = 0.0;
+    while (one != other) {
+        size_t *const next = away(work, one) > away(work, other) ? &one : &other;
+        *next = work->link[*next].onto;
+    }
+    for (; one != work->anchor; one = work->link[one].onto)
+        sum += work->link[one].step * work->link[one].step;
+    return sum;
+}
+
+/* The error of a shift: steps that err one by one, and all in the same way. The law takes them as
+ * steps that err one by one, larger by so much that the errors are as large together: that all err
+ * in the same way leaves its form alone. */
+static wt_status give_errors(master_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    wt_posterior *p = work->posterior;
+    double all = 0.0, steps = 0.0;
+    p->given_error = pool_numbers(&p->memory, work->s->n_curves);
+    p->given = pool_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
+    for (size_t i = 0; i < n; i++) {
+        if (!work->placed[i])
+            continue;
+        const double by_steps = common_steps(work, i, i), alike = work->link[i].error;
+        p->given_error[work->curve[i]] = sqrt(by_steps + alike * alike);
+        all += by_steps + alike * alike;
+        steps += by_steps;
+        for (size_t k = 0; k < n; k++)
+            if (work->placed[k] && (i < work->anchor) == (k < work->anchor))
+                gsl_matrix_set(p->given, work->curve[i], work->curve[k], common_steps(work, i, k));
+    }
+    gsl_matrix_scale(p->given, steps > 0.0 ? all / steps : 1.0);
+    return WT_OK;
+}
+
+wt_status master_by_overlap(master_work *work, wt_error *err)
+{
+    const bool physical = work->options.vertical == WT_VERTICAL_PHYSICAL;
+    shift_set *set = &work->set;
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < set->n; i++) {
+        work->placed[i] = work->link[i].placed;
+        work->a[i] = work->placed[i] ? work->link[i].a : 0.0;
+        work->b[i] = physical ? work->physical[i] : 0.0;
+    }
+    (void)spectrum_connected(set, work->anchor, work->a, work->placed, work->overlap);
+    for (size_t i = 0; i < set->n; i++) {
+        set->curves[i].given = work->placed[i];
+        set->curves[i].given_a = work->a[i];
+    }
+    work->route = WT_SHIFTS_OF_OVERLAP;
+    work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
+    work->lines = false;
+    status = master_make_spectrum(work, err);
+    if (status == WT_OK)
+        status = give_errors(work, err);
+    return status == WT_OK ? master_fit_robust(work, err) : status;
+}
+
+/* ---- a part that one spectrum describes ------------------------------------------------------ */
+
+/* Fewer isotherms than these have no law (shift_law.h). */
+enum { LEAST_PART = LAW_LEAST_TOLD };
+
+/* The farthest end with which the part still holds: all there is, then by halves. */
+static wt_status widen(master_work *work, bool warm, wt_error *err)
+{
+    size_t *const end = warm ? &work->last : &work->first;
+    size_t steps = warm ? work->set.n - 1 - work->last : work->first; /* that may hold */
+    wt_status status = WT_OK;
+    for (size_t tried = steps; status == WT_OK && steps > 0; tried = (steps + 1) / 2) {
+        bool holds;
+        const size_t next = warm ? *end + tried : *end - tried;
+        status = master_try_part(work, warm ? work->first : next, warm ? next : work->last, &holds,
+                                 err);
+        if (status == WT_OK && holds) {
+            *end = next;
+            steps -= tried;
+        } else {
+            steps = tried - 1;
+        }
+    }
+    return status;
+}
+
+wt_status master_find_part(master_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    bool holds = false;
+    wt_status status = WT_OK;
+    if (work->set.by != WT_BY_MODULI || n <= LEAST_PART)
+        return WT_OK;
+    /* about the anchor, rather to the warm side: rubber is above its glass */
+    work->first = work->anchor > 0 ? work->anchor - 1 : 0;
+    if (work->first + LEAST_PART > n)
+        work->first = n - LEAST_PART;
+    work->last = work->first + LEAST_PART - 1;
+    status = master_try_part(work, work->first, work->last, &holds, err);
+    if (status != WT_OK || !holds)
+        return status;
+    status = widen(work, true, err);
+    if (status == WT_OK)
+        status = widen(work, false, err);
+    work->part = true;
+    return status;
+}
+
+bool master_beside_part(const master_work *work, size_t i, double *a, double *error)
+{
+    const size_t end = i < work->first ? work->first : work->last;
+    const overlap_link *link = work->link;
+    if (!work->part || (i >= work->first && i <= work->last) || !link[i].placed ||
+        !link[end].placed || !work->placed[end])
+        return false;
+    const wt_interval at = posterior_a(work->posterior, work->curve[end]);
+    const double alike = link[i].error - link[end].error;
+    *a = at.value + link[i].a - link[end].a;
+    *error = sqrt(at.standard_error * at.standard_error + alike * alike +
+                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0));
+    return true;
+}

@@ -1,0 +1,208 @@
+/* Shifts by the overlap of neighbours. A step begins with the closed form and ends with the least
+ * squares of the gaps, where points far off count little; what the places of an overlap disagree by
+ * is its error. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/sweeps/overlap_chain.h"
+
+#include "fit/sweeps/closed_form.h"
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A step with a larger error is none [decade]: as for the shifts of the fit (master_shifts.c). */
+static const double largest_sigma = 0.2;
+/* Slopes are those of lines over so much to either side [decade]. */
+static const double slope_reach = 0.3;
+/* Gaps of more than so many standard deviations count little (Cauchy weights, which take 5 % of the
+ * efficiency where noise is normal). */
+static const double far_off = 2.385;
+static const double settled = 1e-5; /* [decade] */
+enum { NEIGHBOURS = 2, MOST_STEPS = 50, LEAST_GAPS = 4 };
+
+/* A gap between two curves, and by how much it closes with the shift. */
+struct gap {
+    double off, slope, weight;
+};
+
+struct overlap {
+    const shift_curve *p, *s;
+    const double *slope_p, *slope_s; /* of their points */
+    double b;
+    struct gap *gap;
+    double *scratch; /* as many */
+    size_t n, n_first;
+};
+
+/* Slope of the storage modulus at each point. */
+static void slopes(const shift_curve *c, double *slope)
+{
+    size_t from = 0, to = 0;
+    for (size_t k = 0; k < c->n; k++) {
+        double sum[4] = {0.0, 0.0, 0.0, 0.0}; /* x, y, xx, xy about the point */
+        while (from + 1 < k && c->x[from] < c->x[k] - slope_reach)
+            from++;
+        while (to < c->n && (to < k + 2 || c->x[to] <= c->x[k] + slope_reach))
+            to++;
+        for (size_t i = from; i < to; i++) {
+            const double x = c->x[i] - c->x[k], y = c->y[STORAGE][i] - c->y[STORAGE][k];
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += x * x;
+            sum[3] += x * y;
+        }
+        const double n = (double)(to - from), spread = sum[2] - sum[0] * sum[0] / n;
+        slope[k] = spread > 0.0 ? (sum[3] - sum[0] * sum[1] / n) / spread : 0.0;
+    }
+}
+
+/* Points of `from` moved by a onto `onto`; sign: 1 where `from` is the curve that is shifted. */
+static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_curve *from,
+                     const double *slope, double a, double sign)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < from->n; i++) {
+        const double x = from->x[i] + a;
+        if (x < onto->x[0] || x > onto->x[onto->n - 1])
+            continue;
+        while (k + 2 < onto->n && onto->x[k + 1] < x)
+            k++;
+        const double width = onto->x[k + 1] - onto->x[k];
+        const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
+        const double y =
+            onto->y[STORAGE][k] + share * (onto->y[STORAGE][k + 1] - onto->y[STORAGE][k]);
+        o->gap[o->n++] = (struct gap){sign * (y - from->y[STORAGE][i]) - o->b,
+                                      slope[k] + share * (slope[k + 1] - slope[k]), 1.0};
+    }
+}
+
+static void find_gaps(struct overlap *o, double a)
+{
+    o->n = 0;
+    add_gaps(o, o->p, o->s, o->slope_p, a, 1.0);
+    o->n_first = o->n;
+    add_gaps(o, o->s, o->p, o->slope_s, -a, -1.0);
+    for (size_t i = 0; i < o->n; i++)
+        o->scratch[i] = fabs(o->gap[i].off);
+    gsl_sort(o->scratch, 1, o->n);
+    const double spread =
+        o->n > 0 ? far_off * 1.4826 * gsl_stats_median_from_sorted_data(o->scratch, 1, o->n) : 0.0;
+    for (size_t i = 0; spread > 0.0 && i < o->n; i++) {
+        const double far = o->gap[i].off / spread;
+        o->gap[i].weight = 1.0 / (1.0 + far * far);
+    }
+}
+
+/* What the shift lacks by the gaps, and the squares of both. */
+static double lacks(const struct overlap *o, double *gaps, double *slope_squares)
+{
+    double cross = 0.0;
+    *gaps = *slope_squares = 0.0;
+    for (size_t i = 0; i < o->n; i++) {
+        const struct gap *g = &o->gap[i];
+        cross += g->weight * g->off * g->slope;
+        *gaps += g->weight * g->off * g->off;
+        *slope_squares += g->weight * g->slope * g->slope;
+    }
+    return *slope_squares > 0.0 ? -cross / *slope_squares : (double)NAN;
+}
+
+/* How many of the gaps stand for themselves: those beside each other go together where the curves
+ * differ in form. Both directions have the same points. */
+static double independent(const struct overlap *o)
+{
+    double product = 0.0, square = 0.0;
+    for (size_t i = 0; i < o->n; i++) {
+        const double r = o->gap[i].off * sqrt(o->gap[i].weight);
+        square += r * r;
+        if (i > 0 && i != o->n_first)
+            product += r * o->gap[i - 1].off * sqrt(o->gap[i - 1].weight);
+    }
+    const double rho = square > 0.0 ? fmax(product / square, 0.0) : 0.0;
+    return fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
+}
+
+/* From the closed form to the least squares; the error has what both disagree by. */
+static bool find_step(struct overlap *o, double start, double *a, double *error)
+{
+    double gaps = 0.0, slope_squares = 0.0;
+    *a = start;
+    for (int i = 0; i < MOST_STEPS; i++) {
+        find_gaps(o, *a);
+        const double move = o->n >= LEAST_GAPS ? lacks(o, &gaps, &slope_squares) : (double)NAN;
+        if (!isfinite(move))
+            return false;
+        *a += fmax(-largest_sigma, fmin(largest_sigma, move));
+        if (fabs(move) < settled)
+            break;
+    }
+    find_gaps(o, *a);
+    if (o->n < LEAST_GAPS || !isfinite(lacks(o, &gaps, &slope_squares)))
+        return false;
+    *error = hypot(sqrt(gaps / slope_squares / independent(o)), 0.5 * (*a - start));
+    return *error <= largest_sigma;
+}
+
+struct chain {
+    const shift_set *set;
+    const double *b;
+    double *slope; /* [points of the set] */
+    size_t *first; /* [n] of a curve there */
+    struct overlap overlap;
+};
+
+static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t from)
+{
+    struct overlap *o = &c->overlap;
+    const double b = c->b[from] - c->b[onto];
+    double a, error;
+    if (!link[onto].placed)
+        return false;
+    const double start = closed_form_step(c->set, onto, from, b);
+    o->p = &c->set->curves[onto];
+    o->s = &c->set->curves[from];
+    o->slope_p = c->slope + c->first[onto];
+    o->slope_s = c->slope + c->first[from];
+    o->b = b;
+    if (isnan(start) || !find_step(o, start, &a, &error))
+        return false;
+    link[from] = (overlap_link){true, onto, link[onto].a + a, error, link[onto].error + error};
+    return true;
+}
+
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, overlap_link *link,
+                        wt_error *err)
+{
+    const size_t n = set->n;
+    size_t longest = 0;
+    for (size_t i = 0; i < n; i++) {
+        link[i] = (overlap_link){.onto = anchor, .a = (double)NAN};
+        longest = set->curves[i].n > longest ? set->curves[i].n : longest;
+    }
+    link[anchor] = (overlap_link){.placed = true, .onto = anchor};
+    if (!set->used[STORAGE])
+        return WT_OK;
+    pool memory = {0};
+    struct chain c = {.set = set, .b = b};
+    c.slope = pool_numbers(&memory, set->n_points);
+    c.first = pool_alloc(&memory, n, sizeof *c.first);
+    c.overlap.gap = pool_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
+    c.overlap.scratch = pool_numbers(&memory, 2 * longest);
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
+    }
+    for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
+        c.first[i] = k;
+        slopes(&set->curves[i], c.slope + k);
+    }
+    for (size_t i = anchor + 1; i < n; i++)
+        for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !link[i].placed; k++)
+            (void)link_to(&c, link, i - k, i);
+    for (size_t i = anchor; i-- > 0;)
+        for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !link[i].placed; k++)
+            (void)link_to(&c, link, i + k, i);
+    pool_free(&memory);
+    return WT_OK;
+}

@@ -1,0 +1,22 @@
+/* Shifts by the overlap of neighbours, from the anchor outwards, of the storage modulus alone: what
+ * is left where one spectrum does not describe the isotherms (internal to the fit room). Decades.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FIT_SWEEPS_OVERLAP_CHAIN_H
+#define WEARTRACK_FIT_SWEEPS_OVERLAP_CHAIN_H
+
+#include "fit/sweeps/isotherm.h"
+
+typedef struct overlap_link {
+    bool placed;
+    size_t onto;  /* the isotherm it hangs on, of those that are placed; the anchor: itself */
+    double a;     /* against the anchor */
+    double step;  /* standard error of the step onto it */
+    double error; /* standard error of a: steps err the same way where superposition fails */
+} overlap_link;
+
+/* link: [set->n]. b: [set->n] vertical shifts that the moduli are taken with. Nothing but the anchor
+ * is placed without a storage modulus. */
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, overlap_link *link,
+                        wt_error *err) WT_NODISCARD;
+
+#endif
