@@ -143,6 +143,7 @@ static wt_status work_alloc(master_work *work, wt_error *err)
     work->overlap = pool_numbers(m, n);
     work->vertical.precision = pool_matrix(m, n, n);
     work->link = pool_alloc(m, n, sizeof *work->link);
+    work->own_a = pool_numbers(m, n);
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
         work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
@@ -490,8 +491,6 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     spectrum_spread(s, work->within.shape);
     if (status == WT_OK)
         status = spectrum_fit(s, work->gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
-    if (status == WT_OK && work->gross) /* vertical shifts that are held may be all that misses */
-        status = measure_misfit(work, err);
     if (status == WT_OK && work->tested)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
@@ -543,11 +542,28 @@ wt_status master_try_part(const master_work *whole, size_t first, size_t last, b
     return status == WT_E_MEMORY ? status : WT_OK;
 }
 
+/* As if it had never been in doubt. */
+static wt_status fit_plainly(master_work *work, wt_error *err)
+{
+    work->plain = true;
+    wt_status status = place_all(work, err);
+    if (status == WT_OK)
+        status = find_noise(work, err);
+    return status == WT_OK ? test_superposition(work, err) : status;
+}
+
 /* One spectrum with shifts of its own. */
 static wt_status fit_own(master_work *work, wt_error *err)
 {
     wt_status status = place_all(work, err);
-    if (status == WT_OK && work->gross) { /* the noise of a spectrum that is none does not matter */
+    if (status == WT_OK && work->gross) { /* vertical shifts that are held may be all that misses */
+        status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
+        if (status == WT_OK)
+            status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
+        if (status == WT_OK)
+            status = measure_misfit(work, err);
+        if (status != WT_OK || !work->gross) /* all is well but for those: from the start again */
+            return status != WT_OK ? status : fit_plainly(work, err);
         status = spectrum_noise_within(work->s, &work->within, err);
         spectrum_spread(work->s, even);
     } else if (status == WT_OK) {
@@ -556,8 +572,7 @@ static wt_status fit_own(master_work *work, wt_error *err)
     if (status == WT_OK)
         status = test_superposition(work, err);
     /* what was a start that is near enough may have ended far off */
-    if (status == WT_OK && !work->gross && !work->plain && work->tested &&
-        master_misfit_is_real(&work->lack))
+    if (status == WT_OK && !work->gross && work->tested && master_misfit_is_real(&work->lack))
         status = measure_misfit(work, err);
     return status;
 }
@@ -585,15 +600,17 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
         if (may != WT_OK)
             return may;
     }
-    if (!overlap && status == WT_OK && work->gross) { /* as if it had never been in doubt */
-        work->plain = true;
-        status = fit_own(work, &failure);
-    }
+    if (!overlap && status == WT_OK && work->gross)
+        status = fit_plainly(work, &failure);
+    if (!overlap && status == WT_OK && work->tested && master_misfit_is_real(&work->lack) &&
+        work->set.used[STORAGE])
+        status = master_doubt(work, &failure);
     if (!overlap) {
         if (status != WT_OK && err != NULL)
             *err = failure;
         return status;
     }
+    master_keep_own(work);
     status = master_find_part(work, err);
     if (status == WT_OK && work->part) {
         work->whole = work->lack;

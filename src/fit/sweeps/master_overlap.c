@@ -97,31 +97,64 @@ static double common_steps(const master_work *work, size_t one, size_t other)
     return sum;
 }
 
-/* The error of a shift: steps that err one by one, and all in the same way. The law takes them as
- * steps that err one by one, larger by so much that the errors are as large together: that all err
- * in the same way leaves its form alone. */
-static wt_status give_errors(master_work *work, wt_error *err)
+/* The error of a shift where superposition fails: what the places of the overlaps disagree by, and
+ * what spectrum and overlaps do. The law takes it as that of steps that err one by one, larger by so
+ * much that the errors are as large together: that all err in the same way leaves its form alone. */
+static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
+    const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
     const size_t n = work->set.n;
     wt_posterior *p = work->posterior;
     double all = 0.0, steps = 0.0;
-    p->given_error = pool_numbers(&p->memory, work->s->n_curves);
-    p->given = pool_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
+    p->doubt = pool_numbers(&p->memory, work->s->n_curves);
+    p->doubts = pool_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
-        if (!work->placed[i])
+        const overlap_link *link = &work->link[i];
+        if (!work->placed[i] || !link->placed)
             continue;
-        const double by_steps = common_steps(work, i, i), alike = work->link[i].error;
-        p->given_error[work->curve[i]] = sqrt(by_steps + alike * alike);
-        all += by_steps + alike * alike;
+        const double by_steps = common_steps(work, i, i);
+        double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
+        double square = by_steps + link->error * link->error;
+        if (!by_overlap) { /* where the overlaps tell little they are no reason to doubt */
+            off = fmax(off - agree * sqrt(square), 0.0);
+            square = 0.0;
+        }
+        square += link->spread * link->spread + off * off;
+        p->doubt[work->curve[i]] = sqrt(square);
+        all += square;
         steps += by_steps;
         for (size_t k = 0; k < n; k++)
-            if (work->placed[k] && (i < work->anchor) == (k < work->anchor))
-                gsl_matrix_set(p->given, work->curve[i], work->curve[k], common_steps(work, i, k));
+            if (work->placed[k] && work->link[k].placed &&
+                (i < work->anchor) == (k < work->anchor))
+                gsl_matrix_set(p->doubts, work->curve[i], work->curve[k],
+                               common_steps(work, i, k));
     }
-    gsl_matrix_scale(p->given, steps > 0.0 ? all / steps : 1.0);
+    gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
     return WT_OK;
+}
+
+void master_keep_own(master_work *work)
+{
+    for (size_t i = 0; i < work->set.n; i++)
+        work->own_a[i] = work->placed[i] && work->no_spectrum[0] == '\0'
+                             ? spectrum_a(work->s, work->curve[i]) / M_LN10
+                             : (double)NAN;
+}
+
+wt_status master_doubt(master_work *work, wt_error *err)
+{
+    double *b = pool_numbers(&work->memory, work->set.n);
+    if (b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
+    const double b0 = spectrum_b(work->s, work->curve[work->anchor]);
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->placed[i])
+            b[i] = (spectrum_b(work->s, work->curve[i]) - b0) / M_LN10;
+    master_keep_own(work);
+    const wt_status status = overlap_chain(&work->set, work->anchor, b, work->link, err);
+    return status == WT_OK ? doubt_shifts(work, err) : status;
 }
 
 wt_status master_by_overlap(master_work *work, wt_error *err)
@@ -144,7 +177,7 @@ wt_status master_by_overlap(master_work *work, wt_error *err)
     work->lines = false;
     status = master_make_spectrum(work, err);
     if (status == WT_OK)
-        status = give_errors(work, err);
+        status = doubt_shifts(work, err);
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
 
@@ -204,9 +237,11 @@ bool master_beside_part(const master_work *work, size_t i, double *a, double *er
         !link[end].placed || !work->placed[end])
         return false;
     const wt_interval at = posterior_a(work->posterior, work->curve[end]);
-    const double alike = link[i].error - link[end].error;
-    *a = at.value + link[i].a - link[end].a;
+    const double alike = hypot(link[i].spread - link[end].spread, link[i].error - link[end].error);
+    const double own = work->own_a[i] - work->own_a[end], by_overlap = link[i].a - link[end].a;
+    *a = at.value + by_overlap;
     *error = sqrt(at.standard_error * at.standard_error + alike * alike +
-                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0));
+                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0) +
+                  (isnan(own) ? 0.0 : (own - by_overlap) * (own - by_overlap)));
     return true;
 }

@@ -33,6 +33,10 @@ static bool undetermined(const master_work *work, size_t i, const wt_interval *a
                                : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_OF_OVERLAP)
         return false; /* each step is */
+    else if (!(a->standard_error <= largest_sigma) && work->posterior->doubt != NULL &&
+             work->posterior->doubt[work->curve[i]] > largest_sigma)
+        master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
+                    a->standard_error);
     else if (!(a->standard_error <= largest_sigma))
         master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
                     a->standard_error);

@@ -19,6 +19,8 @@ static const double slope_reach = 0.3;
  * efficiency where noise is normal). */
 static const double far_off = 2.385;
 static const double settled = 1e-5; /* [decade] */
+/* A correlation of noise is off 0 by less than so many standard errors. */
+static const double chance = 2.0;
 enum { NEIGHBOURS = 2, MOST_STEPS = 50, LEAST_GAPS = 4 };
 
 /* A gap between two curves, and by how much it closes with the shift. */
@@ -108,9 +110,8 @@ static double lacks(const struct overlap *o, double *gaps, double *slope_squares
     return *slope_squares > 0.0 ? -cross / *slope_squares : (double)NAN;
 }
 
-/* How many of the gaps stand for themselves: those beside each other go together where the curves
- * differ in form. Both directions have the same points. */
-static double independent(const struct overlap *o)
+/* By how much gaps beside each other go together, as they do where the curves differ in form. */
+static double together(const struct overlap *o)
 {
     double product = 0.0, square = 0.0;
     for (size_t i = 0; i < o->n; i++) {
@@ -119,12 +120,11 @@ static double independent(const struct overlap *o)
         if (i > 0 && i != o->n_first)
             product += r * o->gap[i - 1].off * sqrt(o->gap[i - 1].weight);
     }
-    const double rho = square > 0.0 ? fmax(product / square, 0.0) : 0.0;
-    return fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
+    return square > 0.0 ? fmax(product / square, 0.0) : 0.0;
 }
 
 /* From the closed form to the least squares; the error has what both disagree by. */
-static bool find_step(struct overlap *o, double start, double *a, double *error)
+static bool find_step(struct overlap *o, double start, double *a, double *error, double *spread)
 {
     double gaps = 0.0, slope_squares = 0.0;
     *a = start;
@@ -140,7 +140,12 @@ static bool find_step(struct overlap *o, double start, double *a, double *error)
     find_gaps(o, *a);
     if (o->n < LEAST_GAPS || !isfinite(lacks(o, &gaps, &slope_squares)))
         return false;
-    *error = hypot(sqrt(gaps / slope_squares / independent(o)), 0.5 * (*a - start));
+    /* so many stand for themselves; both directions have the same points */
+    const double rho = together(o), all = sqrt(gaps / slope_squares);
+    const double independent = fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
+    *error = hypot(all / sqrt(independent), 0.5 * (*a - start));
+    /* what is no chance of noise */
+    *spread = fmax(rho - chance / sqrt((double)o->n), 0.0) * all;
     return *error <= largest_sigma;
 }
 
@@ -156,7 +161,7 @@ static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t fro
 {
     struct overlap *o = &c->overlap;
     const double b = c->b[from] - c->b[onto];
-    double a, error;
+    double a, error, spread;
     if (!link[onto].placed)
         return false;
     const double start = closed_form_step(c->set, onto, from, b);
@@ -165,9 +170,10 @@ static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t fro
     o->slope_p = c->slope + c->first[onto];
     o->slope_s = c->slope + c->first[from];
     o->b = b;
-    if (isnan(start) || !find_step(o, start, &a, &error))
+    if (isnan(start) || !find_step(o, start, &a, &error, &spread))
         return false;
-    link[from] = (overlap_link){true, onto, link[onto].a + a, error, link[onto].error + error};
+    link[from] = (overlap_link){
+        true, onto, link[onto].a + a, error, link[onto].error + error, link[onto].spread + spread};
     return true;
 }
 

@@ -11,7 +11,9 @@ typedef struct overlap_link {
     size_t onto;  /* the isotherm it hangs on, of those that are placed; the anchor: itself */
     double a;     /* against the anchor */
     double step;  /* standard error of the step onto it */
-    double error; /* standard error of a: steps err the same way where superposition fails */
+    double error; /* standard error of a, if steps err the same way */
+    double spread; /* of a beside it, if one place of each overlap alone is right, everywhere the
+                      same one */
 } overlap_link;
 
 /* link: [set->n]. b: [set->n] vertical shifts that the moduli are taken with. Nothing but the anchor

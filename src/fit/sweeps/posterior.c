@@ -124,8 +124,8 @@ static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
                 gsl_matrix_set(covariance, i, k,
                                gsl_matrix_get(cell->covariance, at, with) / (M_LN10 * M_LN10));
     }
-    if (p->given != NULL)
-        gsl_matrix_add(covariance, p->given);
+    if (p->doubts != NULL)
+        gsl_matrix_add(covariance, p->doubts);
 }
 
 static void part_alloc(wt_posterior *p, posterior_part *part)

@@ -44,8 +44,8 @@ struct wt_posterior {
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
     wt_shift_by by;
-    double *given_error; /* [n_curves] of shifts that are given [decade]; NULL: they are exact */
-    gsl_matrix *given;   /* [n_curves^2] their covariance as the law takes it */
+    double *doubt;      /* [n_curves] error of the shifts beside that of the fit [decade], or NULL */
+    gsl_matrix *doubts; /* [n_curves^2] its covariance as the law takes it */
     double anchor_a; /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;

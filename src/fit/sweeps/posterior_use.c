@@ -15,10 +15,10 @@
 
 enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
 
-/* Variance of a shift that is given. */
-static double given_variance(const wt_posterior *p, size_t curve)
+/* Variance of a shift beside that of the fit. */
+static double doubt_of(const wt_posterior *p, size_t curve)
 {
-    return p->given_error != NULL ? pow(p->given_error[curve], 2) : 0.0;
+    return p->doubt != NULL ? p->doubt[curve] * p->doubt[curve] : 0.0;
 }
 
 static wt_interval of_column(const wt_posterior *p, long column, double held, double variance)
@@ -30,15 +30,16 @@ static wt_interval of_column(const wt_posterior *p, long column, double held, do
         return (wt_interval){held, 0.0, held, held};
     const size_t c = (size_t)column;
     for (size_t i = 0; i < p->n_cells; i++)
-        part[i] = (mixture_part){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
-                                 sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
+        part[i] = (mixture_part){
+            p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+            sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
     return mixture_interval(part, p->n_cells);
 }
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
 {
     return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
-                     given_variance(p, curve));
+                     doubt_of(p, curve));
 }
 
 /* ln b of a curve whose b is no unknown. */
@@ -200,7 +201,7 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double given, 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
     return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve],
-                      given_variance(p, curve), 1.0 / M_LN10, 1.0);
+                      doubt_of(p, curve), 1.0 / M_LN10, 1.0);
 }
 
 wt_interval posterior_equilibrium(const wt_posterior *p)
