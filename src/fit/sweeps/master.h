@@ -41,6 +41,11 @@ typedef struct master_work {
     lack_of_fit whole;
 } master_work;
 
+/* The prior of the vertical shifts, with widths of clamping and departure [decade]. */
+wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
+                            double departure, wt_error *err) WT_NODISCARD;
+/* All widths that count; the spectrum is left at the best of them. */
+wt_status master_fit_widths(master_work *work, wt_error *err) WT_NODISCARD;
 /* A spectrum for the placed curves at the shifts as they are, without outliers. */
 wt_status master_make_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
