@@ -3,7 +3,7 @@
  * GPL-3.0-or-later */
 #include "fit/dense.h"
 
-#include "base/wide.h"
+#include "fit/tile.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,6 +38,9 @@ void dense_add(double *into, size_t n, const double *factor, size_t stride, cons
         add_row(into, n, factor[k * stride], row + k * tda);
 }
 
+/* Rows of the result that are done before those behind them are touched. */
+enum { PANEL = 64 };
+
 /* Rows from..to of the upper factor, those before taken out already; false: not positive. */
 static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
 {
@@ -56,19 +59,39 @@ static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
     return true;
 }
 
+/* Takes rows before `from` out of rows from..to, upper triangle; both multiples of TILE, or the end.
+ */
+WIDE_REGISTERS
+static void take_out(gsl_matrix *m, size_t from, size_t to)
+{
+    const size_t n = m->size1, tda = m->tda;
+    for (size_t k = 0; k < from; k += TILE_NEAR) {
+        const size_t rows = k + TILE_NEAR < from ? TILE_NEAR : from - k;
+        const double *row = m->data + k * tda;
+        for (size_t j = from; j < n; j += TILE)
+            for (size_t i = from; i < to && i <= j; i += TILE)
+                tile_add(m->data + i * tda + j, to - i, n - j, tda,
+                         (tile_rows){row + i, row + j, tda, tda, rows}, true);
+    }
+}
+
 bool dense_factor(gsl_matrix *m)
 {
     const size_t n = m->size1;
     double column[BLOCK];
-    for (size_t k = 0; k < n; k += BLOCK) {
-        const size_t end = k + BLOCK < n ? k + BLOCK : n;
-        if (!factor_rows(m, k, end, column))
-            return false;
-        for (size_t i = end; i < n; i++) {
-            for (size_t p = k; p < end; p++)
-                column[p - k] = -gsl_matrix_get(m, p, i);
-            dense_add(gsl_matrix_ptr(m, i, i), n - i, column, 1, gsl_matrix_ptr(m, k, i), m->tda,
-                      end - k);
+    for (size_t from = 0; from < n; from += PANEL) {
+        const size_t to = from + PANEL < n ? from + PANEL : n;
+        take_out(m, from, to);
+        for (size_t k = from; k < to; k += BLOCK) {
+            const size_t end = k + BLOCK < to ? k + BLOCK : to;
+            if (!factor_rows(m, k, end, column))
+                return false;
+            for (size_t i = end; i < to; i++) {
+                for (size_t p = k; p < end; p++)
+                    column[p - k] = -gsl_matrix_get(m, p, i);
+                dense_add(gsl_matrix_ptr(m, i, i), n - i, column, 1, gsl_matrix_ptr(m, k, i),
+                          m->tda, end - k);
+            }
         }
     }
     for (size_t i = 0; i < n; i++)
@@ -77,37 +100,71 @@ bool dense_factor(gsl_matrix *m)
     return true;
 }
 
+/* Adds to rows from..to of the inverse of a factor what its rows before `from`, which are done,
+ * make of them. */
+WIDE_REGISTERS
+static void add_before(const gsl_matrix *factor, gsl_matrix *inverse, size_t from, size_t to)
+{
+    const size_t tda = inverse->tda;
+    for (size_t j = 0; j < from; j += TILE) /* columns; a row begins to count at its own */
+        for (size_t k = j; k < from; k += TILE_NEAR) {
+            const size_t rows = k + TILE_NEAR < from ? TILE_NEAR : from - k;
+            for (size_t i = from; i < to; i += TILE)
+                tile_add(inverse->data + i * tda + j, to - i, from - j, tda,
+                         (tile_rows){factor->data + k * factor->tda + i,
+                                     inverse->data + k * tda + j, factor->tda, tda, rows},
+                         false);
+        }
+}
+
 /* The inverse of the factor, zeros above its diagonal; it is negative until a row is done. */
 static void invert_factor(const gsl_matrix *factor, gsl_matrix *inverse)
 {
+    const size_t n = factor->size1;
     gsl_matrix_set_zero(inverse);
-    for (size_t k = 0; k < factor->size1; k++) {
-        double *row = gsl_matrix_ptr(inverse, k, 0);
-        const double *by = gsl_matrix_const_ptr(factor, k, 0);
-        const double scale = 1.0 / by[k];
-        for (size_t j = 0; j < k; j += BLOCK) { /* a row ends at its diagonal */
-            const size_t rows = j + BLOCK < k ? BLOCK : k - j;
-            dense_add(row, j + rows, by + j, 1, gsl_matrix_const_ptr(inverse, j, 0), inverse->tda,
-                      rows);
+    for (size_t from = 0; from < n; from += PANEL) {
+        const size_t to = from + PANEL < n ? from + PANEL : n;
+        add_before(factor, inverse, from, to);
+        for (size_t k = from; k < to; k++) {
+            double *row = gsl_matrix_ptr(inverse, k, 0);
+            const double *by = gsl_matrix_const_ptr(factor, k, 0);
+            const double scale = 1.0 / by[k];
+            for (size_t j = from; j < k; j += BLOCK) { /* a row ends at its diagonal */
+                const size_t rows = j + BLOCK < k ? BLOCK : k - j;
+                dense_add(row, j + rows, by + j, 1, gsl_matrix_const_ptr(inverse, j, 0),
+                          inverse->tda, rows);
+            }
+            for (size_t j = 0; j < k; j++)
+                row[j] *= -scale;
+            row[k] = scale;
         }
-        for (size_t j = 0; j < k; j++)
-            row[j] *= -scale;
-        row[k] = scale;
     }
+}
+
+/* Upper triangle of the transpose of a lower triangle times it. */
+WIDE_REGISTERS
+static void multiply(const gsl_matrix *lower, gsl_matrix *product)
+{
+    const size_t n = lower->size1, whole = n / BLOCK * BLOCK, tda = lower->tda;
+    gsl_matrix_set_zero(product);
+    for (size_t j = 0; j < n; j += TILE)
+        for (size_t k = j; k < whole; k += TILE_NEAR) {
+            const size_t rows = k + TILE_NEAR < whole ? TILE_NEAR : whole - k;
+            const double *row = lower->data + k * tda;
+            for (size_t i = 0; i <= j; i += TILE)
+                tile_add(product->data + i * product->tda + j, n - i, n - j, product->tda,
+                         (tile_rows){row + i, row + j, tda, tda, rows}, false);
+        }
+    for (size_t i = 0; whole < n && i < n; i++)
+        dense_add(gsl_matrix_ptr(product, i, i), n - i, gsl_matrix_const_ptr(lower, whole, i), tda,
+                  gsl_matrix_const_ptr(lower, whole, i), tda, n - whole);
 }
 
 void dense_inverse(const gsl_matrix *factor, gsl_matrix *scratch, gsl_matrix *inverse)
 {
     const size_t n = factor->size1;
     invert_factor(factor, scratch);
-    gsl_matrix_set_zero(inverse);
-    for (size_t k = 0; k < n; k += BLOCK) {
-        const size_t rows = k + BLOCK < n ? BLOCK : n - k;
-        for (size_t i = 0; i < k + rows; i++)
-            dense_add(gsl_matrix_ptr(inverse, i, i), k + rows - i,
-                      gsl_matrix_const_ptr(scratch, k, i), scratch->tda,
-                      gsl_matrix_const_ptr(scratch, k, i), scratch->tda, rows);
-    }
+    multiply(scratch, inverse);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
             gsl_matrix_set(inverse, i, j, gsl_matrix_get(inverse, j, i));

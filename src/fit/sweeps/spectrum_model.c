@@ -2,8 +2,8 @@
  * equations, priors. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/spectrum.h"
 
-#include "base/wide.h"
 #include "fit/pool_gsl.h"
+#include "fit/tile.h"
 
 #include <math.h>
 
@@ -24,10 +24,6 @@ static const double most_decades = 100.0;
 static const double start_fall = 0.5;
 /* Slopes of ln E' that a spectrum can have. */
 static const double flattest = 0.01, steepest = 1.5;
-/* Rows that go into the normal equations together. */
-enum { ROWS = 4, TILE = 4 };
-/* Of these stay in the nearest memory while all tiles go over them. */
-enum { NEAR = 32 };
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
@@ -49,7 +45,7 @@ static wt_status allocate(spectrum *s, wt_error *err)
         s->was[q] = pool_numbers(m, s->n);
         s->spread[q] = pool_numbers(m, s->n);
         s->residual[q] = pool_numbers(m, s->n);
-        s->row[q] = pool_numbers(m, (s->n + ROWS - 1) * (s->n_linear + 2));
+        s->row[q] = pool_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = pool_matrix(m, most, most);
     }
     s->kappa = pool_numbers(m, s->n_curves);
@@ -375,65 +371,16 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 
 /* ---- normal equations ------------------------------------------------------------------------ */
 
-/* Products of `rows` rows, ROWS at a time, for a tile of the upper triangle: a tile stays in
- * registers while the rows go by, and each of its sums is added to in the order of the rows. */
-WIDE_PART void add_tile(double *restrict into, size_t tda, const double *at_i, const double *at_j,
-                        size_t width, size_t rows)
-{
-    wide s0, s1, s2, s3;
-    wide_load(&s0, into);
-    wide_load(&s1, into + tda);
-    wide_load(&s2, into + 2 * tda);
-    wide_load(&s3, into + 3 * tda);
-    for (size_t k = 0; k < rows; k += ROWS) {
-        const double *c0 = at_i, *c1 = c0 + width, *c2 = c1 + width, *c3 = c2 + width;
-        wide r0, r1, r2, r3;
-        wide_load(&r0, at_j);
-        wide_load(&r1, at_j + width);
-        wide_load(&r2, at_j + 2 * width);
-        wide_load(&r3, at_j + 3 * width);
-        s0 += (c0[0] * r0 + c1[0] * r1) + (c2[0] * r2 + c3[0] * r3);
-        s1 += (c0[1] * r0 + c1[1] * r1) + (c2[1] * r2 + c3[1] * r3);
-        s2 += (c0[2] * r0 + c1[2] * r1) + (c2[2] * r2 + c3[2] * r3);
-        s3 += (c0[3] * r0 + c1[3] * r1) + (c2[3] * r2 + c3[3] * r3);
-        at_i += ROWS * width;
-        at_j += ROWS * width;
-    }
-    wide_store(into, &s0);
-    wide_store(into + tda, &s1);
-    wide_store(into + 2 * tda, &s2);
-    wide_store(into + 3 * tda, &s3);
-}
-
-/* The same where no whole tile is left. */
-WIDE_PART void add_edge(double *restrict into, size_t n, size_t tda, size_t m, const double *at_i,
-                        const double *at_j, size_t width, size_t rows)
-{
-    for (size_t k = 0; k < rows; k += ROWS, at_i += ROWS * width, at_j += ROWS * width)
-        for (size_t i = 0; i < n; i++) {
-            const double c0 = at_i[i], c1 = at_i[width + i], c2 = at_i[2 * width + i],
-                         c3 = at_i[3 * width + i];
-            for (size_t j = 0; j < m; j++)
-                into[i * tda + j] += (c0 * at_j[j] + c1 * at_j[width + j]) +
-                                     (c2 * at_j[2 * width + j] + c3 * at_j[3 * width + j]);
-        }
-}
-
 /* Adds the products of all rows to the block of the terms; the upper triangle is whole, and some of
  * what is below. */
 WIDE_REGISTERS
 static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width, size_t rows)
 {
-    const size_t tda = normal->tda;
+    rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* those behind the last are zeros */
     for (size_t i = 0; i < m; i += TILE)
-        for (size_t j = i; j < m; j += TILE) {
-            double *into = gsl_matrix_ptr(normal, i, j);
-            if (j + TILE <= m)
-                add_tile(into, tda, row + i, row + j, width, rows);
-            else
-                add_edge(into, i + TILE <= m ? TILE : m - i, tda, m - j, row + i, row + j, width,
-                         rows);
-        }
+        for (size_t j = i; j < m; j += TILE)
+            tile_add(gsl_matrix_ptr(normal, i, j), m - i, m - j, normal->tda,
+                     (tile_rows){row + i, row + j, width, width, rows}, false);
 }
 
 /* Adds what the shifts of a curve have with the terms and each other. */
@@ -463,8 +410,9 @@ void spectrum_normal(spectrum *s)
     for (int q = 0; q < MODULI; q++) {
         gsl_matrix *normal = s->normal[q];
         gsl_matrix_set_zero(normal);
-        for (size_t k = 0; k < s->n; k += NEAR) /* the last rows are zeros */
-            add_rows(normal, m, s->row[q] + k * width, width, k + NEAR < s->n ? NEAR : s->n - k);
+        for (size_t k = 0; k < s->n; k += TILE_NEAR) /* the last rows are zeros */
+            add_rows(normal, m, s->row[q] + k * width, width, 
+                     k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
             add_shifts(s, i, q);
         for (size_t i = 0; i < s->n_unknowns; i++) /* the other triangle */
