@@ -592,10 +592,10 @@ typedef struct wt_master_shift {
 /* Where the shifts are from. */
 typedef enum wt_shift_route {
     WT_SHIFTS_OF_SPECTRUM, /* fitted with one spectrum of all isotherms */
-    WT_SHIFTS_OF_OVERLAP   /* from neighbour to neighbour, by the overlap of the storage moduli alone:
-                              one spectrum is far off the isotherms, or was not found. Of it the
-                              shifts are given; the error of a shift holds what the places of an
-                              overlap disagree by */
+    WT_SHIFTS_OF_OVERLAP /* from neighbour to neighbour, by the overlap of the storage moduli alone:
+                            one spectrum is far off the isotherms, or was not found. Of it the
+                            shifts are given; the error of a shift holds what the places of an
+                            overlap disagree by */
 } wt_shift_route;
 
 typedef enum wt_superposition {

@@ -61,9 +61,8 @@ WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows
             const double c0 = of.i[i], c1 = of.i[of.width_i + i], c2 = of.i[2 * of.width_i + i],
                          c3 = of.i[3 * of.width_i + i];
             for (size_t j = 0; j < m; j++) {
-                const double sum =
-                    (c0 * of.j[j] + c1 * of.j[of.width_j + j]) +
-                    (c2 * of.j[2 * of.width_j + j] + c3 * of.j[3 * of.width_j + j]);
+                const double sum = (c0 * of.j[j] + c1 * of.j[of.width_j + j]) +
+                                   (c2 * of.j[2 * of.width_j + j] + c3 * of.j[3 * of.width_j + j]);
                 into[i * tda + j] += minus ? -sum : sum;
             }
         }

@@ -552,6 +552,64 @@ static void isotherms_of_few_points_are_left_out(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* Lines a decade apart, by the storage modulus alone: nothing between them is told, and yet there
+ * is a spectrum. Many points of an isotherm say what they say when they are few. */
+static void lines_at_six_temperatures(wt_sweep *sweep, size_t points, double scatter)
+{
+    uint64_t noise = 5;
+    const wt_wlf law = {293.15, 8.18, 110.0};
+    for (int i = 0; i < 6; i++) {
+        wt_isotherm *t = wt_sweep_add(sweep, points, 0);
+        t->temperature = 263.15 + 10.0 * i;
+        const double a = pow(10.0, wt_wlf_log_shift(&law, t->temperature));
+        for (size_t k = 0; k < points; k++) {
+            const double w = pow(10.0, 3.0 * (double)k / (double)(points - 1));
+            double storage = 1e6, loss = 0.0;
+            for (int j = 0; j < 3; j++) {
+                const double z = w * a * pow(10.0, j - 3.0), e = 1e8 * pow(10.0, -0.3 * j);
+                storage += e * z * z / (1.0 + z * z);
+                loss += e * z / (1.0 + z * z);
+            }
+            t->angular_frequency[k] = w;
+            t->storage_modulus[k] = storage * exp(scatter * dma_normal(&noise));
+            t->loss_modulus[k] = loss * exp(scatter * dma_normal(&noise));
+        }
+    }
+}
+
+static void storage_alone_finds_a_spectrum_of_lines(void **state)
+{
+    (void)state;
+    static const double scatter[] = {0.0, 1e-3};
+    for (size_t i = 0; i < 2; i++) {
+        wt_sweep sweep = {0};
+        lines_at_six_temperatures(&sweep, 13, scatter[i]);
+        wt_master_options by_storage = at_reference(293.15, WT_VERTICAL_NONE);
+        by_storage.shift_by = WT_BY_STORAGE;
+        wt_master m = fit_good(&sweep, &by_storage, NULL);
+        assert_near_abs(m.shifts[0].log_a.value, 8.18 * 30.0 / 80.0, 0.05);
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
+    }
+}
+
+static void many_points_say_what_few_say(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    lines_at_six_temperatures(&sweep, 3001, 0.02);
+    const wt_master_options tied = at_reference(293.15, WT_VERTICAL_NONE);
+    wt_master m = fit_good(&sweep, &tied, NULL);
+    assert_true(m.n < 6 * 50);
+    for (size_t i = 0; i < m.n_shifts; i++) {
+        const double t = m.shifts[i].temperature - 293.15;
+        assert_true(m.shifts[i].determined);
+        assert_near_abs(m.shifts[i].log_a.value, -8.18 * t / (110.0 + t), 0.01);
+    }
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -562,6 +620,8 @@ int main(void)
         cmocka_unit_test(no_overlap_at_all_is_an_error),
         cmocka_unit_test(a_plateau_without_slope_decides_nothing),
         cmocka_unit_test(on_the_plateau_of_storage_the_loss_decides),
+        cmocka_unit_test(storage_alone_finds_a_spectrum_of_lines),
+        cmocka_unit_test(many_points_say_what_few_say),
         cmocka_unit_test(on_a_power_law_both_shifts_are_one),
         cmocka_unit_test(points_without_positive_modulus_are_left_out_and_named),
         cmocka_unit_test(single_bad_points_have_little_weight),

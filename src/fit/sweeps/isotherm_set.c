@@ -99,8 +99,7 @@ static bool is_sparse(const struct point *point, size_t n)
     size_t left = 0;
     for (size_t k = 0; k < n; k = together(point, n, k, false))
         left++;
-    return left < SHIFT_MIN_POINTS ||
-           n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
+    return left < SHIFT_MIN_POINTS || n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
 }
 
 /* Mean of the neighbours without those far off; copy: [n]. */

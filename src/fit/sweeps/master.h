@@ -28,15 +28,15 @@ typedef struct master_work {
     spectrum_within within; /* noise within the isotherms */
     lack_of_fit lack;       /* of one spectrum with shifts of its own */
     bool tested;
-    bool plain;             /* no other start, and no shifts by overlaps */
-    bool gross;             /* it misses the isotherms by so much that its shifts mean nothing */
-    overlap_link *link;     /* [set.n] by the overlap of neighbours */
-    double *own_a;          /* [set.n] those of one spectrum of all [decade], NaN: none */
-    double missed[MODULI];  /* what one spectrum is off, in ln */
+    bool plain;            /* no other start, and no shifts by overlaps */
+    bool gross;            /* it misses the isotherms by so much that its shifts mean nothing */
+    overlap_link *link;    /* [set.n] by the overlap of neighbours */
+    double *own_a;         /* [set.n] those of one spectrum of all [decade], NaN: none */
+    double missed[MODULI]; /* what one spectrum is off, in ln */
     wt_shift_route route;
-    char no_spectrum[256];  /* why there is none with shifts of its own, or "" */
-    bool part;              /* the spectrum is that of the isotherms from `first` to `last`: one of
-                               all fails, by `whole` */
+    char no_spectrum[256]; /* why there is none with shifts of its own, or "" */
+    bool part;             /* the spectrum is that of the isotherms from `first` to `last`: one of
+                              all fails, by `whole` */
     size_t first, last;
     lack_of_fit whole;
 } master_work;
@@ -66,8 +66,8 @@ bool master_beside_part(const master_work *work, size_t i, double *a, double *er
 wt_status master_may_overlap(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
 /* Keeps the shifts of the spectrum in own_a. */
 void master_keep_own(master_work *work);
-/* Where superposition fails: the errors of the shifts of the spectrum hold what the overlaps disagree
- * by, too. */
+/* Where superposition fails: the errors of the shifts of the spectrum hold what the overlaps
+ * disagree by, too. */
 wt_status master_doubt(master_work *work, wt_error *err) WT_NODISCARD;
 /* Whether the shifts of the spectrum are what the overlaps say, with the vertical shift of rubber
  * elasticity or with none. */

@@ -98,8 +98,9 @@ static double common_steps(const master_work *work, size_t one, size_t other)
 }
 
 /* The error of a shift where superposition fails: what the places of the overlaps disagree by, and
- * what spectrum and overlaps do. The law takes it as that of steps that err one by one, larger by so
- * much that the errors are as large together: that all err in the same way leaves its form alone. */
+ * what spectrum and overlaps do. The law takes it as that of steps that err one by one, larger by
+ * so much that the errors are as large together: that all err in the same way leaves its form
+ * alone. */
 static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
     const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
@@ -126,10 +127,8 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
         all += square;
         steps += by_steps;
         for (size_t k = 0; k < n; k++)
-            if (work->placed[k] && work->link[k].placed &&
-                (i < work->anchor) == (k < work->anchor))
-                gsl_matrix_set(p->doubts, work->curve[i], work->curve[k],
-                               common_steps(work, i, k));
+            if (work->placed[k] && work->link[k].placed && (i < work->anchor) == (k < work->anchor))
+                gsl_matrix_set(p->doubts, work->curve[i], work->curve[k], common_steps(work, i, k));
     }
     gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
     return WT_OK;
@@ -195,8 +194,8 @@ static wt_status widen(master_work *work, bool warm, wt_error *err)
     for (size_t tried = steps; status == WT_OK && steps > 0; tried = (steps + 1) / 2) {
         bool holds;
         const size_t next = warm ? *end + tried : *end - tried;
-        status = master_try_part(work, warm ? work->first : next, warm ? next : work->last, &holds,
-                                 err);
+        status =
+            master_try_part(work, warm ? work->first : next, warm ? next : work->last, &holds, err);
         if (status == WT_OK && holds) {
             *end = next;
             steps -= tried;

@@ -49,7 +49,8 @@ static bool undetermined(const master_work *work, size_t i, const wt_interval *a
     return shift->note[0] != '\0';
 }
 
-/* An isotherm beside the part that one spectrum describes is not in the curve, but it has a shift. */
+/* An isotherm beside the part that one spectrum describes is not in the curve, but it has a shift.
+ */
 static bool fill_beside(const master_work *work, size_t i, wt_master_shift *shift)
 {
     double a, error;

@@ -68,10 +68,11 @@ static void because_gross(const master_work *work, wt_master *m)
         clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->holds_from - zero,
                       m->holds_to - zero);
     }
-    clocale_print(m->because, sizeof m->because,
-                  "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
-                  "other processes, as in a glass, or a change of the material",
-                  where, 100.0 * work->missed[STORAGE], 100.0 * work->missed[LOSS]);
+    clocale_print(
+        m->because, sizeof m->because,
+        "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
+        "other processes, as in a glass, or a change of the material",
+        where, 100.0 * work->missed[STORAGE], 100.0 * work->missed[LOSS]);
 }
 
 void master_judge(const master_work *work, wt_master *m)

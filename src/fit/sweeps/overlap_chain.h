@@ -8,16 +8,16 @@
 
 typedef struct overlap_link {
     bool placed;
-    size_t onto;  /* the isotherm it hangs on, of those that are placed; the anchor: itself */
-    double a;     /* against the anchor */
-    double step;  /* standard error of the step onto it */
-    double error; /* standard error of a, if steps err the same way */
+    size_t onto;   /* the isotherm it hangs on, of those that are placed; the anchor: itself */
+    double a;      /* against the anchor */
+    double step;   /* standard error of the step onto it */
+    double error;  /* standard error of a, if steps err the same way */
     double spread; /* of a beside it, if one place of each overlap alone is right, everywhere the
                       same one */
 } overlap_link;
 
-/* link: [set->n]. b: [set->n] vertical shifts that the moduli are taken with. Nothing but the anchor
- * is placed without a storage modulus. */
+/* link: [set->n]. b: [set->n] vertical shifts that the moduli are taken with. Nothing but the
+ * anchor is placed without a storage modulus. */
 wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, overlap_link *link,
                         wt_error *err) WT_NODISCARD;
 

@@ -44,9 +44,9 @@ struct wt_posterior {
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
     wt_shift_by by;
-    double *doubt;      /* [n_curves] error of the shifts beside that of the fit [decade], or NULL */
+    double *doubt; /* [n_curves] error of the shifts beside that of the fit [decade], or NULL */
     gsl_matrix *doubts; /* [n_curves^2] its covariance as the law takes it */
-    double anchor_a; /* log10 a of the anchor against the reference temperature */
+    double anchor_a;    /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;
     size_t n_cells, n_parts;

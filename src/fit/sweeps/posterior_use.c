@@ -200,8 +200,8 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double given, 
 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
-    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve],
-                      doubt_of(p, curve), 1.0 / M_LN10, 1.0);
+    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve], doubt_of(p, curve),
+                      1.0 / M_LN10, 1.0);
 }
 
 wt_interval posterior_equilibrium(const wt_posterior *p)

@@ -6,6 +6,7 @@
 #include "base/gsl_quiet.h"
 #include "fit/dense.h"
 
+#include <float.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
@@ -24,6 +25,9 @@ static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
 /* Where a trial only asks whether much less is left: share of the objective. */
 static const double trial_gain = 0.005;
+
+/* Of a diagonal: more is no rounding. */
+static const double most_rounding = 1e-8;
 
 static gsl_matrix_view part(gsl_matrix *m, size_t n)
 {
@@ -45,7 +49,12 @@ static wt_status invert(spectrum *s, wt_error *err)
 {
     const size_t n = s->n_unknowns;
     gsl_matrix_view factor = part(s->factor, n), covariance = part(s->covariance, n);
-    if (!factorise(s, 0.0))
+    /* little noise beside a loose prior: rounding may leave no more than a part in 1/(n epsilon) of
+     * a diagonal, which is given back */
+    double rounding = 0.0;
+    while (!factorise(s, rounding) && rounding < most_rounding)
+        rounding = fmax(10.0 * rounding, (double)n * DBL_EPSILON);
+    if (!(rounding < most_rounding))
         return wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
     s->log_det = 0.0;
     for (size_t i = 0; i < n; i++)

@@ -411,7 +411,7 @@ void spectrum_normal(spectrum *s)
         gsl_matrix *normal = s->normal[q];
         gsl_matrix_set_zero(normal);
         for (size_t k = 0; k < s->n; k += TILE_NEAR) /* the last rows are zeros */
-            add_rows(normal, m, s->row[q] + k * width, width, 
+            add_rows(normal, m, s->row[q] + k * width, width,
                      k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
             add_shifts(s, i, q);
