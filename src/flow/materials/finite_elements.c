@@ -49,7 +49,7 @@ typedef struct solid {
     FILE *out;
     const char *comment; /* begins a line of comment */
     wt_rubber rubber;
-    table_view series;
+    table_view series, shifts_of; /* the second without a table: not known */
     const struct system *system;
     bool incompressible;
     double nu, zero;           /* of the unit of temperature [K] */
@@ -178,6 +178,31 @@ static double percent(const table_view *series, prony_reduced_key key)
     return 100 * share;
 }
 
+/* What the series rests on: it says so wherever the file goes. */
+static void say_superposition(solid *s)
+{
+    const wt_prony *p = &s->rubber.prony;
+    double faster = 0, all = p->equilibrium_modulus;
+    for (size_t i = 0; i < p->n; i++) {
+        all += p->modulus[i];
+        if (p->relaxation_time[i] * p->frequency_max < 1)
+            faster += p->modulus[i];
+    }
+    if (s->shifts_of.table != NULL) {
+        const char *verdict = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_SUPERPOSITION);
+        const char *route = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_ROUTE);
+        if (verdict != NULL)
+            say(s, "%sTime-temperature superposition: %s.\n", s->comment, verdict);
+        if (route != NULL)
+            say(s, "%sShifts by: %s.\n", s->comment, route);
+    }
+    if (faster > 0)
+        say(s,
+            "%sOf the modulus at once %.2g %% relaxes in times shorter than was measured: "
+            "extrapolated.\n",
+            s->comment, 100 * faster / all);
+}
+
 static void say_series(solid *s)
 {
     const table_view *v = &s->series;
@@ -210,6 +235,7 @@ static void say_series(solid *s)
         percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
         percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
         percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
+    say_superposition(s);
     say_law(s);
     if (s->n_levels > 1)
         say(s, "%sThe moduli at each isotherm have its vertical shift in them.\n", s->comment);
@@ -439,6 +465,8 @@ wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *pr
     wt_status status = wt_solid_check(program, &o, err);
     if (status == WT_OK)
         status = table_bind(prony_reduced, &prony_reduced_schema, "", &s.series, err);
+    if (status == WT_OK && shift_factors != NULL)
+        status = table_bind(shift_factors, &shift_factors_schema, "", &s.shifts_of, err);
     if (status == WT_OK)
         status = wt_rubber_from_tables(
             &(wt_rubber_tables){.prony = prony_reduced, .shift_factors = shift_factors}, s.nu,
