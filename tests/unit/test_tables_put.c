@@ -221,21 +221,14 @@ static void test_cases(void **state)
              "<term time=\"1e-4s\" modulus=\"20MPa\"/></prony><wlf><c1>5</c1><c2>100K</c2></wlf>");
 }
 
-/* A melt whose shifts go over to Arrhenius in the cold: no equilibrium modulus, two laws. */
-static void test_joined_law(void **state)
+/* A melt whose shifts go over to Arrhenius in the cold. Up to `odd` its loss modulus is another one
+ * at each temperature. */
+static void write_melt(char *path, double odd)
 {
-    (void)state;
-    static char path[] = "/tmp/weartrack-put-XXXXXX";
     const wt_shift_law law = {.kind = WT_LAW_JOINED,
                               .wlf = {293.15, 9, 110},
                               .activation_energy = 1.2e5,
                               .joint = 253.15};
-    const char *const patterns[] = {path};
-    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_master_job job = wt_master_job_defaults();
-    wt_job common = wt_job_defaults();
-    wt_master_tables tables = {0};
-    wt_error err = WT_ERROR_INIT;
     uint64_t seed = 3;
     FILE *out = truth_file(path);
     fputs("## table: sweep\n# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\t"
@@ -250,6 +243,7 @@ static void test_joined_law(void **state)
                 storage += 1e6 * pow(10, -0.3 * l) * z * z / (1 + z * z);
                 loss += 1e6 * pow(10, -0.3 * l) * z / (1 + z * z);
             }
+            loss *= t < odd ? exp(0.5 * sin(t)) : 1;
             fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", pow(10, x),
                     storage * exp(0.005 * truth_normal(&seed)),
                     loss * exp(0.005 * truth_normal(&seed)), t);
@@ -257,6 +251,20 @@ static void test_joined_law(void **state)
         fputs("\n", out);
     }
     fclose(out);
+}
+
+/* No equilibrium modulus, two laws. */
+static void test_joined_law(void **state)
+{
+    (void)state;
+    static char path[] = "/tmp/weartrack-put-XXXXXX";
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job job = wt_master_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_master_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    write_melt(path, 0);
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
@@ -275,6 +283,35 @@ static void test_joined_law(void **state)
     see(tables.shift_factors);
     wt_master_tables_clear(&tables);
     unlink(path);
+}
+
+/* One spectrum fails in the cold, or everywhere: of a part, or shifts by overlaps. */
+static void test_no_superposition(void **state)
+{
+    (void)state;
+    static char path[] = "/tmp/weartrack-put-XXXXXX";
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    static const double odd[] = {265, 400};
+    for (int i = 0; i < 2; i++) {
+        wt_master_job job = wt_master_job_defaults();
+        wt_job common = wt_job_defaults();
+        wt_master_tables tables = {0};
+        memcpy(path + strlen(path) - 6, "XXXXXX", 6);
+        write_melt(path, odd[i]);
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.fit.reference_temperature = 303.15;
+        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_true((wt_table_key(tables.shift_factors, "route") != NULL) == (i == 1));
+        assert_true((wt_table_key(tables.shift_factors, "holds_from") != NULL) == (i == 0));
+        assert_true(strncmp(wt_table_key(tables.shift_factors, "superposition"),
+                            i == 0 ? "fails up to" : "fails: ", i == 0 ? 11 : 7) == 0);
+        see(tables.shift_factors);
+        wt_master_tables_clear(&tables);
+        unlink(path);
+    }
 }
 
 /* One law of two samples and of one that has none; of one sample twice where it is Arrhenius. */
@@ -853,14 +890,23 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cases),         cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_common_law),    cmocka_unit_test(test_no_hysteresis),
-        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_spot),          cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
