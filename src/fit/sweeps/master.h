@@ -41,6 +41,24 @@ typedef struct master_work {
     lack_of_fit whole;
 } master_work;
 
+/* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
+wt_status master_check_vertical(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_work_alloc(master_work *work, wt_error *err) WT_NODISCARD;
+/* The isotherm to start from. */
+wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
+/* Spectrum and shifts: start, outliers, which isotherms hang together; gross: far off. */
+wt_status master_place(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_find_noise(master_work *work, wt_error *err) WT_NODISCARD;
+/* How far the fit is from what is within the isotherms: missed, gross. */
+wt_status master_measure_misfit(master_work *work, wt_error *err) WT_NODISCARD;
+/* The lack of fit, with free vertical shifts. */
+wt_status master_test(master_work *work, wt_error *err) WT_NODISCARD;
+/* Noise that is the same all along an isotherm. */
+extern const double master_even[SPECTRUM_SHAPES];
+/* link: [set.n] the overlaps with the vertical shift of rubber elasticity, or with none; b: [set.n]
+ * scratch. */
+wt_status master_links(const master_work *work, bool physical, double *b, overlap_link *link,
+                       wt_error *err) WT_NODISCARD;
 /* The prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
@@ -53,12 +71,6 @@ wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_overlaps(master_work *work, wt_error *err) WT_NODISCARD;
 /* The shifts of the overlaps in the place of those of the spectrum, which is fitted to them. */
 wt_status master_by_overlap(master_work *work, wt_error *err) WT_NODISCARD;
-/* Looks for isotherms about the anchor that one spectrum describes, from `first` to `last`, where
- * it does not describe all. */
-wt_status master_find_part(master_work *work, wt_error *err) WT_NODISCARD;
-/* Whether one spectrum describes the isotherms from `first` to `last`. */
-wt_status master_try_part(const master_work *work, size_t first, size_t last, bool *holds,
-                          wt_error *err) WT_NODISCARD;
 /* The shift of an isotherm beside that part, with its error. */
 bool master_beside_part(const master_work *work, size_t i, double *a, double *error);
 /* Whether the overlaps tell shifts: of storage moduli, and none are given; they are in `link` then.

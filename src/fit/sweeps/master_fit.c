@@ -16,7 +16,7 @@
  * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is the same all along an isotherm. */
-static const double even[SPECTRUM_SHAPES] = {0.0};
+const double master_even[SPECTRUM_SHAPES] = {0.0};
 enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
 
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
@@ -30,8 +30,6 @@ static const double far = 0.5;
  * pull the isotherms towards themselves, all but the one that is held, by more than their errors
  * (tests/study: lines). */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
-/* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
-static const double much_steeper = 2.0;
 /* What one spectrum is off a modulus by, beyond the noise within the isotherms, from which on its
  * shifts mean nothing [ln]: isotherms of which superposition holds or nearly holds miss by 0.3 to 3
  * %, those of glassy polymers by 5 to 20 % of E''. */
@@ -80,7 +78,7 @@ PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options
 /* ---- start ----------------------------------------------------------------------------------- */
 
 /* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
-static wt_status check_vertical(master_work *work, wt_error *err)
+wt_status master_check_vertical(master_work *work, wt_error *err)
 {
     if (work->set.by == WT_BY_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
@@ -93,7 +91,7 @@ static wt_status check_vertical(master_work *work, wt_error *err)
 }
 
 /* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
-static wt_status choose_anchor(master_work *work, wt_error *err)
+wt_status master_choose_anchor(master_work *work, wt_error *err)
 {
     const shift_set *set = &work->set;
     const double asked = work->options.reference_temperature;
@@ -126,7 +124,7 @@ static wt_status choose_anchor(master_work *work, wt_error *err)
     return WT_OK;
 }
 
-static wt_status work_alloc(master_work *work, wt_error *err)
+wt_status master_work_alloc(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     pool *m = &work->memory;
@@ -294,7 +292,7 @@ static wt_status sharpen(master_work *work, wt_error *err)
 }
 
 /* How far the fit is from what is within the isotherms. */
-static wt_status measure_misfit(master_work *work, wt_error *err)
+wt_status master_measure_misfit(master_work *work, wt_error *err)
 {
     double all[MODULI], within[MODULI];
     const wt_status status = spectrum_misses(work->s, all, within, err);
@@ -312,7 +310,7 @@ static wt_status measure_misfit(master_work *work, wt_error *err)
 static wt_status start_again(master_work *work, wt_error *err)
 {
     bool lines = false;
-    wt_status status = measure_misfit(work, err);
+    wt_status status = master_measure_misfit(work, err);
     if (status != WT_OK || !work->gross)
         return status;
     if (isnan(work->options.terms_per_decade))
@@ -332,10 +330,10 @@ static wt_status start_again(master_work *work, wt_error *err)
         status = master_make_spectrum(work, err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-    return status == WT_OK ? measure_misfit(work, err) : status;
+    return status == WT_OK ? master_measure_misfit(work, err) : status;
 }
 
-static wt_status place_all(master_work *work, wt_error *err)
+wt_status master_place(master_work *work, wt_error *err)
 {
     const double asked = work->options.terms_per_decade;
     wt_status status = WT_OK;
@@ -377,10 +375,10 @@ static wt_status place_all(master_work *work, wt_error *err)
 
 /* Noise factors by what is within the isotherms; where the spectrum bends; correlation by the fit,
  * so that what a spectrum misses a little counts as noise. */
-static wt_status find_noise(master_work *work, wt_error *err)
+wt_status master_find_noise(master_work *work, wt_error *err)
 {
     wt_status status = spectrum_noise_within(work->s, &work->within, err);
-    spectrum_spread(work->s, even);
+    spectrum_spread(work->s, master_even);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK && round + 1 < BEND_ROUNDS)
@@ -392,7 +390,7 @@ static wt_status find_noise(master_work *work, wt_error *err)
 /* With free vertical shifts, so that those are no part of the verdict, and with the noise as it is
  * along the isotherms: the fit takes it as even, for a misfit at their ends is no reason to believe
  * them less. */
-static wt_status test_superposition(master_work *work, wt_error *err)
+wt_status master_test(master_work *work, wt_error *err)
 {
     if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
         return WT_OK;
@@ -409,155 +407,9 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     if (status == WT_OK && work->tested)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
-    spectrum_spread(s, even);
+    spectrum_spread(s, master_even);
     if (status == WT_OK) /* the columns as the cells have them */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
-    return status;
-}
-
-/* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
- */
-static double steeper(const master_work *work)
-{
-    const shift_set *set = &work->set;
-    size_t steepest = work->anchor;
-    for (size_t i = 0; i < set->n; i++)
-        if (set->curves[i].n >= SHIFT_MIN_POINTS &&
-            shift_change(set, i) > shift_change(set, steepest))
-            steepest = i;
-    return shift_change(set, steepest) > much_steeper * shift_change(set, work->anchor)
-               ? set->curves[steepest].temperature
-               : (double)NAN;
-}
-
-wt_status master_try_part(const master_work *whole, size_t first, size_t last, bool *holds,
-                          wt_error *err)
-{
-    master_work work = {.options = whole->options, .part = true, .set = whole->set};
-    work.options.reference_temperature = whole->reference;
-    work.set.curves += first;
-    work.set.n = work.last = last - first + 1;
-    *holds = false;
-    wt_status status = work_alloc(&work, err);
-    if (status == WT_OK)
-        status = choose_anchor(&work, err);
-    if (status == WT_OK)
-        status = place_all(&work, err);
-    if (status == WT_OK)
-        status = measure_misfit(&work, err);
-    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
-        status = find_noise(&work, err);
-    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
-        status = test_superposition(&work, err);
-    if (status == WT_OK && work.tested && !master_misfit_is_real(&work.lack))
-        status = master_agrees(&work, holds, err);
-    posterior_free(work.posterior);
-    pool_free(&work.memory);
-    return status == WT_E_MEMORY ? status : WT_OK;
-}
-
-/* As if it had never been in doubt. */
-static wt_status fit_plainly(master_work *work, wt_error *err)
-{
-    work->plain = true;
-    wt_status status = place_all(work, err);
-    if (status == WT_OK)
-        status = find_noise(work, err);
-    return status == WT_OK ? test_superposition(work, err) : status;
-}
-
-/* One spectrum with shifts of its own. */
-static wt_status fit_own(master_work *work, wt_error *err)
-{
-    wt_status status = place_all(work, err);
-    if (status == WT_OK && work->gross) { /* vertical shifts that are held may be all that misses */
-        status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
-        if (status == WT_OK)
-            status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
-        if (status == WT_OK)
-            status = measure_misfit(work, err);
-        if (status != WT_OK || !work->gross) /* all is well but for those: from the start again */
-            return status != WT_OK ? status : fit_plainly(work, err);
-        status = spectrum_noise_within(work->s, &work->within, err);
-        spectrum_spread(work->s, even);
-    } else if (status == WT_OK) {
-        status = find_noise(work, err);
-        if (status == WT_OK) /* what was a start that is near enough may have ended far off */
-            status = measure_misfit(work, err);
-    }
-    return status == WT_OK ? test_superposition(work, err) : status;
-}
-
-/* The misfit is no matter of vertical shifts that are held, or of a factor on E'', which leave the
- * shifts what they are. */
-static bool is_real(const master_work *work)
-{
-    const lack_of_fit *lack = &work->lack;
-    return !work->tested || (master_misfit_is_real(lack) &&
-                             fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
-}
-
-/* Where that is far off, or is not found: of the isotherms about the reference that one describes,
- * or, if there are none, one at the shifts of the overlaps. */
-static wt_status fit_spectrum(master_work *work, wt_error *err)
-{
-    wt_error failure = WT_ERROR_INIT;
-    wt_status status = fit_own(work, &failure);
-    if (status == WT_E_CONVERGENCE)
-        snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
-    bool overlap = false;
-    if (work->no_spectrum[0] != '\0' || (status == WT_OK && work->gross && is_real(work))) {
-        const wt_status may = master_may_overlap(work, &overlap, err);
-        if (may != WT_OK)
-            return may;
-    }
-    if (!overlap && status == WT_OK && work->gross)
-        status = fit_plainly(work, &failure);
-    if (!overlap && status == WT_OK && work->tested && master_misfit_is_real(&work->lack) &&
-        work->set.used[STORAGE])
-        status = master_doubt(work, &failure);
-    if (!overlap) {
-        if (status != WT_OK && err != NULL)
-            *err = failure;
-        return status;
-    }
-    master_keep_own(work);
-    status = master_find_part(work, err);
-    if (status == WT_OK && work->part) {
-        work->whole = work->lack;
-        return fit_own(work, err);
-    }
-    if (status == WT_OK)
-        status = master_by_overlap(work, err);
-    return status == WT_OK ? find_noise(work, err) : status;
-}
-
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
-                          wt_master *master, double *better, wt_error *err)
-{
-    master_work work = {.options = *options};
-    wt_status status = param_check(wt_master_options_params(), &work.options, err);
-    if (status == WT_OK)
-        status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
-    if (status == WT_OK)
-        status = check_vertical(&work, err);
-    if (status == WT_OK)
-        status = work_alloc(&work, err);
-    if (status == WT_OK)
-        status = choose_anchor(&work, err);
-    if (status == WT_OK) {
-        closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
-        status = fit_spectrum(&work, err);
-    }
-    if (status == WT_OK)
-        status = master_fit_widths(&work, err);
-    if (status == WT_OK)
-        status = posterior_close(work.posterior, work.reference, err);
-    if (status == WT_OK)
-        status = master_report(&work, sweep, log, master, err);
-    *better = status == WT_E_NO_OVERLAP ? steeper(&work) : (double)NAN;
-    posterior_free(work.posterior);
-    pool_free(&work.memory);
     return status;
 }

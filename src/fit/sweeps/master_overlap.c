@@ -11,15 +11,6 @@
  * those do not agree. */
 static const double agree = 2.0;
 
-/* The overlaps with the vertical shift of rubber elasticity, or with none. */
-static wt_status overlaps(const master_work *work, bool physical, double *b, overlap_link *link,
-                          wt_error *err)
-{
-    for (size_t i = 0; i < work->set.n; i++)
-        b[i] = physical ? work->physical[i] - work->physical[work->anchor] : 0.0;
-    return overlap_chain(&work->set, work->anchor, b, link, err);
-}
-
 /* Whether all shifts of the spectrum are what the overlaps say. */
 static bool all_agree(const master_work *work, const overlap_link *link)
 {
@@ -46,21 +37,11 @@ wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
         memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
     *agrees = false;
     for (int physical = 0; physical < 2 && status == WT_OK && !*agrees; physical++) {
-        status = overlaps(work, physical == 1, b, link, err);
+        status = master_links(work, physical == 1, b, link, err);
         *agrees = status == WT_OK && all_agree(work, link);
     }
     pool_free(&memory);
     return status;
-}
-
-/* Vertical shifts are those of rubber elasticity if they are asked for, else there are none: the
- * storage modulus alone does not tell them from horizontal ones, and a glass has none. */
-wt_status master_overlaps(master_work *work, wt_error *err)
-{
-    double *b = pool_numbers(&work->memory, work->set.n);
-    if (b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
-    return overlaps(work, work->options.vertical == WT_VERTICAL_PHYSICAL, b, work->link, err);
 }
 
 wt_status master_may_overlap(master_work *work, bool *may, wt_error *err)
@@ -180,53 +161,7 @@ wt_status master_by_overlap(master_work *work, wt_error *err)
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
 
-/* ---- a part that one spectrum describes ------------------------------------------------------ */
-
-/* Fewer isotherms than these have no law (shift_law.h). */
-enum { LEAST_PART = LAW_LEAST_TOLD };
-
-/* The farthest end with which the part still holds: all there is, then by halves. */
-static wt_status widen(master_work *work, bool warm, wt_error *err)
-{
-    size_t *const end = warm ? &work->last : &work->first;
-    size_t steps = warm ? work->set.n - 1 - work->last : work->first; /* that may hold */
-    wt_status status = WT_OK;
-    for (size_t tried = steps; status == WT_OK && steps > 0; tried = (steps + 1) / 2) {
-        bool holds;
-        const size_t next = warm ? *end + tried : *end - tried;
-        status =
-            master_try_part(work, warm ? work->first : next, warm ? next : work->last, &holds, err);
-        if (status == WT_OK && holds) {
-            *end = next;
-            steps -= tried;
-        } else {
-            steps = tried - 1;
-        }
-    }
-    return status;
-}
-
-wt_status master_find_part(master_work *work, wt_error *err)
-{
-    const size_t n = work->set.n;
-    bool holds = false;
-    wt_status status = WT_OK;
-    if (work->set.by != WT_BY_MODULI || n <= LEAST_PART)
-        return WT_OK;
-    /* about the anchor, rather to the warm side: rubber is above its glass */
-    work->first = work->anchor > 0 ? work->anchor - 1 : 0;
-    if (work->first + LEAST_PART > n)
-        work->first = n - LEAST_PART;
-    work->last = work->first + LEAST_PART - 1;
-    status = master_try_part(work, work->first, work->last, &holds, err);
-    if (status != WT_OK || !holds)
-        return status;
-    status = widen(work, true, err);
-    if (status == WT_OK)
-        status = widen(work, false, err);
-    work->part = true;
-    return status;
-}
+/* ---- beside a part that one spectrum describes */
 
 bool master_beside_part(const master_work *work, size_t i, double *a, double *error)
 {
