@@ -321,6 +321,11 @@ static recognition detect(const file_reader *self, file_peek *peek)
 
 static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
 {
+    double factor, offset;
+    /* Behind the door no file can be opened, so the units are read from theirs before it. */
+    const wt_status units = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
+    if (units != WT_OK)
+        return units;
     wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
                     "force curves of this format were not verified on a genuine file: compare one "
                     "with the instrument's own software");

@@ -180,8 +180,7 @@ void text_file_free(text_file *file);
 typedef struct text_parts text_parts;
 /* Bytes to read together: SIZE_MAX, and the file is one part, where it is small or where its
  * description lets one line depend on others far away. */
-wt_status text_piece(const text_description *description, wt_input *input, size_t *piece,
-                     wt_error *err);
+wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err);
 /* The input is the text itself: `as_text` of the reader is not asked. */
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
                            const wt_read_options *options, wt_parselog *log, text_parts **parts,

@@ -320,7 +320,7 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog 
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts)
 {
-    const text_description *description = self->description;
+    text_description *const description = self->description;
     text_reading r = {self, input, options, description->kinds, SIZE_MAX, 0};
     text_parts *parts = NULL;
     unsigned has = 0;
