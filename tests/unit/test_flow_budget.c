@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "fit/compare.h"
-#include "flow/job/common_errors.h"
+#include "fit/comparison/groups.h"
+#include "flow/indentation/common_errors.h"
 
 enum { SPOTS = 4, CURVES = 8 };
 
