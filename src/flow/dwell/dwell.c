@@ -2,8 +2,8 @@
  * of every curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
-#include "flow/indentation/indent.h"
 #include "base/param.h"
+#include "flow/indentation/indent.h"
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
