@@ -303,6 +303,27 @@ static int wider(const void *a, const void *b)
     return more > 0 ? 1 : more < 0 ? -1 : 0;
 }
 
+/* "'choice' 2.2, 'tried; tried unit' 1.8": of one that moves the number, the unit once. */
+static void add_tics(char *tics, size_t size, size_t place_of, const wt_table *t,
+                     const char *choice, const char *column)
+{
+    char tried[256] = "";
+    for (size_t row = 1; row < wt_table_n_rows(t); row++) {
+        if (strcmp(text_cell(t, row, "choice"), choice) != 0 ||
+            !isfinite(number_cell(t, row, column)))
+            continue;
+        const char *words = text_cell(t, row, "tried"), *unit = strrchr(words, ' ');
+        const size_t used = strlen(tried), length = unit == NULL ? 0 : strlen(unit);
+        if (length > 0 && used > length && strcmp(tried + used - length, unit) == 0)
+            tried[used - length] = '\0';
+        snprintf(tried + strlen(tried), sizeof tried - strlen(tried), "%s%s", used > 0 ? "; " : "",
+                 words);
+    }
+    const size_t used = strlen(tics);
+    snprintf(tics + used, size - used, "%s'%s' %zu.2, '%s' %.1f", place_of > 0 ? ", " : "", choice,
+             place_of, tried, (double)place_of - 0.2);
+}
+
 static void test_what_if(void **state)
 {
     (void)state;
@@ -314,6 +335,7 @@ static void test_what_if(void **state)
                   {"thickness", "layer", "balance_thickness"}};
     sections s = read_sections("what_if");
     const wt_table *t = wt_result_find(result, "what_if");
+    char *script = plot_file("what_if", "gp");
     for (size_t p = 0; p < 3; p++) {
         range ranges[MOST];
         size_t n = 0;
@@ -332,13 +354,76 @@ static void test_what_if(void **state)
             ranges[n - 1].high = fmax(ranges[n - 1].high, value);
         }
         qsort(ranges, n, sizeof *ranges, wider);
+        char tics[2048] = "set ytics (";
+        size_t bars = 0;
         for (size_t i = 0; i < n; i++)
-            if (ranges[i].high > ranges[i].low)
+            if (ranges[i].high > ranges[i].low) {
                 next_has(&s, (const double[]){is, ranges[i].low, ranges[i].high}, 3);
+                add_tics(tics, sizeof tics, bars++, t, ranges[i].choice, panels[p].column);
+            }
+        if (strstr(script, tics) == NULL)
+            fail_msg("no %s", tics);
         const double off = 1.959963985 * used.standard_error;
         next_has(&s, (const double[]){is, is - off, is + off}, 3);
     }
     end_sections(&s);
+    free(script);
+}
+
+/* Names at the places of their rows: "'name' 3". */
+static void test_names_at_their_places(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    char *script = plot_file("coverage", "gp"), tic[160];
+    const wt_table *t = wt_result_find(result, "coverage");
+    for (size_t i = 0; i < wt_table_n_rows(t); i++) {
+        snprintf(tic, sizeof tic, "'%s' %zu%s", text_cell(t, i, "number"),
+                 wt_table_n_rows(t) - 1 - i, i + 1 < wt_table_n_rows(t) ? ", " : ")");
+        if (strstr(script, tic) == NULL)
+            fail_msg("coverage: no %s", tic);
+    }
+    free(script);
+    script = plot_file("cost", "gp");
+    t = wt_result_find(result, "cost");
+    size_t n = 0;
+    for (size_t i = 0; i < wt_table_n_rows(t); i++) {
+        char stage[96];
+        if (!(number_cell(t, i, "runs") > 0))
+            continue;
+        snprintf(stage, sizeof stage, "%s", text_cell(t, i, "stage"));
+        for (char *c = stage; *c != '\0'; c++)
+            *c = *c == '_' ? ' ' : *c;
+        snprintf(tic, sizeof tic, "'%s' -%zu", stage, ++n);
+        if (strstr(script, tic) == NULL)
+            fail_msg("cost: no %s", tic);
+    }
+    snprintf(tic, sizeof tic, "set yrange [-%zu.7:-0.3]", n);
+    assert_non_null(strstr(script, tic));
+    free(script);
+    script = plot_file("error_budget", "gp");
+    t = wt_result_find(result, "error_budget");
+    n = wt_table_n_rows(t);
+    for (size_t first = 0, end = 0; first < n; first = end) {
+        const char *number = text_cell(t, first, "number");
+        bool shown = false;
+        for (end = first; end < n && strcmp(text_cell(t, end, "number"), number) == 0; end++)
+            shown = shown || number_cell(t, end, "relative_error") > 1e-5;
+        for (size_t row = first; row < end && shown; row++) {
+            const char *source = text_cell(t, row, "source");
+            const double seconds = number_cell(t, row, "seconds");
+            char time[32] = "";
+            if (seconds > 0)
+                wt_format_si(seconds, "s", 2, time, sizeof time);
+            snprintf(tic, sizeof tic, "'%s%s%s' %zu", source, time[0] != '\0' ? ", " : "", time,
+                     end - 1 - row);
+            if (strstr(script, tic) == NULL)
+                fail_msg("error_budget, %s: no %s", number, tic);
+        }
+        snprintf(tic, sizeof tic, "set title '%s'", number);
+        assert_true(!shown || strstr(script, tic) != NULL);
+    }
+    free(script);
 }
 
 /* ---- as gnuplot sees them -------------------------------------------------------------------- */
@@ -507,6 +592,7 @@ int main(void)
         cmocka_unit_test(test_error_budget),
         cmocka_unit_test(test_work_precision),
         cmocka_unit_test(test_what_if),
+        cmocka_unit_test(test_names_at_their_places),
         cmocka_unit_test(test_index_finds_every_section),
         cmocka_unit_test(test_gnuplot_draws_every_point),
     };
