@@ -356,6 +356,9 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* `name` is used in errors. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
+/* The same of the tables alone that wt_result_headlines takes. */
+WT_API wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
+                                         wt_result **result, wt_error *err) WT_NODISCARD;
 
 /* A map of force curves in such a file: written curve by curve, so that memory hardly grows with
  * it. The path is borrowed until the end. */

@@ -72,6 +72,9 @@ typedef struct wt_tables_role {
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                 wt_tables_role role, wt_result **tables,
                                 wt_error *err) WT_NODISCARD;
+/* The same for wt_result_headlines: of an HDF5 result no other tables. */
+WT_API wt_status wt_tables_read_headlines(const char *path, wt_result **tables,
+                                          wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 /* What the failure of a file or sample comes to: a row of the failures, whose message does not name
  * it again, and WT_OK; or, where there are none or the work cannot go on, its error and `status`.

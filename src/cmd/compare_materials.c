@@ -127,6 +127,5 @@ void compare_materials(compare_call *call)
         made = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
     wt_table **const made_tables[] = {&tables.material_ratio, &tables.materials};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
-    wt_materials_tables_clear(&tables);
     free(of);
 }

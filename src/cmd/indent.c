@@ -75,9 +75,6 @@ int cmd_indent(int argc, char **argv)
                                       &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
-    wt_table_free(groups);
-    wt_table_free(budget);
-    wt_indent_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
     return cmd_session_free(&s);

@@ -43,9 +43,5 @@ int cmd_layer(int argc, char **argv)
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
-    wt_layer_tables_clear(&tables);
-    wt_table_free(energy_density);
-    wt_table_free(softening);
-    wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

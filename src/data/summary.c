@@ -1,6 +1,7 @@
 /* The headlines of results, and one row for each result. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/array.h"
+#include "data/store.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -100,36 +101,46 @@ static void put_verdict(table_writer *t, const table_view *view)
     }
 }
 
+/* The tables that have headlines; behind the first ones all are keys. */
+enum { ANSWER, COMPARISON, GROUPS, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 5 };
+static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
+                                                      [COMPARISON] = &comparison_schema,
+                                                      [GROUPS] = &modulus_groups_schema,
+                                                      [NOTES] = &notes_schema,
+                                                      [FAILURES] = &failures_schema,
+                                                      [WITH_KEYS] = &shift_factors_schema,
+                                                      &glass_transition_schema,
+                                                      &friction_schema,
+                                                      &layer_schema,
+                                                      &what_if_schema};
+
+bool store_has_headlines(const char *table)
+{
+    for (size_t i = 0; i < N_TABLES; i++)
+        if (strcmp(sources[i]->name, table) == 0)
+            return true;
+    return false;
+}
+
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
-    const table_schema *const with_keys[] = {&shift_factors_schema, &glass_transition_schema,
-                                             &friction_schema, &layer_schema, &what_if_schema};
-    enum { N_WITH_KEYS = sizeof with_keys / sizeof *with_keys };
-    table_view answer, groups, comparison, keys[N_WITH_KEYS], notes, failures;
-    wt_status status = table_bind_of(result, &answer_schema, "", &answer, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &modulus_groups_schema, "", &groups, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &comparison_schema, "", &comparison, err);
-    for (size_t i = 0; status == WT_OK && i < N_WITH_KEYS; i++)
-        status = table_bind_of(result, with_keys[i], "", &keys[i], err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &notes_schema, "", &notes, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &failures_schema, "", &failures, err);
-    if (status != WT_OK)
-        return status;
+    table_view views[N_TABLES];
+    for (size_t i = 0; i < N_TABLES; i++) {
+        const wt_status status = table_bind_of(result, sources[i], "", &views[i], err);
+        if (status != WT_OK)
+            return status;
+    }
     double n_remarks = 0;
-    for (size_t row = 0; row < notes.n_rows; row++)
-        n_remarks += strcmp(notes_text(&notes, row, NOTES_SEVERITY), "note") != 0;
+    for (size_t row = 0; row < views[NOTES].n_rows; row++)
+        n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
     table_writer t = table_begin(&keys_schema, err);
-    put_verdict(&t, &answer);
-    put_ratio(&t, &comparison);
-    put_groups(&t, &groups);
-    for (size_t i = 0; i < N_WITH_KEYS; i++)
-        put_keys(&t, &keys[i]);
+    put_verdict(&t, &views[ANSWER]);
+    put_ratio(&t, &views[COMPARISON]);
+    put_groups(&t, &views[GROUPS]);
+    for (size_t i = WITH_KEYS; i < N_TABLES; i++)
+        put_keys(&t, &views[i]);
     put_number(&t, "remarks", "", n_remarks, "1");
-    put_number(&t, "failures", "", (double)failures.n_rows, "1");
+    put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);
 }
 

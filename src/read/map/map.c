@@ -42,7 +42,7 @@ static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
     hdf5_bytes from;
     wt_status status = input_hdf5(input, &from, err);
     if (status == WT_OK)
-        status = store_read_bytes(&from, wt_input_name(input), &result, err);
+        status = store_read_bytes(&from, store_pass, wt_input_name(input), &result, err);
     return status == WT_OK ? map_open(&from, result, map, err) : status;
 }
 
