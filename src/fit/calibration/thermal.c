@@ -9,10 +9,12 @@
 #include "weartrack/fit.h"
 
 #include "base/array.h"
+#include "model/cholesky.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
 enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
@@ -61,28 +63,10 @@ static double deviance(const noise *v, const double theta[P])
 /* Solves a x = b for a positive definite a; false if it is not. */
 static bool solve(double a[P][P], const double b[P], double x[P])
 {
-    double l[P][P] = {{0}};
-    for (int i = 0; i < P; i++)
-        for (int j = 0; j <= i; j++) {
-            double sum = a[i][j];
-            for (int k = 0; k < j; k++)
-                sum -= l[i][k] * l[j][k];
-            if (i == j && !(sum > 0))
-                return false;
-            l[i][j] = i == j ? sqrt(sum) : sum / l[j][j];
-        }
-    for (int i = 0; i < P; i++) {
-        x[i] = b[i];
-        for (int k = 0; k < i; k++)
-            x[i] -= l[i][k] * x[k];
-        x[i] /= l[i][i];
-    }
-    for (int i = P; i-- > 0;) {
-        for (int k = i + 1; k < P; k++)
-            x[i] -= l[k][i] * x[k];
-        x[i] /= l[i][i];
-    }
-    return true;
+    double l[P][P];
+    memcpy(l, a, sizeof l);
+    memcpy(x, b, P * sizeof *b);
+    return cholesky_solve(&l[0][0], P, P, 0, x);
 }
 
 static void information(const noise *v, const double theta[P], double fisher[P][P], double score[P])

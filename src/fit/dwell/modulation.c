@@ -9,6 +9,7 @@
  */
 #include "base/gsl_quiet.h"
 #include "fit/pool_gsl.h"
+#include "model/root.h"
 #include "weartrack/fit.h"
 
 #include <complex.h>
@@ -19,13 +20,13 @@
 static const double complex unit = (double complex)I;
 
 /* Slow columns: a cubic and the logarithm of the time since the beginning. */
-enum { SLOW = 5, COLUMNS = SLOW + 2, ROUNDS = 60 };
+enum { SLOW = 5, COLUMNS = SLOW + 2, SECTIONS = 60 };
 enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
 /* In whole periods of the segment: beyond what the weights mix with the drive, and so far apart
  * that their noises are independent under the weights. */
 enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
 /* Power of the height over that beside it that is no noise. */
-static const double significant = 100, golden = 0.6180339887498949, pi = 3.14159265358979323846;
+static const double significant = 100, pi = 3.14159265358979323846;
 
 typedef struct samples {
     const double *time, *of[2]; /* height and force */
@@ -79,8 +80,9 @@ static bool solve(const samples *s, double omega, double to[2][COLUMNS])
     return true;
 }
 
-static double power_at(const samples *s, double omega)
+static double power_at(double omega, void *user)
 {
+    const samples *s = user;
     double c[2][COLUMNS];
     return solve(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
 }
@@ -99,7 +101,7 @@ static size_t smooth(size_t n)
 }
 
 /* The strongest frequency of the height [rad/s]. */
-static double search(const samples *s, pool *memory)
+static double search(samples *s, pool *memory)
 {
     const size_t n = smooth(s->n);
     double c[2][COLUMNS], row[COLUMNS], *work = pool_numbers(memory, s->n);
@@ -126,15 +128,8 @@ static double search(const samples *s, pool *memory)
     gsl_fft_real_wavetable_free(table);
     gsl_fft_real_workspace_free(space);
     const double bin = 2 * pi / ((double)n * s->step);
-    double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
-    for (int i = 0; i < ROUNDS && best > 0; i++) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (power_at(s, a) > power_at(s, b))
-            high = b;
-        else
-            low = a;
-    }
-    return best > 0 ? 0.5 * (low + high) : 0;
+    const double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
+    return best > 0 ? root_maximum(power_at, s, low, high, SECTIONS) : 0;
 }
 
 /* Mean power of what is left of the height at frequencies beside the drive, whole periods apart;

@@ -14,6 +14,7 @@
 #include "base/gsl_quiet.h"
 #include "fit/indentation/curve_model.h"
 #include "model/hereditary.h"
+#include "model/prony.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -96,11 +97,8 @@ static void moduli_at(dwell_task *t, const double *p, double omega, double to[2]
 {
     to[0] = make_moduli(t, p);
     to[1] = 0;
-    for (size_t i = 0; i < t->n_terms; i++) {
-        const double x = omega * t->time[i], share = t->modulus[i] / (1 + x * x);
-        to[0] += share * x * x;
-        to[1] += share * x;
-    }
+    for (size_t i = 0; i < t->n_terms; i++)
+        prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
 }
 
 /* What a mean over a time has more than the middle of it, where the force bends. */

@@ -7,6 +7,7 @@
 #include "base/gsl_quiet.h"
 #include "base/param.h"
 #include "fit/pool_gsl.h"
+#include "model/prony.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_errno.h>
@@ -67,18 +68,6 @@ typedef struct reducer {
 } reducer;
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
-
-static void series_at(const wt_prony *p, double w, double modulus[MODULI])
-{
-    modulus[STORAGE] = p->equilibrium_modulus;
-    modulus[LOSS] = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double z = w * p->relaxation_time[i],
-                     low = z < 1 ? z * z / (1 + z * z) : 1 / (1 + 1 / (z * z));
-        modulus[STORAGE] += p->modulus[i] * low;
-        modulus[LOSS] += p->modulus[i] * (z < 1 ? z / (1 + z * z) : 1 / (z + 1 / z));
-    }
-}
 
 static size_t n_unknowns(const reducer *r)
 {
@@ -260,12 +249,12 @@ static void start(reducer *r, size_t terms)
                 r->unknown[2 * i + 1] += r->from->modulus[k];
         }
         const double w = exp(-r->unknown[2 * i]);
-        series_at(r->from, w, modulus);
+        prony_moduli(r->from, w, &modulus[STORAGE], &modulus[LOSS]);
         /* none of the spectrum is nothing to start from */
         r->unknown[2 * i + 1] = log(fmax(r->unknown[2 * i + 1], 0.1 * modulus[LOSS]));
     }
     if (r->fitted) {
-        series_at(r->from, exp(r->x[0]), modulus);
+        prony_moduli(r->from, exp(r->x[0]), &modulus[STORAGE], &modulus[LOSS]);
         r->unknown[2 * terms] = log(fmax(r->from->equilibrium_modulus, 1e-3 * modulus[STORAGE]));
     } else if (terms > 1 && r->from->equilibrium_modulus > r->long_term) {
         r->unknown[2 * terms - 2] = r->high;
@@ -401,7 +390,7 @@ static wt_status prepare(reducer *r, const wt_reduction *options, wt_error *err)
     for (size_t k = 0; k < r->n; k++) {
         double modulus[MODULI];
         r->x[k] = first + (last - first) * (double)k / (double)(r->n - 1);
-        series_at(from, exp(r->x[k]), modulus);
+        prony_moduli(from, exp(r->x[k]), &modulus[STORAGE], &modulus[LOSS]);
         for (int q = 0; q < MODULI; q++)
             r->y[q][k] = log(modulus[q]);
         if (!isfinite(r->y[STORAGE][k]) || !isfinite(r->y[LOSS][k]))
@@ -418,8 +407,8 @@ void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviati
     for (size_t k = 0; k < n; k++) {
         double is[MODULI], was[MODULI];
         const double w = exp(first + (last - first) * (double)k / (double)(n - 1));
-        series_at(to, w, is);
-        series_at(from, w, was);
+        prony_moduli(to, w, &is[STORAGE], &is[LOSS]);
+        prony_moduli(from, w, &was[STORAGE], &was[LOSS]);
         for (int q = 0; q < MODULI; q++)
             deviation[q] = fmax(deviation[q], fabs(is[q] / was[q] - 1));
     }

@@ -2,6 +2,7 @@
  * and whether they describe the points as well. Its constants carry no errors: what it is off is
  * not noise. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
+#include "model/prony.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_errno.h>
@@ -127,12 +128,8 @@ static void series_squares(const wt_master *m, const wt_prony *series, double of
 {
     of[0] = of[1] = 0;
     for (size_t i = 0; i < m->n; i++) {
-        double storage = series->equilibrium_modulus, loss = 0;
-        for (size_t k = 0; k < series->n; k++) {
-            const double z = pow(10, m->log_frequency[i]) * series->relaxation_time[k];
-            storage += series->modulus[k] * z / (z + 1 / z);
-            loss += series->modulus[k] / (z + 1 / z);
-        }
+        double storage, loss;
+        prony_moduli(series, pow(10, m->log_frequency[i]), &storage, &loss);
         if (!counts(m, i))
             continue;
         of[0] += pow(log(storage) - m->log_storage[i] * M_LN10, 2);

@@ -3,6 +3,7 @@
 #include "fit/ramp/smooth.h"
 
 #include "base/normal.h"
+#include "model/root.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -52,16 +53,22 @@ static double falls(const smooth *s, double x)
     return smooth_below(s, x, SMOOTH_SLOPE, 0);
 }
 
+typedef struct slope_level {
+    const smooth *s;
+    double level;
+} slope_level;
+
+static bool falls_less(double x, void *user)
+{
+    const slope_level *l = user;
+    return falls(l->s, x) < l->level;
+}
+
 /* Where it becomes as probable that the curve falls as `level`, between two places. */
 static double crossing(const smooth *s, double low, double high, double level)
 {
-    for (int i = 0; i < HALVINGS; i++) {
-        const double middle = 0.5 * (low + high);
-        if (falls(s, middle) < level)
-            low = middle;
-        else
-            high = middle;
-    }
+    slope_level l = {s, level};
+    root_halve(falls_less, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 

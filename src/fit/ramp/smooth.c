@@ -5,6 +5,7 @@
 #include "base/gsl_quiet.h"
 #include "base/normal.h"
 #include "fit/pool_gsl.h"
+#include "model/root.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
@@ -278,20 +279,27 @@ double smooth_below(const smooth *s, double x, smooth_order order, double limit)
     return below(&o, limit);
 }
 
+typedef struct opinion_level {
+    const opinions *o;
+    double probability;
+} opinion_level;
+
+static bool less_probable(double x, void *user)
+{
+    const opinion_level *l = user;
+    return below(l->o, x) < l->probability;
+}
+
 /* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
 static double quantile(const opinions *o, double probability, double from, double step)
 {
     double other = from + step;
     while (step != 0 && (below(o, other) < probability) == (step > 0) && isfinite(other))
         other += step *= 2;
-    for (int i = 0; i < HALVINGS; i++) {
-        const double middle = 0.5 * (from + other);
-        if ((below(o, middle) < probability) == (step > 0))
-            from = middle;
-        else
-            other = middle;
-    }
-    return 0.5 * (from + other);
+    opinion_level l = {o, probability};
+    double low = fmin(from, other), high = fmax(from, other);
+    root_halve(less_probable, &l, &low, &high, 0, HALVINGS);
+    return 0.5 * (low + high);
 }
 
 wt_interval smooth_interval(const smooth *s, double x)

@@ -4,6 +4,8 @@
  */
 #include "fit/spot/height_image.h"
 
+#include "model/cholesky.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,28 +26,8 @@ static void span(double centre, double reach, double step, size_t n, size_t *fir
 
 bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_UNKNOWNS])
 {
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j <= i; j++) {
-            double sum = m[i][j];
-            for (size_t k = 0; k < j; k++)
-                sum -= m[i][k] * m[j][k];
-            /* What rounding may have left of the unknowns before is nothing. */
-            if (i == j && !(sum > (double)(n * n) * DBL_EPSILON * m[i][i]))
-                return false;
-            m[i][j] = i == j ? sqrt(sum) : sum / m[j][j];
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            v[i] -= m[i][k] * v[k];
-        v[i] /= m[i][i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            v[i] -= m[k][i] * v[k];
-        v[i] /= m[i][i];
-    }
-    return true;
+    /* What rounding may have left of the unknowns before is nothing. */
+    return cholesky_solve(&m[0][0], SPOT_UNKNOWNS, n, (double)(n * n) * DBL_EPSILON, v);
 }
 
 /* Calls `visit` for each pixel of a disc; u and v are in units of its radius. */

@@ -6,6 +6,7 @@
 
 #include "fit/dense.h"
 #include "fit/pool_gsl.h"
+#include "model/root.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
@@ -30,6 +31,10 @@ static const double least_squares = 0.01;
 /* A misfit that is large makes noise within the isotherms that hardly is one: not less is believed
  * to be known of it than so many degrees of freedom would tell. */
 static const double least_known = 12.0;
+
+/* To this part the end of a stated interval is made; of 2 digits that are told. */
+static const double misfit_close = 1e-4;
+enum { MOST_HALVINGS = 100 }; /* of [0, high] down to that part of what may be 1e-25 of it */
 
 struct extra {
     const spectrum *s;
@@ -257,17 +262,24 @@ static double noncentral_below(double x, double freedom, double lambda)
     return sum;
 }
 
+typedef struct noncentral {
+    double x, freedom, probability;
+} noncentral;
+
+static bool more_probable(double lambda, void *user)
+{
+    const noncentral *c = user;
+    return noncentral_below(c->x, c->freedom, lambda) > c->probability;
+}
+
 /* Lambda with which x has this probability to be exceeded from below. */
 static double noncentrality(double x, double freedom, double probability)
 {
+    noncentral c = {x, freedom, probability};
     double low = 0.0, high = 4.0 * x + 100.0;
-    if (noncentral_below(x, freedom, 0.0) <= probability)
+    if (!more_probable(low, &c))
         return 0.0;
-    while (high - low > 1e-4 * high)
-        if (noncentral_below(x, freedom, 0.5 * (low + high)) > probability)
-            low = 0.5 * (low + high);
-        else
-            high = 0.5 * (low + high);
+    root_halve(more_probable, &c, &low, &high, misfit_close, MOST_HALVINGS);
     return 0.5 * (low + high);
 }
 

@@ -36,6 +36,10 @@ typedef struct accuracy_part {
 extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_angular[],
     accuracy_friction[], accuracy_layer[];
 
+/* Where `below` ceases to hold, by so many halves of the range. */
+long double accuracy_bisect(bool (*below)(const void *user, long double x), const void *user,
+                            long double low, long double high, int steps);
+
 /* |value / truth - 1|, 0 for two zeros. */
 static inline double accuracy_relative(double value, double truth)
 {

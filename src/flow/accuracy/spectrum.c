@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
 #include "flow/work/draws.h"
+#include "model/cholesky.h"
+#include "model/prony.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,9 +27,7 @@ static void moduli(double omega, double *storage, double *loss)
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
         const double decade = 0.25 * k;
-        const double z = omega * pow(10, 4 - decade), e = 9e4 * pow(10, 0.22 * decade);
-        *storage += e * z * z / (1 + z * z);
-        *loss += e * z / (1 + z * z);
+        prony_add(9e4 * pow(10, 0.22 * decade), pow(10, 4 - decade), omega, storage, loss);
     }
 }
 
@@ -185,40 +185,13 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
 
 enum { MOST_TERMS = 64 };
 
-/* Symmetric and positive: Cholesky. False if it is not, as far as rounding tells. */
-static bool solve_normal(double a[MOST_TERMS][MOST_TERMS], double *x, size_t n)
-{
-    for (size_t j = 0; j < n; j++) {
-        for (size_t k = 0; k < j; k++)
-            a[j][j] -= a[j][k] * a[j][k];
-        if (!(a[j][j] > 0))
-            return false;
-        a[j][j] = sqrt(a[j][j]);
-        for (size_t i = j + 1; i < n; i++) {
-            for (size_t k = 0; k < j; k++)
-                a[i][j] -= a[i][k] * a[j][k];
-            a[i][j] /= a[j][j];
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            x[i] -= a[i][k] * x[k];
-        x[i] /= a[i][i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            x[i] -= a[k][i] * x[k];
-        x[i] /= a[i][i];
-    }
-    return true;
-}
-
 /* What a term with a modulus of 1, the first one without relaxation, gives to E' and E''. */
 static void term_at(double omega, size_t j, double first, double density, double part[2])
 {
-    const double z = omega * pow(10, first + ((double)j - 1) / density);
-    part[0] = j == 0 ? 1 : z * z / (1 + z * z);
-    part[1] = j == 0 ? 0 : z / (1 + z * z);
+    part[0] = j == 0 ? 1 : 0;
+    part[1] = 0;
+    if (j > 0)
+        prony_add(1, pow(10, first + ((double)j - 1) / density), omega, &part[0], &part[1]);
 }
 
 /* Terms at fixed times, so many a decade, by linear least squares of the relative residuals, with
@@ -250,7 +223,7 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
                         a[j][l] += row[q][j] * row[q][l];
                 }
         }
-    const bool solved = solve_normal(a, x, n);
+    const bool solved = cholesky_solve(&a[0][0], MOST_TERMS, n, 0, x);
     double sum = 0;
     for (int i = 0; i < JUDGED; i++) {
         const double omega = judged_frequency(p, i);
