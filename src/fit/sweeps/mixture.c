@@ -30,7 +30,7 @@ static bool less_probable(double x, void *user)
     return sum < l->probability;
 }
 
-static double quantile(const mixture_part *part, size_t n, double probability)
+static double mixture_quantile(const mixture_part *part, size_t n, double probability)
 {
     mixture_level l = {part, n, probability};
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -47,8 +47,8 @@ wt_interval mixture_interval(const mixture_part *part, size_t n)
     wt_interval interval = {0};
     for (size_t i = 0; i < n; i++)
         interval.value += part[i].weight * part[i].mean;
-    interval.low = quantile(part, n, 0.025);
-    interval.high = quantile(part, n, 0.975);
+    interval.low = mixture_quantile(part, n, 0.025);
+    interval.high = mixture_quantile(part, n, 0.975);
     interval.standard_error = (interval.high - interval.low) / (2.0 * NORMAL_95);
     return interval;
 }

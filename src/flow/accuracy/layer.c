@@ -48,7 +48,7 @@ static accuracy_errors judge_layer(const void *problem)
 /* ---- balance --------------------------------------------------------------------------------- */
 
 /* Qf(z) / Qw - 1 at a depth, in long double. */
-static long double excess(const layer_problem *p, long double z)
+static long double formation_excess(const layer_problem *p, long double z)
 {
     const wt_layer_parameters *q = &p->parameters;
     const long double wear =
@@ -62,7 +62,7 @@ static long double excess(const layer_problem *p, long double z)
 
 static bool still_forms(const void *problem, long double z)
 {
-    return excess(problem, z) > 0;
+    return formation_excess(problem, z) > 0;
 }
 
 static long double bisect_thickness(const layer_problem *p, int steps)
@@ -147,7 +147,7 @@ static wt_status solve_march(void *problem, double value, wt_error *err)
     return status;
 }
 
-static double growth(const layer_problem *p, double thickness)
+static double growth_rate(const layer_problem *p, double thickness)
 {
     const wt_layer_parameters *l = &p->parameters;
     return p->source.power[0] / l->critical_energy * exp(-2 * p->source.wavenumber[0] * thickness) -
@@ -163,8 +163,9 @@ static wt_status solve_runge_kutta(void *problem, double value, wt_error *err)
     for (size_t i = 0; i < p->n; i++) {
         const double h = (p->time[i] - time) / value;
         for (double k = 0; k < value; k++) {
-            const double a = growth(p, thickness), b = growth(p, thickness + h / 2 * a),
-                         c = growth(p, thickness + h / 2 * b), d = growth(p, thickness + h * c);
+            const double a = growth_rate(p, thickness), b = growth_rate(p, thickness + h / 2 * a),
+                         c = growth_rate(p, thickness + h / 2 * b),
+                         d = growth_rate(p, thickness + h * c);
             thickness += h / 6 * (a + 2 * b + 2 * c + d);
         }
         time = p->time[i];
