@@ -34,16 +34,6 @@ typedef struct timing {
     size_t repeats;
 } timing;
 
-long double accuracy_bisect(bool (*below)(const void *user, long double x), const void *user,
-                            long double low, long double high, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        const long double middle = (low + high) / 2;
-        *(below(user, middle) ? &low : &high) = middle;
-    }
-    return (low + high) / 2;
-}
-
 static wt_status time_solution(const accuracy_method *m, void *problem, double value,
                                double *seconds, wt_error *err)
 {
