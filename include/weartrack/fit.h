@@ -108,7 +108,6 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* of the contact only indentations from this on [m] */
     double fit_force_from;          /* and forces from this on [N] */
     double fit_force_fraction_from; /* and from this share of the largest on */
-    uint64_t reserved[1];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -273,7 +272,6 @@ typedef struct wt_group {
     const long *rate_class; /* [n], with `rate`: what of both groups is the same nominal rate */
     size_t n;
     size_t n_rejected;
-    uint64_t reserved[6];
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -408,7 +406,6 @@ typedef struct wt_dwell_history {
     double contact_point, modulus; /* of a fit of the approach, to begin with; [m], [Pa] */
     double baseline_offset;        /* likewise [N] */
     wt_estimate baseline_tilt;     /* likewise [N/m] */
-    uint64_t reserved[4];
 } wt_dwell_history;
 
 /* A mean of the dwell. */
@@ -480,7 +477,6 @@ WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_
 /* The part of the contact by which the slope is measured: shares of the rise of the signal. */
 typedef struct wt_slope_options {
     double from, to;
-    uint64_t reserved[6];
 } wt_slope_options;
 WT_API wt_slope_options wt_slope_defaults(void);
 WT_API const wt_params *wt_slope_params(void);
@@ -570,7 +566,6 @@ typedef struct wt_master_options {
     bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
     wt_shift_by shift_by;    /* default MODULI */
     wt_reference_at reference_at;
-    uint64_t reserved[7];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);

@@ -10,6 +10,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "model/adhesion.h"
+#include "model/root.h"
 #include "model/tip.h"
 
 #include <float.h>
@@ -48,6 +49,17 @@ static double restoring(const adhesion *law, double k, double a)
     return isinf(k) || isinf(slope) ? lever : sample + k * lever;
 }
 
+typedef struct release_search {
+    const adhesion *law;
+    double k;
+} release_search;
+
+static bool comes_off(double a, void *user)
+{
+    const release_search *s = user;
+    return !(restoring(s->law, s->k, a) > 0.0);
+}
+
 double adhesion_release(const adhesion *law, double k)
 {
     if (!(law->work > 0.0))
@@ -70,13 +82,8 @@ double adhesion_release(const adhesion *law, double k)
     if (corner >= low && corner < high && !(restoring(law, k, corner) > 0.0) &&
         restoring(law, k, corner * (1.0 + 1e-12)) > 0.0)
         return corner;
-    for (int i = 0; i < MAX_ROUNDS && high - low > 2.0 * DBL_EPSILON * high; i++) {
-        a = 0.5 * (low + high);
-        if (restoring(law, k, a) > 0.0)
-            high = a;
-        else
-            low = a;
-    }
+    release_search search = {law, k};
+    root_halve(comes_off, &search, &low, &high, 2.0 * DBL_EPSILON, MAX_ROUNDS);
     return 0.5 * (low + high);
 }
 

@@ -109,7 +109,7 @@ static void take_line(const double *time, const double *force, size_t n, double 
 }
 
 /* Mean square of the differences of means of m samples from those of the m before. */
-static double difference(const double *x, size_t n, size_t m)
+static double mean_square_difference(const double *x, size_t n, size_t m)
 {
     double sum = 0, count = 0, step = 0;
     for (size_t i = 0; i < m; i++)
@@ -176,7 +176,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
     size_t seen_n = 0;
     take_line(h->time, h->force, n, residual);
     for (size_t m = 1; 8 * m <= n && seen_n < OCTAVES; m *= 2) {
-        seen[seen_n] = difference(residual, n, m);
+        seen[seen_n] = mean_square_difference(residual, n, m);
         response[seen_n][0] = 2 / (double)m;
         seen_n++;
     }
@@ -197,7 +197,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
 }
 
 /* Covariance of the means of a noise that decays over a time, over its variance. */
-static double shared(const dwell_nodes *n, size_t i, size_t k, double time)
+static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double time)
 {
     const double x = (n->to[i] - n->from[i]) / time, y = (n->to[k] - n->from[k]) / time;
     if (i == k)
@@ -215,7 +215,7 @@ static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
             const bool pressed = i >= n->first_pressed && i < n->first_free;
             double c = 0;
             for (size_t j = 0; j < v->n; j++)
-                c += v->slow[j] * shared(n, i, k, v->time[j]);
+                c += v->slow[j] * noise_covariance(n, i, k, v->time[j]);
             c += i == k ? (v->white + (pressed ? v->extra : 0)) / n->count[i] : 0;
             gsl_matrix_set(n->factor, i, k, c);
             gsl_matrix_set(n->factor, k, i, c);

@@ -14,6 +14,7 @@
 #include "base/gsl_quiet.h"
 #include "fit/indentation/curve_model.h"
 #include "model/hereditary.h"
+#include "model/prony.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -96,11 +97,8 @@ static void moduli_at(dwell_task *t, const double *p, double omega, double to[2]
 {
     to[0] = make_moduli(t, p);
     to[1] = 0;
-    for (size_t i = 0; i < t->n_terms; i++) {
-        const double x = omega * t->time[i], share = t->modulus[i] / (1 + x * x);
-        to[0] += share * x * x;
-        to[1] += share * x;
-    }
+    for (size_t i = 0; i < t->n_terms; i++)
+        prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
 }
 
 /* What a mean over a time has more than the middle of it, where the force bends. */
@@ -120,7 +118,7 @@ static void bend_means(const dwell_nodes *n, const double *pressed, double *forc
 }
 
 /* Forces of the nodes; and the indentation, unless NULL. */
-static void predict(dwell_task *t, const double *p, double *force, double *depth)
+static void predict_forces(dwell_task *t, const double *p, double *force, double *depth)
 {
     const dwell_nodes *n = &t->nodes;
     const wt_dwell_history *h = t->history;
@@ -168,7 +166,7 @@ static void predict(dwell_task *t, const double *p, double *force, double *depth
 }
 
 /* Divided by the factor of the covariance. */
-static void whiten(const dwell_nodes *n, double *x)
+static void whiten_residual(const dwell_nodes *n, double *x)
 {
     for (size_t i = 0; i < n->n; i++) {
         for (size_t k = 0; k < i; k++)
@@ -181,10 +179,10 @@ static void whiten(const dwell_nodes *n, double *x)
 static double cost_of(dwell_task *t, const double *p, double *residual)
 {
     double sum = 0;
-    predict(t, p, residual, NULL);
+    predict_forces(t, p, residual, NULL);
     for (size_t i = 0; i < t->nodes.n; i++)
         residual[i] = t->nodes.force[i] - residual[i];
-    whiten(&t->nodes, residual);
+    whiten_residual(&t->nodes, residual);
     for (size_t i = 0; i < t->nodes.n; i++)
         sum += residual[i] * residual[i];
     for (size_t a = 0; a < N_PARAMETERS; a++)
@@ -193,8 +191,8 @@ static double cost_of(dwell_task *t, const double *p, double *residual)
 }
 
 /* J'J with what is known beforehand, and J'r. */
-static void normal(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
-                   double jr[N_PARAMETERS])
+static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
+                            double jr[N_PARAMETERS])
 {
     const size_t n = t->nodes.n;
     for (size_t a = 0; a < N_PARAMETERS; a++) {
@@ -215,13 +213,13 @@ static void normal(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PAR
 
 /* Levenberg and Marquardt in the first n parameters; the sum of squares, NaN where nothing came of
  * it. */
-static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
-                  double jj[N_PARAMETERS][N_PARAMETERS])
+static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
+                             double jj[N_PARAMETERS][N_PARAMETERS])
 {
     double cost = cost_of(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
     for (int step = 0; step < MAX_STEPS; step++) {
         double damped[N_PARAMETERS][N_PARAMETERS], next[N_PARAMETERS], there;
-        normal(t, p, jj, jr);
+        dwell_equations(t, p, jj, jr);
         do {
             for (size_t a = 0; a < N_PARAMETERS; a++) {
                 for (size_t b = 0; b < N_PARAMETERS; b++)
@@ -249,7 +247,7 @@ static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
         if (gain <= converged * cost)
             break;
     }
-    normal(t, p, jj, jr);
+    dwell_equations(t, p, jj, jr);
     return cost;
 }
 
@@ -364,7 +362,7 @@ static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double nu = t->history->poisson_ratio, k = t->history->spring_constant;
-    predict(t, p, t->shifted, t->depth);
+    predict_forces(t, p, t->shifted, t->depth);
     for (size_t i = n->first_held; i < n->first_free; i++) {
         wt_dwell_point *point = &to->point[to->n_points++];
         const double z = n->position[i] - t->history->contact_point - p[POINT] * t->unit[POINT];
@@ -411,8 +409,8 @@ static double chance_of_two(double misfit, double ripples)
     return chance * (2 - chance);
 }
 
-static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAMETERS][N_PARAMETERS],
-                 wt_dwell *to)
+static void tell_relaxation(dwell_task *t, const double *p, double cost,
+                            double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double freedom = (double)(n->n - N_PARAMETERS);
@@ -439,7 +437,7 @@ static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAME
 }
 
 /* Of an elastic sample, which is where the search begins. */
-static void begin(dwell_task *t, double p[N_PARAMETERS])
+static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
 {
     const wt_dwell_history *h = t->history;
     const dwell_nodes *n = &t->nodes;
@@ -465,7 +463,7 @@ static void begin(dwell_task *t, double p[N_PARAMETERS])
     p[TILT] = h->baseline_tilt.value / t->unit[TILT];
 }
 
-static const char *lacks(const wt_dwell_history *h)
+static const char *why_no_relaxation(const wt_dwell_history *h)
 {
     const size_t n = h->n_approach + h->n_dwell + h->n_retract;
     if (!(h->spring_constant > 0) || !(h->modulus > 0) || !isfinite(h->contact_point) ||
@@ -480,7 +478,7 @@ static const char *lacks(const wt_dwell_history *h)
     return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
 }
 
-static void make(dwell_task *t, pool *memory, wt_dwell *to)
+static void fit_relaxation(dwell_task *t, pool *memory, wt_dwell *to)
 {
     const wt_dwell_history *h = t->history;
     const double depth = h->position[h->n_approach - 1] - h->contact_point;
@@ -497,11 +495,11 @@ static void make(dwell_task *t, pool *memory, wt_dwell *to)
     t->pressed = pool_numbers(memory, t->nodes.n);
     if (to->why_not[0] != '\0' || memory->failed)
         return;
-    begin(t, p);
+    begin_elastic(t, p);
     make_terms(t);
-    (void)fit(t, BUMP, p, jj);
-    const double cost = fit(t, N_PARAMETERS, p, jj);
-    tell(t, p, cost, jj, to);
+    (void)fit_parameters(t, BUMP, p, jj);
+    const double cost = fit_parameters(t, N_PARAMETERS, p, jj);
+    tell_relaxation(t, p, cost, jj, to);
 }
 
 wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
@@ -512,11 +510,11 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     dwell_task t = {.table = table, .history = history};
     pool memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
-    dwell->why_not = lacks(history);
+    dwell->why_not = why_no_relaxation(history);
     gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
     if (status == WT_OK && dwell->why_not[0] == '\0')
-        make(&t, &memory, dwell);
+        fit_relaxation(&t, &memory, dwell);
     if (status == WT_OK && memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
     pool_free(&memory);

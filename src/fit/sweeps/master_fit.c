@@ -262,7 +262,7 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
 }
 
 /* More terms where they are needed: few of them either bend, or take lines for noise. */
-static wt_status sharpen(master_work *work, wt_error *err)
+static wt_status sharpen_spectrum(master_work *work, wt_error *err)
 {
     bool better = work->s->smooth > sharp;
     wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
@@ -297,7 +297,7 @@ static wt_status place_all(master_work *work, wt_error *err)
             status = fit_robust(work, err);
     }
     if (status == WT_OK && isnan(asked))
-        status = sharpen(work, err);
+        status = sharpen_spectrum(work, err);
     if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
         status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
                          work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);
@@ -430,7 +430,7 @@ static wt_status test_superposition(master_work *work, wt_error *err)
 
 /* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
  */
-static double steeper(const master_work *work)
+static double steeper_reference(const master_work *work)
 {
     const shift_set *set = &work->set;
     size_t steepest = work->anchor;
@@ -470,7 +470,7 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = posterior_close(work.posterior, work.reference, err);
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
-    *better = status == WT_E_NO_OVERLAP ? steeper(&work) : (double)NAN;
+    *better = status == WT_E_NO_OVERLAP ? steeper_reference(&work) : (double)NAN;
     posterior_free(work.posterior);
     pool_free(&work.memory);
     return status;

@@ -20,8 +20,8 @@ static size_t count_outliers(const spectrum *s, size_t curve)
 }
 
 /* Why it is not determined, else nothing. */
-static bool undetermined(const master_work *work, size_t i, const wt_interval *a,
-                         wt_master_shift *shift)
+static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
+                            wt_master_shift *shift)
 {
     if (work->set.curves[i].n < SHIFT_MIN_POINTS)
         master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
@@ -58,7 +58,7 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         shift->n_outliers = count_outliers(work->s, curve);
         a = posterior_a(work->posterior, curve);
     }
-    if (undetermined(work, i, &a, shift))
+    if (is_undetermined(work, i, &a, shift))
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);

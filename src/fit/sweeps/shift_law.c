@@ -222,7 +222,7 @@ static struct gls gls_new(const law_data *data, const law_shape *shape, const gs
     return g;
 }
 
-/* The covariance of the first unknowns, which solve() leaves as its inverse. */
+/* The covariance of the first unknowns, which solve_at_pole() leaves as its inverse. */
 static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
 {
     return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
@@ -230,7 +230,8 @@ static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
 
 /* Least squares for a given distance of the pole, with `used` columns; false if they are
  * dependent. In the place of the covariance is the factor of its inverse. */
-static bool solve(struct gls *g, double distance, double main_factor, size_t used, law_fit *fit)
+static bool solve_at_pole(struct gls *g, double distance, double main_factor, size_t used,
+                          law_fit *fit)
 {
     gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
     gsl_matrix_view cross = covariance_of(fit, used);
@@ -256,7 +257,7 @@ static bool solve(struct gls *g, double distance, double main_factor, size_t use
 
 static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 {
-    const bool good = solve(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
+    const bool good = solve_at_pole(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
     /* a law that rises with temperature is none */
     return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
 }
@@ -294,12 +295,12 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_m
     *fit = (law_fit){.n_unknowns = k};
     bool good;
     if (pole == LAW_MOST) {
-        good = solve(&g, 1.0, 1.0, k, fit);
+        good = solve_at_pole(&g, 1.0, 1.0, k, fit);
     } else {
         const double p = best_pole(&g, fit);
         good = chi_square_at(&g, p, fit) < HUGE_VAL;
         const law_fit linear = *fit;
-        good = good && solve(&g, exp(p), linear.unknown[1], k, fit);
+        good = good && solve_at_pole(&g, exp(p), linear.unknown[1], k, fit);
         memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
         fit->unknown[pole] = p;
         fit->chi_square = linear.chi_square;
@@ -356,8 +357,8 @@ static wt_status make_roots(struct search *search, wt_error *err)
 }
 
 /* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
-static wt_status likelihoods(const struct search *search, const law_shape *shape, double *largest,
-                             double *mean, wt_error *err)
+static wt_status law_likelihoods(const struct search *search, const law_shape *shape,
+                                 double *largest, double *mean, wt_error *err)
 {
     const law_data *data = search->data;
     double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
@@ -380,7 +381,8 @@ static wt_status likelihoods(const struct search *search, const law_shape *shape
     return WT_OK;
 }
 
-static double score(const law_data *data, const law_shape *shape, double largest, double mean)
+static double law_criterion(const law_data *data, const law_shape *shape, double largest,
+                            double mean)
 {
     /* offset, constants and spread; the odd isotherm counts for every law alike */
     const double n = (double)data->n,
@@ -391,18 +393,19 @@ static double score(const law_data *data, const law_shape *shape, double largest
 }
 
 /* better: whether it is the best so far. */
-static wt_status consider(struct search *search, law_shape shape, bool *better, wt_error *err)
+static wt_status consider_law(struct search *search, law_shape shape, bool *better, wt_error *err)
 {
     double largest, mean;
     wt_error failure = WT_ERROR_INIT;
-    const wt_status status = likelihoods(search, &shape, &largest, &mean, &failure);
+    const wt_status status = law_likelihoods(search, &shape, &largest, &mean, &failure);
     *better = false;
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
         return status;
     }
-    const double s = status == WT_OK ? score(search->data, &shape, largest, mean) : HUGE_VAL;
+    const double s =
+        status == WT_OK ? law_criterion(search->data, &shape, largest, mean) : HUGE_VAL;
     if (s < search->best) {
         *better = true;
         search->best = s;
@@ -424,7 +427,7 @@ static wt_status consider_joints(struct search *search, law_shape shape, size_t 
         shape.joint = data->temperature[i];
         shape.coldest = fmin(shape.joint, shape.reference);
         if (data->temperature[i] > data->temperature[0])
-            status = consider(search, shape, &better, err);
+            status = consider_law(search, shape, &better, err);
         if (better)
             *best = i;
     }
@@ -438,10 +441,10 @@ static wt_status consider_all(struct search *search, const law_shape *start, wt_
     size_t joint = 0;
     law_shape shape = *start;
     shape.kind = WT_LAW_ARRHENIUS;
-    wt_status status = consider(search, shape, &better, err);
+    wt_status status = consider_law(search, shape, &better, err);
     shape.kind = WT_LAW_WLF;
     if (status == WT_OK && n >= LAW_LEAST_TOLD)
-        status = consider(search, shape, &better, err);
+        status = consider_law(search, shape, &better, err);
     if (status == WT_OK && n >= LEAST_JOINED)
         status = consider_joints(search, shape, 2, n - 3, step, &joint, err);
     if (status == WT_OK && joint > 0 && step > 1)
@@ -506,7 +509,7 @@ static wt_status find_odd(struct search *search, wt_error *err)
         shape.odd = (long)i;
         if (gain[i] < odd_tried * odd_gain)
             continue;
-        status = likelihoods(search, &shape, &largest, &mean, err);
+        status = law_likelihoods(search, &shape, &largest, &mean, err);
         if (status == WT_E_RANGE) {
             status = WT_OK; /* without this isotherm there is no such law */
             continue;
@@ -530,8 +533,8 @@ static void set_slopes(law_data *data, const law_shape *shape, const double *unk
 }
 
 /* Slopes of a WLF law first, then with the law that is chosen. */
-static wt_status choose(struct search *search, const law_shape *start, gsl_matrix *root,
-                        wt_error *err)
+static wt_status choose_law(struct search *search, const law_shape *start, gsl_matrix *root,
+                            wt_error *err)
 {
     law_data *data = search->data;
     wt_status status = WT_OK;
@@ -567,7 +570,7 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
     gsl_quiet();
     for (size_t i = 0; i < data->n; i++)
         data->slope[i] = 0.1;
-    wt_status status = choose(&search, &start, root, err);
+    wt_status status = choose_law(&search, &start, root, err);
     if (status == WT_OK && data->n >= LEAST_ODD)
         status = find_odd(&search, err);
     pool_free(&search.memory);

@@ -98,7 +98,7 @@ static bool ordinates_overlap(const struct pair *pair)
 }
 
 /* Whether enough points lie on the other curve. */
-static bool overlaps(const struct pair *pair, const struct overlap *sum)
+static bool overlap_suffices(const struct pair *pair, const struct overlap *sum)
 {
     bool enough = true;
     for (int q = 0; q < MODULI; q++)
@@ -118,7 +118,7 @@ bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b,
     double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
     for (int g = 1; g < GRID; g++) {
         const struct overlap sum = overlap_at(&pair, lowest + g * step);
-        if (!overlaps(&pair, &sum))
+        if (!overlap_suffices(&pair, &sum))
             continue;
         double vertical;
         const double square = mean_square(&pair, &sum, &vertical);

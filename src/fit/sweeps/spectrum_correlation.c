@@ -58,7 +58,7 @@ struct noise_work {
 };
 
 /* Where on its isotherm a point lies, -1 to 1. */
-static double place(const spectrum *s, size_t curve, size_t k)
+static double place_on_isotherm(const spectrum *s, size_t curve, size_t k)
 {
     const double from = s->x[s->first[curve]], to = s->x[s->first[curve + 1] - 1];
     return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
@@ -78,7 +78,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
         double power = spectrum_weight(s, k, q);
         sum.freedom += power > 0.0;
         v[k * width + n] = s->residual[q][k];
-        for (size_t i = 0; i < n; i++, power *= place(s, curve, k))
+        for (size_t i = 0; i < n; i++, power *= place_on_isotherm(s, curve, k))
             v[k * width + i] = power;
     }
     if (sum.freedom < (double)LEAST_LEFT)
@@ -154,13 +154,13 @@ static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work 
 {
     double sum = 0.0, mean[SHAPES] = {0.0};
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
-        const double u = place(s, curve, k);
+        const double u = place_on_isotherm(s, curve, k);
         sum += w->left[k];
         mean[0] += w->left[k] * u;
         mean[1] += w->left[k] * u * u;
     }
     for (size_t k = s->first[curve]; sum > 0.0 && k < s->first[curve + 1]; k++) {
-        const double u = place(s, curve, k);
+        const double u = place_on_isotherm(s, curve, k);
         const double by[SHAPES] = {u - mean[0] / sum, u * u - mean[1] / sum};
         for (int i = 0; i < SHAPES; i++) {
             w->score[i] += by[i] * (w->rest[k] * w->rest[k] / w->scale[q] - w->left[k]);
@@ -212,7 +212,7 @@ void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
     for (size_t i = 0; i < s->n_curves; i++) {
         s->kappa[i] *= exp(-mean);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-            const double u = place(s, i, k);
+            const double u = place_on_isotherm(s, i, k);
             for (int q = 0; q < MODULI; q++)
                 s->spread[q][k] = s->kappa[i] * exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0));
         }

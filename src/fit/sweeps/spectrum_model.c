@@ -29,7 +29,7 @@ enum { ROWS = 4 };
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
-static wt_status allocate(spectrum *s, wt_error *err)
+static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
     pool *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
@@ -160,7 +160,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->log_tau = -(high + fast_margin) * M_LN10;
     s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
     s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
-    wt_status status = allocate(s, err);
+    wt_status status = allocate_spectrum(s, err);
     if (status != WT_OK) {
         spectrum_free(s);
         return status;
@@ -430,7 +430,7 @@ void spectrum_normal(spectrum *s)
 /* ---- priors ---------------------------------------------------------------------------------- */
 
 /* Weight of a second difference, of terms j to j + 2. */
-static double stiffness(const spectrum *s, size_t j)
+static double bend_stiffness(const spectrum *s, size_t j)
 {
     return s->bend[j] * (j + 1 < s->n_measured ? 1.0 : slow_stiffness);
 }
@@ -480,7 +480,7 @@ double spectrum_roughness(const spectrum *s, const double *value)
     double sum = 0.0;
     for (size_t j = 1; j + 1 < s->n_terms; j++) {
         const double bend = value[j - 1] - 2.0 * value[j] + value[j + 1];
-        sum += stiffness(s, j - 1) * bend * bend;
+        sum += bend_stiffness(s, j - 1) * bend * bend;
     }
     return sum;
 }
@@ -492,7 +492,7 @@ double spectrum_roughness_trace(const spectrum *s)
     for (size_t j = 0; j + 2 < s->n_terms; j++)
         for (size_t i = 0; i < 3; i++)
             for (size_t k = 0; k < 3; k++)
-                sum += stiffness(s, j) * weight[i] * weight[k] *
+                sum += bend_stiffness(s, j) * weight[i] * weight[k] *
                        gsl_matrix_get(s->covariance, j + i, j + k);
     return sum;
 }
@@ -501,7 +501,7 @@ static void add_priors(spectrum *s)
 {
     static const double weight[3] = {1.0, -2.0, 1.0};
     for (size_t j = 0; j + 2 < s->n_terms; j++) {
-        const double rough = stiffness(s, j) / (s->smooth * s->smooth);
+        const double rough = bend_stiffness(s, j) / (s->smooth * s->smooth);
         const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
         for (size_t i = 0; i < 3; i++) {
             *gsl_vector_ptr(s->gradient, j + i) -= rough * weight[i] * bend;

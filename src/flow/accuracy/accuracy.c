@@ -34,8 +34,8 @@ typedef struct timing {
     size_t repeats;
 } timing;
 
-static wt_status measure(const accuracy_method *m, void *problem, double value, double *seconds,
-                         wt_error *err)
+static wt_status time_solution(const accuracy_method *m, void *problem, double value,
+                               double *seconds, wt_error *err)
 {
     size_t n = 0;
     const double start = wt_time_cpu();
@@ -60,7 +60,7 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
     wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     size_t n = 0;
     while (status == WT_OK && n < repeats && sum < MOST_SECONDS) {
-        status = measure(m, problem, value, &seconds[n], err);
+        status = time_solution(m, problem, value, &seconds[n], err);
         sum += seconds[n++];
     }
     if (status == WT_OK) {
@@ -72,8 +72,9 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
     return status;
 }
 
-static void put(const accuracy_part *part, const accuracy_method *m, double value,
-                accuracy_errors errors, double reference_error, const timing *time, table_writer *t)
+static void put_errors(const accuracy_part *part, const accuracy_method *m, double value,
+                       accuracy_errors errors, double reference_error, const timing *time,
+                       table_writer *t)
 {
     table_row(t);
     work_precision_put_text(t, WORK_PRECISION_PART, part->name);
@@ -89,8 +90,8 @@ static void put(const accuracy_part *part, const accuracy_method *m, double valu
     work_precision_put_text(t, WORK_PRECISION_WORDS, part->words);
 }
 
-static wt_status sweep(const accuracy_part *part, void *problem, double reference_error,
-                       size_t repeats, table_writer *t, wt_error *err)
+static wt_status sweep_setting(const accuracy_part *part, void *problem, double reference_error,
+                               size_t repeats, table_writer *t, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const accuracy_method *m = part->methods; m->name != NULL; m++)
@@ -98,7 +99,7 @@ static wt_status sweep(const accuracy_part *part, void *problem, double referenc
             timing time;
             status = time_method(m, problem, m->values[i], repeats, &time, err);
             if (status == WT_OK)
-                put(part, m, m->values[i], part->judge(problem), reference_error, &time, t);
+                put_errors(part, m, m->values[i], part->judge(problem), reference_error, &time, t);
         }
     return status;
 }
@@ -111,7 +112,7 @@ static wt_status run_part(const accuracy_part *part, size_t repeats, table_write
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = part->begin(problem, &reference_error, err);
     if (status == WT_OK)
-        status = sweep(part, problem, reference_error, repeats, t, err);
+        status = sweep_setting(part, problem, reference_error, repeats, t, err);
     part->end(problem);
     free(problem);
     return status;

@@ -64,8 +64,8 @@ typedef struct sensitivity_task {
     size_t n;
 } sensitivity_task;
 
-static wt_status measure(const sensitivity_task *task, const wt_force_curve *curve,
-                         wt_quantity signal, item *it, wt_error *err)
+static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve *curve,
+                              wt_quantity signal, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
     it->of_file = curve->cantilever.sensitivity;
@@ -128,7 +128,7 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
         }
         task->items = items;
         items[task->n] = (item){.file = file, .unit = unit};
-        status = measure(task, &curve, signal, &items[task->n], err);
+        status = measure_ways(task, &curve, signal, &items[task->n], err);
         task->n++;
     }
     wt_force_curve_clear(&curve);
@@ -177,25 +177,25 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has(const item *it, size_t way)
+static bool has_way(const item *it, size_t way)
 {
     return it->there[way] && it->way[way].found;
 }
 
 /* Travel per signal. */
-static double inverse(const item *it, size_t way)
+static double travel_per_signal(const item *it, size_t way)
 {
     return 1 / it->way[way].slope;
 }
 
 static double sensitivity_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) : (double)NAN;
+    return it->volts ? travel_per_signal(it, way) : (double)NAN;
 }
 
 static double factor_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) / it->of_file : inverse(it, way);
+    return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
 }
 
 /* Curves of one file whose slope is far from that of the others, by one way. */
@@ -203,13 +203,14 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way))
-            values[m++] = inverse(&items[i], way);
+        if (has_way(&items[i], way))
+            values[m++] = travel_per_signal(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
     const usual_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
+        if (has_way(&items[i], way) &&
+            fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
             items[i].outlier = true;
 }
 
@@ -305,7 +306,7 @@ typedef struct collected {
     size_t n;
 } collected;
 
-static void keep(collected *c, double value, long unit)
+static void keep_value(collected *c, double value, long unit)
 {
     if (isnan(value))
         return;
@@ -331,7 +332,7 @@ static wt_interval own_change(const item *it, size_t row, double value)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-static void judge(group *g, double most)
+static void judge_group(group *g, double most)
 {
     const wt_interval *c = &g->change;
     if (c->value > most && c->low > 0) {
@@ -366,7 +367,7 @@ static double tilt_of(const item *it, size_t way)
 static double difference_of(const item *it, size_t way)
 {
     (void)way;
-    return inverse(it, 1) / inverse(it, 0);
+    return travel_per_signal(it, 1) / travel_per_signal(it, 0);
 }
 
 static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *c, size_t *n_units,
@@ -375,9 +376,9 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        const bool usable = row < WAYS ? has(it, row) : has(it, 0) && has(it, 1);
+        const bool usable = row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1);
         if (usable && !it->outlier)
-            keep(c, over_ways(it, row, of), it->unit);
+            keep_value(c, over_ways(it, row, of), it->unit);
     }
     return wt_student_mean(c->values, c->units, c->n, n_units);
 }
@@ -386,7 +387,7 @@ static const item *first_of(const sensitivity_task *task, size_t row)
 {
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        if (!it->outlier && (row < WAYS ? has(it, row) : has(it, 0) && has(it, 1)))
+        if (!it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1)))
             return it;
     }
     return NULL;
@@ -417,7 +418,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
         }
         if (row == WAYS)
             g->difference = mean_of(task, row, &c, &ignored, difference_of);
-        judge(g, task->job->most_bend);
+        judge_group(g, task->job->most_bend);
     }
     free(c.values);
     free(c.units);
@@ -493,7 +494,8 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
 {
     size_t left_out = 0;
     for (size_t i = 0; i < task->n; i++)
-        left_out += task->items[i].outlier || !(has(&task->items[i], 0) || has(&task->items[i], 1));
+        left_out +=
+            task->items[i].outlier || !(has_way(&task->items[i], 0) || has_way(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);

@@ -129,7 +129,7 @@ static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
                     s->frequency[first]);
 }
 
-static void judge(const wt_job *work, const flow_file *file, lever *l)
+static void judge_lever(const wt_job *work, const flow_file *file, lever *l)
 {
     const double said = l->spectrum.averages;
     if (!l->fit.found) {
@@ -149,7 +149,7 @@ static void judge(const wt_job *work, const flow_file *file, lever *l)
         add_note(l, "amplitudes are taken for roots of averaged power");
 }
 
-static void compute(const wt_thermal_job *job, lever *l)
+static void compute_constant(const wt_thermal_job *job, lever *l)
 {
     const double square = l->sensitivity * l->sensitivity * l->fit.mean_square.value;
     const double of_temperature = l->temperature.standard_error > 0
@@ -161,8 +161,8 @@ static void compute(const wt_thermal_job *job, lever *l)
     l->common = hypot(of_temperature, 2 * job->sensitivity_error);
 }
 
-static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_file *file, lever *l,
-                         wt_error *err)
+static wt_status measure_file(const wt_thermal_job *job, const wt_job *work, flow_file *file,
+                              lever *l, wt_error *err)
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
@@ -179,9 +179,9 @@ static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_fil
         return status;
     find_temperature(job, work, file, l);
     say_left_out(work, file, l);
-    judge(work, file, l);
+    judge_lever(work, file, l);
     if (l->fit.found)
-        compute(job, l);
+        compute_constant(job, l);
     return WT_OK;
 }
 
@@ -298,7 +298,7 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         lever l = {.note = ""};
-        status = measure(job, work, &files->file[i], &l, &failure);
+        status = measure_file(job, work, &files->file[i], &l, &failure);
         if (status == WT_OK) {
             put_lever(&t, &files->file[i], &l);
             levers[n++] = l;

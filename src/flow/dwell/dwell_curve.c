@@ -46,7 +46,7 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
     return true;
 }
 
-static wt_status reserve(history *h, const wt_force_curve *curve, wt_error *err)
+static wt_status reserve_history(history *h, const wt_force_curve *curve, wt_error *err)
 {
     size_t n = 0, longest = 0;
     for (size_t i = 0; i < curve->n_segments; i++) {
@@ -107,9 +107,9 @@ static double slope_at(const wt_contact_table *contact, double depth, double poi
     return slope / (1 - poisson * poisson);
 }
 
-static wt_status tell(const wt_contact_table *contact, double poisson, double spring_constant,
-                      const wt_indent_fit *fit, const dwell_curve *c, dwell_modulated *m,
-                      wt_error *err)
+static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
+                             double spring_constant, const wt_indent_fit *fit, const dwell_curve *c,
+                             dwell_modulated *m, wt_error *err)
 {
     const wt_dwell *d = &c->dwell;
     const bool placed = d->found;
@@ -150,9 +150,9 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
 }
 
 /* Approach and held segments, without their sines. */
-static wt_status collect(const wt_force_curve *curve, const wt_segment *approach,
-                         const wt_segment *first, double direction, history *h,
-                         wt_dwell_history *of, dwell_curve *to, wt_error *err)
+static wt_status collect_history(const wt_force_curve *curve, const wt_segment *approach,
+                                 const wt_segment *first, double direction, history *h,
+                                 wt_dwell_history *of, dwell_curve *to, wt_error *err)
 {
     const wt_segment *const end = curve->segments + curve->n_segments, *s = first;
     wt_status status = WT_OK;
@@ -184,7 +184,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
     const double k = curve->cantilever.spring_constant;
     history h = {0};
     *to = (dwell_curve){.dwell.why_not = "no time, height or force in it"};
-    wt_status status = reserve(&h, curve, err);
+    wt_status status = reserve_history(&h, curve, err);
     if (status != WT_OK)
         return status;
     double *const room = h.time;
@@ -199,12 +199,12 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                            .baseline_tilt = fit->baseline_tilt};
     status = find_air(curve, approach, fit->direction, &h, to, err);
     if (status == WT_OK)
-        status = collect(curve, approach, first, fit->direction, &h, &of, to, err);
+        status = collect_history(curve, approach, first, fit->direction, &h, &of, to, err);
     if (status == WT_OK && of.n_dwell > 0)
         status = wt_dwell_fit(contact, &of, &to->dwell, err);
     for (size_t i = 0; status == WT_OK && i < to->n; i++) {
         if (to->modulated[i].sine.found)
-            status = tell(contact, poisson, k, fit, to, &to->modulated[i], err);
+            status = tell_moduli(contact, poisson, k, fit, to, &to->modulated[i], err);
         else
             to->modulated[i].note = to->modulated[i].sine.why_not;
     }

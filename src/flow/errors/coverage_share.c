@@ -41,7 +41,7 @@ static const char *verdict_of(double share, double n, double low)
     return low >= least_held ? "holds" : "cannot say";
 }
 
-static coverage_share judge(double share, size_t n)
+static coverage_share verdict_of_share(double share, size_t n)
 {
     coverage_share s = {.trials = (double)NAN};
     set_interval(&s, share, (double)n);
@@ -51,12 +51,12 @@ static coverage_share judge(double share, size_t n)
 
 coverage_share coverage_judge(double share, size_t n)
 {
-    coverage_share s = judge(share, n);
+    coverage_share s = verdict_of_share(share, n);
     if (strcmp(s.verdict, "cannot say") != 0)
         return s;
     /* to a tenth: what the trials will find is not known better */
     for (size_t more = n + 1; more < most_trials; more += more / 10 + 1)
-        if (strcmp(judge(share, more).verdict, "cannot say") != 0) {
+        if (strcmp(verdict_of_share(share, more).verdict, "cannot say") != 0) {
             s.trials = (double)more;
             break;
         }

@@ -23,7 +23,7 @@ typedef struct source {
     void (*hold)(setting *s); /* takes its error away */
 } source;
 
-static bool always(const setting *s)
+static bool applies_always(const setting *s)
 {
     (void)s;
     return true;
@@ -137,12 +137,14 @@ static const char calibration_remedy[] = "one cantilever for both groups, or spr
                                          "better";
 
 static const source sources[] = {
-    {"material", "a second DMA run; temperatures known better", always, stated_rubber, hold_rubber},
-    {"pressure", "the load and the nominal area known better", always, stated_pressure,
+    {"material", "a second DMA run; temperatures known better", applies_always, stated_rubber,
+     hold_rubber},
+    {"pressure", "the load and the nominal area known better", applies_always, stated_pressure,
      hold_pressure},
-    {"temperature", "the temperature in sliding measured", always, stated_temperature,
+    {"temperature", "the temperature in sliding measured", applies_always, stated_temperature,
      hold_temperature},
-    {"roughness", "more scans of the counter surface", always, stated_roughness, hold_roughness},
+    {"roughness", "more scans of the counter surface", applies_always, stated_roughness,
+     hold_roughness},
     {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
      stated_softness, hold_softness},
     {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
@@ -173,8 +175,8 @@ typedef struct budget {
     char lacks[256];
 } budget;
 
-static wt_status compute(const budget *b, const setting *as, size_t replicates, outcome *o,
-                         wt_error *err)
+static wt_status compute_outcome(const budget *b, const setting *as, size_t replicates, outcome *o,
+                                 wt_error *err)
 {
     setting s = *as;
     wt_job work = b->work;
@@ -190,9 +192,9 @@ static wt_status compute(const budget *b, const setting *as, size_t replicates, 
 
 static wt_status compute_all(budget *b, wt_error *err)
 {
-    wt_status status = compute(b, &b->setting, 0, &b->values, err);
+    wt_status status = compute_outcome(b, &b->setting, 0, &b->values, err);
     if (status == WT_OK)
-        status = compute(b, &b->setting, b->work.replicates, &b->all, err);
+        status = compute_outcome(b, &b->setting, b->work.replicates, &b->all, err);
     for (size_t i = 0; i < SOURCES && status == WT_OK; i++) {
         setting alone = b->setting;
         if (!sources[i].applies(&b->setting))
@@ -206,7 +208,7 @@ static wt_status compute_all(budget *b, wt_error *err)
         for (size_t k = 0; k < SOURCES; k++)
             if (k != i)
                 sources[k].hold(&alone);
-        status = compute(b, &alone, b->work.replicates, &b->of[i], err);
+        status = compute_outcome(b, &alone, b->work.replicates, &b->of[i], err);
     }
     return status;
 }
@@ -267,7 +269,7 @@ static void put_row(const char *number, double value, row r, table_writer *t)
     error_budget_put_text(t, ERROR_BUDGET_REMEDY, r.remedy);
 }
 
-static void put(const budget *b, setting_number k, row r, table_writer *t)
+static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)
 {
     put_row(numbers[k].words, b->values.number[k].value, r, t);
 }
@@ -292,7 +294,8 @@ static void put_measured(const budget *b, setting_number k, verdict *v, table_wr
         if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
-        put(b, k,
+        put_number_row(
+            b, k,
             (row){sources[i].words, "measured", sources[i].remedy, error, share, b->of[i].seconds},
             t);
         if (v->largest == NULL || share > v->share) {
@@ -310,16 +313,16 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
         r = range_of(what_if, r, numbers[k].column, &range);
         if (!(range.half > 0))
             continue;
-        put(b, k,
-            (row){range.words, "model", "a measurement that settles the choice", range.half,
-                  (double)NAN, cost_part(b->work.cost, range.words)},
-            t);
+        put_number_row(b, k,
+                       (row){range.words, "model", "a measurement that settles the choice",
+                             range.half, (double)NAN, cost_part(b->work.cost, range.words)},
+                       t);
         if (range.half > v->widest.half)
             v->widest = range;
     }
 }
 
-static void advise(const budget *b, setting_number k, const verdict *v, table_writer *t)
+static void put_advice(const budget *b, setting_number k, const verdict *v, table_writer *t)
 {
     char text[640];
     const double value = fabs(b->values.number[k].value);
@@ -357,19 +360,20 @@ static void put_number(const budget *b, setting_number k, const table_view *what
     const double n = (double)b->work.replicates;
     put_measured(b, k, &v, t);
     if (isfinite(v.together)) {
-        put(b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
+        put_number_row(
+            b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
             t);
-        put(b, k,
-            (row){"number of replicates", "draws", "four times the replicates halve it",
-                  v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
-            t);
+        put_number_row(b, k,
+                       (row){"number of replicates", "draws", "four times the replicates halve it",
+                             v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
+                       t);
     }
-    put(b, k,
-        (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
-              b->values.seconds},
-        t);
+    put_number_row(b, k,
+                   (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
+                         b->values.seconds},
+                   t);
     put_model(b, k, what_if, &v, t);
-    advise(b, k, &v, t);
+    put_advice(b, k, &v, t);
 }
 
 /* The ratio itself: nothing has to be drawn, for what its spots and the calibration do to it is

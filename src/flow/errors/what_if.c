@@ -29,12 +29,12 @@ typedef struct choice {
     bool (*move)(const setting *used, size_t i, setting *s); /* false: no more of them */
 } choice;
 
-static double limited(double value, double low, double high)
+static double limit_value(double value, double low, double high)
 {
     return fmax(fmin(value, high), low);
 }
 
-static bool always(const setting *s)
+static bool applies_always(const setting *s)
 {
     (void)s;
     return true;
@@ -74,7 +74,7 @@ static bool move_q1(const setting *used, size_t i, setting *s)
                  highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
     if (i >= COUNT_OF(factor))
         return false;
-    s->surface.q1 = limited(factor[i] * q1, lowest, highest);
+    s->surface.q1 = limit_value(factor[i] * q1, lowest, highest);
     return true;
 }
 
@@ -96,7 +96,7 @@ static bool move_q0(const setting *used, size_t i, setting *s)
                  highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
     if (i >= COUNT_OF(factor))
         return false;
-    s->surface.q0 = limited(factor[i] * q0, fmin(first_known(used), q0), highest);
+    s->surface.q0 = limit_value(factor[i] * q0, fmin(first_known(used), q0), highest);
     return true;
 }
 
@@ -130,7 +130,7 @@ static bool move_strain(const setting *used, size_t i, setting *s)
     static const double factor[] = {0.5, 2};
     if (i >= COUNT_OF(factor))
         return false;
-    s->sliding.strain_factor = limited(factor[i] * used->sliding.strain_factor, 0.01, 100);
+    s->sliding.strain_factor = limit_value(factor[i] * used->sliding.strain_factor, 0.01, 100);
     return true;
 }
 
@@ -233,14 +233,14 @@ static const choice choices[] = {
     {"largest wavenumber q1", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
-     "", always, value_q1, NULL, move_q1},
+     "", applies_always, value_q1, NULL, move_q1},
     {"smallest wavenumber q0", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
      "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0},
     {"factor gamma of partial contact", "1",
-     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "", always,
-     value_gamma, NULL, move_gamma},
+     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
+     applies_always, value_gamma, NULL, move_gamma},
     {"strain over slope", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
@@ -272,7 +272,7 @@ static void short_number(double value, char text[WORDS])
     memmove(to, from, strlen(from) + 1);
 }
 
-static void say(const choice *c, const setting *s, char text[WORDS])
+static void name_choice(const choice *c, const setting *s, char text[WORDS])
 {
     if (c->unit == NULL) {
         c->name(s, text);
@@ -303,7 +303,7 @@ typedef struct what_if {
     size_t n;
 } what_if;
 
-static wt_status compute(outcome *o, const wt_job *work, wt_error *err)
+static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
 {
     wt_estimate number[SETTING_NUMBERS];
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
@@ -331,7 +331,7 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
         o->setting.rubber = refitted;
     }
     if (status == WT_OK)
-        status = compute(o, &w->work, &why);
+        status = compute_outcome(o, &w->work, &why);
     wt_rubber_clear(&refitted);
     o->seconds = cost_clock(w->work.cost) - start;
     if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
@@ -354,10 +354,10 @@ static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
 static void add_choice(what_if *w, const choice *c, const setting *used)
 {
     char as_used[WORDS], tried[WORDS];
-    say(c, used, as_used);
+    name_choice(c, used, as_used);
     setting moved = *used;
     for (size_t i = 0; i < MOST_TRIED && c->move(used, i, &moved); i++) {
-        say(c, &moved, tried);
+        name_choice(c, &moved, tried);
         if (strcmp(tried, as_used) != 0) {
             outcome *o = add_outcome(w, c, &moved);
             memcpy(o->used, as_used, WORDS);
@@ -404,7 +404,7 @@ typedef struct range {
     const outcome *first, *last; /* of the value of the choice */
 } range;
 
-static double spread(range r, size_t k)
+static double range_width(range r, size_t k)
 {
     return r.high->number[k] - r.low->number[k];
 }
@@ -448,7 +448,7 @@ static void set_range(const what_if *w, size_t k, table_writer *t)
         return;
     for (size_t i = 0; i < COUNT_OF(choices); i++) {
         const range r = range_of(w, &choices[i], k);
-        if (spread(r, k) > (most != NULL ? spread(widest, k) : 0)) {
+        if (range_width(r, k) > (most != NULL ? range_width(widest, k) : 0)) {
             most = &choices[i];
             widest = r;
         }
@@ -460,8 +460,8 @@ static void set_range(const what_if *w, size_t k, table_writer *t)
     number_words(widest.high->number[k], numbers[k].unit, high);
     if (strcmp(low, high) == 0)
         return; /* such as a thickness that was observed */
-    say(most, is_number ? &widest.first->setting : &widest.low->setting, first);
-    say(most, is_number ? &widest.last->setting : &widest.high->setting, last);
+    name_choice(most, is_number ? &widest.first->setting : &widest.low->setting, first);
+    name_choice(most, is_number ? &widest.last->setting : &widest.high->setting, last);
     if (is_number)
         first[strcspn(first, " ")] = '\0'; /* the unit stands behind the other one */
     what_if_set_print(t, numbers[k].key,
@@ -538,7 +538,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
     w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
-    status = compute(&w.outcomes[0], &w.work, err);
+    status = compute_outcome(&w.outcomes[0], &w.work, err);
     w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
         status =

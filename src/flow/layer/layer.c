@@ -182,7 +182,7 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     return status;
 }
 
-static wt_status follow(const layer_task *task, layer_run *run, wt_error *err)
+static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_error *err)
 {
     run->points = malloc((task->n + 1) * sizeof *run->points);
     if (run->points == NULL)
@@ -202,7 +202,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     layer_run run = {.points = NULL};
     wt_status status = find_balance(task, i, &run, err);
     if (status == WT_OK)
-        status = follow(task, &run, err);
+        status = follow_thickness(task, &run, err);
     if (status == WT_OK) {
         wt_estimate number[N_NUMBERS];
         put_numbers(&run, number);
@@ -374,7 +374,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     if (status == WT_OK)
         status = choose_times(&task, &centre.balance, err);
     if (status == WT_OK)
-        status = follow(&task, &centre, err);
+        status = follow_thickness(&task, &centre, err);
     if (status == WT_OK)
         status = draw_replicates(&task, err);
     if (status == WT_OK)

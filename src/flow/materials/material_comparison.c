@@ -53,12 +53,12 @@ typedef struct range {
     double low, high;
 } range;
 
-static range common(range a, range b)
+static range common_range(range a, range b)
 {
     return (range){fmax(a.low, b.low), fmin(a.high, b.high)};
 }
 
-static bool holds(range r, double x)
+static bool range_holds(range r, double x)
 {
     return x >= r.low && x <= r.high;
 }
@@ -122,15 +122,15 @@ static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_er
             wt_error_advice(err, "--temperature says it");
             return WT_E_MISSING;
         }
-        s->temperature = common(s->temperature, temperatures_of(m->rubber));
+        s->temperature = common_range(s->temperature, temperatures_of(m->rubber));
     }
     const range r = s->temperature;
     if (!(r.low <= r.high))
         return no_common_temperature(job, err);
-    s->at_temperature = !isnan(job->temperature) ? job->temperature
-                        : holds(r, reference)    ? reference
-                                                 : (r.low + r.high) / 2;
-    if (holds(r, s->at_temperature))
+    s->at_temperature = !isnan(job->temperature)    ? job->temperature
+                        : range_holds(r, reference) ? reference
+                                                    : (r.low + r.high) / 2;
+    if (range_holds(r, s->at_temperature))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "not all materials were measured at the at-temperature");
     wt_error_expected(err, "%.1f to %.1f °C", r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
@@ -197,7 +197,7 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
             if (status != WT_OK)
                 return status;
         }
-        if (holds(common(own[0], own[1]), frequency))
+        if (range_holds(common_range(own[0], own[1]), frequency))
             place[(*n)++] = (material_place){t, frequency};
     }
     return WT_OK;
@@ -348,12 +348,13 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
         status = frequencies_of(pair[k].rubber, s->at_temperature, &own[k], err);
     if (status != WT_OK)
         return status;
-    const range shared = common(own[0], own[1]);
+    const range shared = common_range(own[0], own[1]);
     if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
         return no_common_frequency(pair, own, s->at_temperature, err);
     const size_t n = over_frequency(shared, s->at_temperature, place);
     if (isnan(s->at_frequency))
-        s->at_frequency = holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+        s->at_frequency =
+            range_holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
     status = over_temperature(pair, s, s->at_frequency, place + n, &n_temperatures, err);
     if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
         status = no_such_frequency(pair, own, s, err);

@@ -40,7 +40,7 @@ static wt_transverse factors_of(const wt_transverse *given, size_t k)
     return t;
 }
 
-static wt_status compute(directions *d, size_t k, wt_error *err)
+static wt_status compute_with_factors(directions *d, size_t k, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_rubber rubber = *d->sliding->rubber;
@@ -67,7 +67,7 @@ static wt_status compute_all(directions *d, wt_error *err)
 {
     for (size_t k = N_KEPT; k-- > 0;) {
         wt_error why = WT_ERROR_INIT;
-        const wt_status status = compute(d, k, &why);
+        const wt_status status = compute_with_factors(d, k, &why);
         d->known[k] = status == WT_OK;
         if (status == WT_OK)
             continue;

@@ -24,7 +24,7 @@ struct wt_drawn {
     double lowest, highest; /* angular frequencies */
 };
 
-static void drop(wt_drawn *d)
+static void drop_materials(wt_drawn *d)
 {
     for (size_t i = 0; i < d->n; i++) {
         angular_clear(d->items[i].of.series);
@@ -43,7 +43,7 @@ wt_drawn *drawn_new(void)
 void drawn_free(wt_drawn *drawn)
 {
     if (drawn != NULL)
-        drop(drawn);
+        drop_materials(drawn);
     free(drawn);
 }
 
@@ -60,13 +60,14 @@ static bool is_of(const wt_drawn *d, const wt_sliding *s, const wt_job *work)
            (d->one || d->n == MOST_KEPT || d->n >= work->replicates);
 }
 
-static wt_status start(wt_drawn *d, const wt_sliding *sliding, const wt_job *work, wt_error *err)
+static wt_status start_materials(wt_drawn *d, const wt_sliding *sliding, const wt_job *work,
+                                 wt_error *err)
 {
     const wt_rubber *rubber = sliding->rubber;
     const bool one = rubber->n_draws == 0 && !(rubber->c1_error > 0) && !(rubber->c2_error > 0) &&
                      !(sliding->temperature.standard_error > 0);
     const size_t n = work->replicates < MOST_KEPT ? work->replicates : MOST_KEPT;
-    drop(d);
+    drop_materials(d);
     *d = (wt_drawn){.rubber = rubber,
                     .temperature = sliding->temperature,
                     .seed = work->seed,
@@ -82,7 +83,7 @@ wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work
                       double fastest, wt_error *err)
 {
     wt_roughness *road = NULL;
-    wt_status status = is_of(d, sliding, work) ? WT_OK : start(d, sliding, work, err);
+    wt_status status = is_of(d, sliding, work) ? WT_OK : start_materials(d, sliding, work, err);
     if (status == WT_OK)
         status = wt_surface_roughness(sliding->surface, 1, &road, err);
     if (status != WT_OK)
@@ -95,7 +96,7 @@ wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work
     return d->one ? drawn_get(d, 0, &all, err) : WT_OK;
 }
 
-static wt_status make(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
+static wt_status make_material(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
 {
     drawn_material *of = &item->of;
     wt_status status = wt_rubber_at(
@@ -117,7 +118,7 @@ wt_status drawn_get(wt_drawn *d, size_t replicate, drawn_material *material, wt_
     if (!d->one && replicate >= d->n)
         return WT_OK;
     drawn_item *item = &d->items[d->one ? 0 : replicate];
-    wt_status status = item->of.material == NULL ? make(d, replicate, item, err) : WT_OK;
+    wt_status status = item->of.material == NULL ? make_material(d, replicate, item, err) : WT_OK;
     if (status == WT_OK)
         status = angular_cover(item->of.series, d->lowest, d->highest, err);
     if (status == WT_OK)

@@ -31,7 +31,7 @@ typedef struct friction_task {
     replicates replicates;
 } friction_task;
 
-static double *slot(double *values, size_t n, int kind)
+static double *numbers_of_kind(double *values, size_t n, int kind)
 {
     return values + (size_t)kind * n;
 }
@@ -58,8 +58,9 @@ static double shear_factor(const friction_task *task, wt_layer_state layer)
     return task->layer->bulk_shear ? 1 : layer.modulus_ratio;
 }
 
-static wt_status compute(const friction_task *task, size_t replicate, wt_friction_point *points,
-                         double *out, sliding_contact *c, wt_error *err)
+static wt_status compute_bulk(const friction_task *task, size_t replicate,
+                              wt_friction_point *points, double *out, sliding_contact *c,
+                              wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
@@ -68,13 +69,13 @@ static wt_status compute(const friction_task *task, size_t replicate, wt_frictio
         status =
             wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        slot(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
-        slot(out, task->n, AREA)[i] = points[i].area_ratio.value;
-        slot(out, task->n, TOTAL)[i] =
+        numbers_of_kind(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        numbers_of_kind(out, task->n, TOTAL)[i] =
             points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
-        slot(out, task->n, LAYERED)[i] = (double)NAN;
-        slot(out, task->n, CHANGE)[i] = (double)NAN;
-        slot(out, task->n, RELATIVE)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
     }
     return status;
 }
@@ -91,10 +92,10 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         double with = points[i].hysteresis.value + shear_factor(task, layer) * c.shear_stress *
                                                        points[i].area_ratio.value / c.pressure;
-        double without = slot(out, task->n, TOTAL)[i];
-        slot(out, task->n, LAYERED)[i] = with;
-        slot(out, task->n, CHANGE)[i] = with - without;
-        slot(out, task->n, RELATIVE)[i] = with / without - 1;
+        double without = numbers_of_kind(out, task->n, TOTAL)[i];
+        numbers_of_kind(out, task->n, LAYERED)[i] = with;
+        numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
     }
     sliding_contact_clear(&c);
     return status;
@@ -107,7 +108,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     wt_friction_point *points = malloc(task->n * sizeof *points);
     if (points == NULL)
         return WT_E_MEMORY;
-    wt_status status = compute(task, i, points, out, &c, err);
+    wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
         status = compute_layered(task, i, points, out, err);
     sliding_contact_clear(&c);
@@ -138,20 +139,20 @@ static void add_rows(friction_task *task, table_writer *t)
         friction_put(t, FRICTION_VELOCITY, p->velocity);
         friction_put(t, FRICTION_TOTAL, total.value);
         friction_put(t, FRICTION_TOTAL_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, TOTAL)[i]);
+                     numbers_of_kind(task->replicates.error, task->n, TOTAL)[i]);
         friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
         friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
         friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, HYSTERESIS)[i]);
+                     numbers_of_kind(task->replicates.error, task->n, HYSTERESIS)[i]);
         friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
         friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
         friction_put(t, FRICTION_AREA_RATIO, area.value);
         friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, AREA)[i]);
+                     numbers_of_kind(task->replicates.error, task->n, AREA)[i]);
         friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
-        friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER, numbers_of_kind(task->centre, task->n, LAYERED)[i]);
         friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, LAYERED)[i]);
+                     numbers_of_kind(task->replicates.error, task->n, LAYERED)[i]);
         friction_put(t, FRICTION_EXTRAPOLATED_SHARE, extrapolated_share(s->rubber, p));
     }
 }
@@ -161,14 +162,15 @@ static void set_at_reference(friction_task *task, table_writer *t, friction_key 
                              double numerical_error)
 {
     const size_t last = task->n - 1;
-    friction_set_value(t, key, slot(task->centre, task->n, kind)[last],
-                       slot(task->replicates.error, task->n, kind)[last], numerical_error);
+    friction_set_value(t, key, numbers_of_kind(task->centre, task->n, kind)[last],
+                       numbers_of_kind(task->replicates.error, task->n, kind)[last],
+                       numerical_error);
 }
 
 static void set_layer_keys(friction_task *task, table_writer *t)
 {
     const size_t last = task->n - 1;
-    const double *relative = slot(task->centre, task->n, RELATIVE);
+    const double *relative = numbers_of_kind(task->centre, task->n, RELATIVE);
     double low = relative[0], high = relative[0], both = task->numerical[0] + task->numerical[1];
     for (size_t i = 1; i < last; i++) {
         low = fmin(low, relative[i]);
@@ -179,7 +181,7 @@ static void set_layer_keys(friction_task *task, table_writer *t)
     set_at_reference(task, t, FRICTION_KEY_WITH_LAYER, LAYERED, task->numerical[1]);
     set_at_reference(task, t, FRICTION_KEY_CHANGE, CHANGE, both);
     set_at_reference(task, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
-                     both / slot(task->centre, task->n, TOTAL)[last]);
+                     both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
     friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, (double)NAN);
     friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, (double)NAN);
 }
@@ -241,7 +243,7 @@ static bool is_reference_alone(const wt_sliding *sliding)
     return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
 }
 
-static wt_status allocate(friction_task *task, wt_error *err)
+static wt_status allocate_numbers(friction_task *task, wt_error *err)
 {
     task->velocity = malloc(task->n * sizeof *task->velocity);
     task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
@@ -254,7 +256,7 @@ static wt_status allocate(friction_task *task, wt_error *err)
     return WT_OK;
 }
 
-static void release(friction_task *task)
+static void release_numbers(friction_task *task)
 {
     free(task->velocity);
     free(task->centre);
@@ -303,7 +305,7 @@ static double relative_error(wt_estimate e)
     return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
 }
 
-static void summarise(const friction_task *task, wt_friction_tables *t)
+static void summarise_friction(const friction_task *task, wt_friction_tables *t)
 {
     const bool total = !isnan(task->sliding->shear_stress.value);
     const int kind = total ? TOTAL : HYSTERESIS;
@@ -311,8 +313,9 @@ static void summarise(const friction_task *task, wt_friction_tables *t)
     cost_summary cost = {
         .items = (double)(task->n * contacts),
         .tolerance_asked = task->work->tolerance,
-        .number = {.value = slot(task->centre, task->n, kind)[task->n - 1],
-                   .standard_error = slot(task->replicates.error, task->n, kind)[task->n - 1]}};
+        .number = {.value = numbers_of_kind(task->centre, task->n, kind)[task->n - 1],
+                   .standard_error =
+                       numbers_of_kind(task->replicates.error, task->n, kind)[task->n - 1]}};
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &task->points[i];
         cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
@@ -339,7 +342,7 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
 {
     const double shear = task->sliding->shear_stress.value / task->sliding->pressure.value;
     const size_t last = task->n - 1;
-    wt_status status = compute(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
     if (status != WT_OK)
         return status;
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
@@ -374,8 +377,9 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     }
     wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
-        slot(r->error, task->n, HYSTERESIS)[i] = slot(r->error, task->n, AREA)[i] =
-            slot(r->error, task->n, TOTAL)[i] = (double)NAN;
+        numbers_of_kind(r->error, task->n, HYSTERESIS)[i] =
+            numbers_of_kind(r->error, task->n, AREA)[i] =
+                numbers_of_kind(r->error, task->n, TOTAL)[i] = (double)NAN;
     return status;
 }
 
@@ -396,7 +400,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                           .replicates = replicates_of(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
-    status = allocate(&task, err);
+    status = allocate_numbers(&task, err);
     if (status == WT_OK)
         status = compute_centre(&task, &c, err);
     if (status == WT_OK)
@@ -404,13 +408,13 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     if (status == WT_OK)
         status = friction_table(&task, c.statement, &t.friction, err);
     if (status == WT_OK) {
-        summarise(&task, &t);
+        summarise_friction(&task, &t);
         *tables = t;
         t = (wt_friction_tables){0};
     }
     sliding_contact_clear(&c);
     wt_friction_tables_clear(&t);
-    release(&task);
+    release_numbers(&task);
     return status;
 }
 

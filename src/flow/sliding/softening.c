@@ -56,7 +56,7 @@ static wt_status find_shares(effect *e, const sliding_contact *c, wt_error *err)
     return status;
 }
 
-static wt_status compute(effect *e, bool softened, wt_error *err)
+static wt_status compute_contact(effect *e, bool softened, wt_error *err)
 {
     sliding_contact c = {0};
     wt_status status = open_contact(e, softened, &c, err);
@@ -161,10 +161,10 @@ wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_ta
         e.velocity[i] = sliding->velocity[i];
     if (status == WT_OK) {
         e.velocity[e.n - 1] = flow_reference_velocity(sliding);
-        status = compute(&e, true, err);
+        status = compute_contact(&e, true, err);
     }
     if (status == WT_OK)
-        status = compute(&e, false, err);
+        status = compute_contact(&e, false, err);
     if (status == WT_OK)
         status = make_table(&e, table, err);
     if (status == WT_OK)

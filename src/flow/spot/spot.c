@@ -108,7 +108,7 @@ static double limit_of(const wt_spot_job *job, const spot *s)
 }
 
 /* "cannot say" goes on with what would tell. */
-static void judge(const wt_spot_job *job, const spot_field *f, bool covered, spot *s)
+static void judge_roughness(const wt_spot_job *job, const spot_field *f, bool covered, spot *s)
 {
     const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;
     char pixel[32], contact[32], need[32], within[32];
@@ -179,7 +179,7 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image, c
         status = find_median(f, s, err);
     else
         s->plane.rms = (double)NAN;
-    judge(job, f, covered, s);
+    judge_roughness(job, f, covered, s);
     return status;
 }
 

@@ -18,7 +18,7 @@ enum { LEAST_PLACES = 8, MOST_RATIO = 4, STEPS = 4, SEARCHED = 2 };
 static const double more_of_many = 4.43 / 1.96;
 
 /* What a place has, less what untouched ones have in the mean, whose scatter is its error. */
-static spot_number against(double value, const double *others, size_t n)
+static spot_number less_untouched(double value, const double *others, size_t n)
 {
     const moments m = moments_of(others, n);
     const double error = sqrt(m.variance * (1 + 1 / (double)n)),
@@ -86,8 +86,8 @@ static wt_status measure_dent(const spot_field *difference, const spot *s, impri
         status = measure_others(difference, s, &p, depth, volume, &to->places, err);
     if (status == WT_OK && !isnan(here.depth) && !isnan(here.volume) &&
         to->places >= LEAST_PLACES) {
-        to->depth = against(here.depth, depth, to->places);
-        to->volume = against(here.volume, volume, to->places);
+        to->depth = less_untouched(here.depth, depth, to->places);
+        to->volume = less_untouched(here.volume, volume, to->places);
         status = find_deepest(difference, s, to, err);
         to->deepest -= here.depth - to->depth.value;
     }

@@ -15,7 +15,7 @@ typedef struct shown {
     size_t first, last, step;
 } shown;
 
-static shown show(double place, double reach, double pixel, size_t n)
+static shown shown_pixels(double place, double reach, double pixel, size_t n)
 {
     const double low = fmax(0, ceil((place - reach) / pixel)),
                  high = fmin((double)(n - 1), floor((place + reach) / pixel));
@@ -35,8 +35,8 @@ wt_status spot_map_make(const spot_field *before, const spot *s, const double *d
                         wt_table **table, wt_error *err)
 {
     const double reach = AROUND * s->contact, nan = (double)NAN;
-    const shown x = show(s->x, reach, before->dx, before->nx),
-                y = show(s->y, reach, before->dy, before->ny);
+    const shown x = shown_pixels(s->x, reach, before->dx, before->nx),
+                y = shown_pixels(s->y, reach, before->dy, before->ny);
     spot_field changed = *before;
     spot_plane planes[2] = {spot_plane_fit(before, s->x, s->y, reach), {nan, nan, nan, nan, 0, 0}};
     if (difference != NULL) {

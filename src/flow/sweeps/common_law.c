@@ -74,7 +74,7 @@ static void put_sample(const wt_common_law_job *job, const wt_common_law *law, s
 /* ---- words ----------------------------------------------------------------------------------- */
 
 /* The end of an interval of a difference that is furthest from 0; NaN: none is known. */
-static double furthest(const wt_common_law *law, size_t *sample)
+static double furthest_difference(const wt_common_law *law, size_t *sample)
 {
     double most = (double)NAN;
     for (size_t i = 0; i < law->n; i++) {
@@ -91,7 +91,7 @@ static double furthest(const wt_common_law *law, size_t *sample)
 static void set_verdict(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
 {
     size_t sample = 0;
-    const double most = furthest(law, &sample);
+    const double most = furthest_difference(law, &sample);
     const char *const kind = job->common == WT_COMMON_MOVED ? ", moved along the temperature" : "";
     common_law_set_print(t, COMMON_LAW_KEY_MARGIN, "%g", job->margin);
     if (!isnan(most)) {
@@ -152,8 +152,8 @@ static list make_list(const wt_common_law_job *job)
     return made;
 }
 
-static void add(list *to, const char *format, ...) WT_PRINTF(2, 3);
-static void add(list *to, const char *format, ...)
+static void add_words(list *to, const char *format, ...) WT_PRINTF(2, 3);
+static void add_words(list *to, const char *format, ...)
 {
     if (to->text == NULL)
         return;
@@ -172,18 +172,19 @@ static void set_each(const wt_common_law_job *job, const wt_common_law *law, tab
     for (size_t i = 0; i < law->n_members; i++) {
         const wt_common_member *m = &law->members[i];
         if (!m->used) {
-            add(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i], m->why_not);
+            add_words(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
+                      m->why_not);
             continue;
         }
         const double reference = law->reference + m->moved.value;
-        add(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
-            reference - WT_ZERO_CELSIUS);
+        add_words(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
+                  reference - WT_ZERO_CELSIUS);
         if (m->moved.standard_error > 0)
-            add(&moved, " ± %.2g K", m->moved.standard_error);
+            add_words(&moved, " ± %.2g K", m->moved.standard_error);
         law_words(law, reference, one, sizeof one);
         if (each || given.used == 0)
-            add(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
-                each ? " " : "", one);
+            add_words(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
+                      each ? " " : "", one);
     }
     if (moved.text == NULL || given.text == NULL || without.text == NULL) {
         t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");

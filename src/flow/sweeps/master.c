@@ -246,7 +246,7 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
 enum { DRAWS = 200, DRAWS_SEED = 1 };
 
 /* To seven digits, far below the scatter of the draws: short where it is written. */
-static double rounded(double x)
+static double to_seven_digits(double x)
 {
     if (!(fabs(x) > 0) || !isfinite(x))
         return x;
@@ -268,15 +268,15 @@ static void put_material(table_writer *t, const wt_master *m, size_t draw, const
         material_draws_put(t, MATERIAL_DRAWS_DRAW, (double)draw + 1);
         if (first) {
             material_draws_put(t, MATERIAL_DRAWS_EQUILIBRIUM_MODULUS,
-                               rounded(prony->equilibrium_modulus));
-            material_draws_put(t, MATERIAL_DRAWS_WLF_C1, rounded(law->wlf.c1));
-            material_draws_put(t, MATERIAL_DRAWS_WLF_C2, rounded(law->wlf.c2));
+                               to_seven_digits(prony->equilibrium_modulus));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C1, to_seven_digits(law->wlf.c1));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C2, to_seven_digits(law->wlf.c2));
             material_draws_put(t, MATERIAL_DRAWS_ACTIVATION_ENERGY,
-                               rounded(law->activation_energy));
+                               to_seven_digits(law->activation_energy));
         }
         if (vertical) {
             material_draws_put(t, MATERIAL_DRAWS_TEMPERATURE, m->shifts[i].temperature);
-            material_draws_put(t, MATERIAL_DRAWS_LOG_B, rounded(log_b[i]));
+            material_draws_put(t, MATERIAL_DRAWS_LOG_B, to_seven_digits(log_b[i]));
         }
         first = false;
     }
@@ -288,8 +288,9 @@ static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
     for (size_t k = 0; k < prony->n; k++) {
         table_row(t);
         series_draws_put(t, SERIES_DRAWS_DRAW, (double)draw + 1);
-        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME, rounded(prony->relaxation_time[k]));
-        series_draws_put(t, SERIES_DRAWS_MODULUS, rounded(prony->modulus[k]));
+        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME,
+                         to_seven_digits(prony->relaxation_time[k]));
+        series_draws_put(t, SERIES_DRAWS_MODULUS, to_seven_digits(prony->modulus[k]));
     }
 }
 
@@ -338,8 +339,8 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
 }
 
 /* What is left of the sweeps, with the shifts that are given. */
-static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
-                         wt_sweep *sweep, wt_error *err)
+static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
+                               wt_sweep *sweep, wt_error *err)
 {
     wt_status status = flow_sweep_cut(job->leave_out, job->n_leave_out, sweep, work->log, err);
     if (status == WT_OK)
@@ -356,11 +357,11 @@ static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_
 }
 
 /* Temperature sweeps become isotherms of `sweep`. */
-static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
-                     wt_master *master, wt_error *err)
+static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
+                            wt_master *master, wt_error *err)
 {
     wt_shift_law law;
-    wt_status status = prepare(job, work, &law, sweep, err);
+    wt_status status = prepare_sweep(job, work, &law, sweep, err);
     if (status != WT_OK)
         return status;
     status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &job->fit, &law, work->log, master, err)
@@ -524,7 +525,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
-        status = fit(job, work, &sweep, &master, err);
+        status = fit_sweeps(job, work, &sweep, &master, err);
     if (status == WT_OK)
         status = make_tables(&master, work, &t, err);
     if (status == WT_OK)

@@ -32,7 +32,7 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
 }
 
 /* Half of the 95 % interval of a modulus, relative, where it is widest. */
-static double widest(const wt_interval *fitted, size_t n)
+static double widest_interval(const wt_interval *fitted, size_t n)
 {
     double most = 0;
     for (size_t i = 0; i < n; i++)
@@ -90,8 +90,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
                   {PRONY_REDUCED_KEY_FREQUENCY_MAX, p->frequency_max}},
       plain[] = {{PRONY_REDUCED_KEY_DEVIATION_STORAGE, deviation[0]},
                  {PRONY_REDUCED_KEY_DEVIATION_LOSS, deviation[1]},
-                 {PRONY_REDUCED_KEY_INTERVAL_STORAGE, widest(m->fitted_storage, m->n)},
-                 {PRONY_REDUCED_KEY_INTERVAL_LOSS, widest(m->fitted_loss, m->n)}};
+                 {PRONY_REDUCED_KEY_INTERVAL_STORAGE, widest_interval(m->fitted_storage, m->n)},
+                 {PRONY_REDUCED_KEY_INTERVAL_LOSS, widest_interval(m->fitted_loss, m->n)}};
     for (size_t i = 0; i < COUNT_OF(values); i++)
         prony_reduced_set_value(&t, values[i].key, values[i].value, (double)NAN, 0);
     for (size_t i = 0; i < COUNT_OF(plain); i++)

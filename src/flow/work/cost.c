@@ -186,7 +186,7 @@ cost_of_stages cost_stages(const wt_cost *cost, const char *beginning)
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-static double known(bool is, double value)
+static double known_or_nan(bool is, double value)
 {
     return is ? value : (double)NAN;
 }
@@ -199,13 +199,13 @@ static void put_row(table_writer *t, bool timed, const cost_row *row)
     cost_put_text(t, COST_STAGE, row->stage);
     cost_put(t, COST_RUNS, row->runs);
     cost_put_text(t, COST_BECAUSE, row->because);
-    cost_put(t, COST_WALL_TIME, known(timed, row->wall));
-    cost_put(t, COST_CPU_TIME, known(timed, row->cpu));
-    cost_put(t, COST_ITEMS, known(s->items > 0 || !row->runs, s->items));
-    cost_put(t, COST_TOLERANCE_ASKED, known(s->tolerance_asked > 0, s->tolerance_asked));
-    cost_put(t, COST_ERROR_ESTIMATED, known(s->tolerance_asked > 0, s->error_estimated));
+    cost_put(t, COST_WALL_TIME, known_or_nan(timed, row->wall));
+    cost_put(t, COST_CPU_TIME, known_or_nan(timed, row->cpu));
+    cost_put(t, COST_ITEMS, known_or_nan(s->items > 0 || !row->runs, s->items));
+    cost_put(t, COST_TOLERANCE_ASKED, known_or_nan(s->tolerance_asked > 0, s->tolerance_asked));
+    cost_put(t, COST_ERROR_ESTIMATED, known_or_nan(s->tolerance_asked > 0, s->error_estimated));
     cost_put(t, COST_NODES, (double)row->nodes);
-    cost_put(t, COST_STANDARD_ERROR, known(error > 0 && isfinite(error), error));
+    cost_put(t, COST_STANDARD_ERROR, known_or_nan(error > 0 && isfinite(error), error));
     cost_put(t, COST_FILES, (double)row->files);
     cost_put(t, COST_BYTES, (double)row->bytes);
 }

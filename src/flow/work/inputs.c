@@ -39,7 +39,7 @@ wt_table *wt_failures_new(void)
 }
 
 /* `path` without `folder` in front of it. */
-static const char *below(const char *folder, const char *path)
+static const char *path_below(const char *folder, const char *path)
 {
     size_t length = folder == NULL ? 0 : strlen(folder);
     if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
@@ -55,7 +55,7 @@ wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **
         wt_log_entry entry = wt_parselog_get(log, i);
         table_row(&t);
         notes_put_text(&t, NOTES_SEVERITY, wt_severity_name(entry.severity));
-        notes_put_text(&t, NOTES_FILE, below(folder, entry.file));
+        notes_put_text(&t, NOTES_FILE, path_below(folder, entry.file));
         notes_put_text(&t, NOTES_PLACE, entry.place);
         notes_put_text(&t, NOTES_TEXT, entry.text);
         notes_put(&t, NOTES_COUNT, (double)entry.count);
@@ -97,7 +97,7 @@ wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, 
 /* ---- listing --------------------------------------------------------------------------------- */
 
 /* Names between the slashes of a path. */
-static size_t depth(const char *path)
+static size_t path_depth(const char *path)
 {
     size_t n = 0;
     for (path += strspn(path, "/"); *path != '\0'; n++) {
@@ -117,9 +117,11 @@ static wt_status files_add(flow_files *files, char *path, const char *pattern,
         free(path);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    const char *name = below(set->folder, path);
-    files->file[files->n++] = (flow_file){
-        .path = path, .name = name, .set = set, .of_folder = depth(name) > depth(pattern)};
+    const char *name = path_below(set->folder, path);
+    files->file[files->n++] = (flow_file){.path = path,
+                                          .name = name,
+                                          .set = set,
+                                          .of_folder = path_depth(name) > path_depth(pattern)};
     return WT_OK;
 }
 
@@ -128,7 +130,7 @@ static int by_path(const void *a, const void *b)
     return strcmp(a, b);
 }
 
-static void keep(void *path)
+static void keep_path(void *path)
 {
     (void)path; /* it belongs to the list */
 }
@@ -181,7 +183,7 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    tdestroy(files->paths, keep);
+    tdestroy(files->paths, keep_path);
     *files = (flow_files){NULL, 0, NULL};
 }
 

@@ -44,7 +44,7 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     return status;
 }
 
-static bool have(const wt_result *tables, const char *prefix)
+static bool have_table(const wt_result *tables, const char *prefix)
 {
     for (size_t i = 0; i < wt_result_n_tables(tables); i++)
         if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
@@ -75,8 +75,8 @@ static wt_status read_tables(const char *path, const char *name, const wt_job *w
         status = wt_job_input(
             work,
             (wt_provenance_input){.path = name,
-                                  .role = have(*tables, "indentation/") ? role.of_curves
-                                                                        : role.of_others,
+                                  .role = have_table(*tables, "indentation/") ? role.of_curves
+                                                                              : role.of_others,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             input, err);
     wt_input_close(input);
