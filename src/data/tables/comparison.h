@@ -24,32 +24,33 @@
 /* What the standard error of a group consists of. All errors are relative ones of the modulus, so
  * that their squares add. */
 #define MODULUS_BUDGET_COLUMNS(X)                                                                  \
-    X(MODULUS_BUDGET_GROUP, "group", "group of curves", TEXT, LABEL("Group"))                      \
-    X(MODULUS_BUDGET_SOURCE, "source", "where the error comes from", TEXT, LABEL("Source"))        \
+    X(MODULUS_BUDGET_GROUP, "group", "group of curves", TEXT, SHOWS(group), LABEL("Group"))        \
+    X(MODULUS_BUDGET_SOURCE, "source", "where the error comes from", TEXT, SHOWS(part.words),      \
+      LABEL("Source"))                                                                             \
     X(MODULUS_BUDGET_KIND, "kind",                                                                 \
       "shared: by all curves of the group; scatter: of the mean of the spots; together: the root " \
       "of "                                                                                        \
       "the sum of their squares; beside: of one curve or spot, not in the sum",                    \
-      TEXT, LABEL("Kind"))                                                                         \
+      TEXT, SHOWS(kind), LABEL("Kind"))                                                            \
     X(MODULUS_BUDGET_SOURCE_ERROR, "source_error",                                                 \
-      "relative standard error of the source; nan: not stated", NUMBER, LABEL("Its error"),        \
-      MISSING("not stated"), SPARSE)                                                               \
+      "relative standard error of the source; nan: not stated", NUMBER, SHOWS(part.source_error),  \
+      LABEL("Its error"), MISSING("not stated"), SPARSE)                                           \
     X(MODULUS_BUDGET_GAIN, "gain",                                                                 \
       "relative change of the modulus per relative change of the source, curves fitted anew",      \
-      NUMBER, LABEL("Gain"), STANDARD_ERROR(MODULUS_BUDGET_GAIN), SPARSE)                          \
+      NUMBER, SHOWS(part.gain), LABEL("Gain"), STANDARD_ERROR(MODULUS_BUDGET_GAIN), SPARSE)        \
     X(MODULUS_BUDGET_GAIN_STANDARD_ERROR, "gain_standard_error",                                   \
       "standard error of the mean gain of the curves fitted anew", NUMBER, SPARSE)                 \
     X(MODULUS_BUDGET_RELATIVE_ERROR, "relative_error", "relative standard error of the modulus",   \
-      NUMBER, LABEL("Error of the modulus"), MISSING("not known"))                                 \
-    X(MODULUS_BUDGET_SHARE, "share", "of the variance of all together", NUMBER,                    \
+      NUMBER, SHOWS(part.error), LABEL("Error of the modulus"), MISSING("not known"))              \
+    X(MODULUS_BUDGET_SHARE, "share", "of the variance of all together", NUMBER, SHOWS(share),      \
       LABEL("Share of the variance"))
 /* One of each for every group. */
 #define MODULUS_BUDGET_KEYS(X)                                                                     \
-    X(MODULUS_BUDGET_KEY_MODULUS, "modulus_", SI(MODULUS), OPTIONAL)                               \
-    X(MODULUS_BUDGET_KEY_DF, "df_", NUMBER, OPTIONAL)                                              \
-    X(MODULUS_BUDGET_KEY_LOW, "low_", SI(MODULUS), OPTIONAL)                                       \
-    X(MODULUS_BUDGET_KEY_HIGH, "high_", SI(MODULUS), OPTIONAL)                                     \
-    X(MODULUS_BUDGET_KEY_SAYS, "says_", TEXT, OPTIONAL)
+    X(MODULUS_BUDGET_KEY_MODULUS, "modulus_", SI(MODULUS), SHOWS(modulus), OPTIONAL)               \
+    X(MODULUS_BUDGET_KEY_DF, "df_", NUMBER, SHOWS(df), OPTIONAL)                                   \
+    X(MODULUS_BUDGET_KEY_LOW, "low_", SI(MODULUS), SHOWS(low), OPTIONAL)                           \
+    X(MODULUS_BUDGET_KEY_HIGH, "high_", SI(MODULUS), SHOWS(high), OPTIONAL)                        \
+    X(MODULUS_BUDGET_KEY_SAYS, "says_", TEXT, SHOWS(says), OPTIONAL)
 
 /* A row that cannot be compared has its numbers of curves and spots alone. */
 #define COMPARISON_COLUMNS(X)                                                                      \
