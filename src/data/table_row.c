@@ -95,7 +95,7 @@ static void set_shown(table_writer *w, const table_schema *of, const schema_fiel
     char text[64];
     if (is_words(field)) {
         const char *const words = words_at(field, keys);
-        if (words != NULL)
+        if (!field->optional || (words != NULL && words[0] != '\0'))
             writer_key_text(w, of, key, words);
         return;
     }

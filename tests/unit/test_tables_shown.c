@@ -7,8 +7,12 @@
 #include <string.h>
 
 #define ROWS(X)                                                                                    \
-    X(indentation) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget)
-#define KEYS(X) X(modulus_depth) X(modulus_budget)
+    X(indentation)                                                                                 \
+    X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) X(payne_sweep)   \
+        X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) X(modulus_groups)    \
+            X(modulus_rate) X(dma_comparison) X(comparison)
+#define KEYS(X)                                                                                    \
+    X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) X(comparison)
 
 typedef struct binding {
     const table_schema *schema;
@@ -58,8 +62,10 @@ static void check_binding(const binding *b)
         if (f->form == FORM_NONE)
             continue;
         shows++;
-        if ((f->kind == SCHEMA_TEXT) != is_words(f->form) ||
-            (!b->keys && f->yes_no != (f->form == FORM_YES_NO)))
+        /* what may be missing is a number that is NaN then */
+        const bool flag = f->form == FORM_YES_NO || (f->form == FORM_NUMBER && f->sparse);
+        if ((f->kind == SCHEMA_TEXT) != is_words(f->form) || (f->yes_no && !flag) ||
+            (f->form == FORM_YES_NO && !f->yes_no))
             fail_msg("%s: %s is not what %s is", b->schema->name, f->name, f->member);
         for (size_t j = 0; j < i; j++)
             if (b->shown[j].form != FORM_NONE && b->shown[j].offset == f->offset)

@@ -7,7 +7,7 @@
  *
  * makes payne_add_row(&writer, &row), which begins a row and puts all that it shows; what no
  * member shows is put behind it. TABLE_KEYS(payne, PAYNE) makes payne_set_keys(&writer, &keys) of
- * a payne_keys. Optional keys that are NaN or NULL are left out.
+ * a payne_keys. Optional keys that are NaN, NULL or "" are left out.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DATA_TABLES_ROWS_H
@@ -16,22 +16,25 @@
 #include "data/tables/tables.h"
 #include "data/tables/words.h"
 
+/* A string that is pointed to, or what else a member is. */
 #define SHOWN_FORM(of)                                                                             \
-    _Generic(((shown *)NULL)->of, double                                                           \
-             : FORM_NUMBER, size_t                                                                 \
-             : FORM_COUNT, bool                                                                    \
-             : FORM_YES_NO, wt_estimate                                                            \
-             : FORM_ESTIMATE, wt_interval                                                          \
-             : FORM_INTERVAL, const char *                                                         \
-             : FORM_WORDS, char *                                                                  \
-             : FORM_LETTERS)
-#define SHOWS(name) .member = #name, .offset = offsetof(shown, name), .form = SHOWN_FORM(name)
+    _Generic(&((shown_row *)NULL)->of, char **                                                         \
+             : FORM_WORDS, default                                                                 \
+             : _Generic(((shown_row *)NULL)->of, double                                                \
+                        : FORM_NUMBER, size_t                                                      \
+                        : FORM_COUNT, bool                                                         \
+                        : FORM_YES_NO, wt_estimate                                                 \
+                        : FORM_ESTIMATE, wt_interval                                               \
+                        : FORM_INTERVAL, const char *                                              \
+                        : FORM_WORDS, char *                                                       \
+                        : FORM_LETTERS))
+#define SHOWS(name) .member = #name, .offset = offsetof(shown_row, name), .form = SHOWN_FORM(name)
 
 #define TABLE_ROW(table, TABLE)                                                                    \
     const schema_field *table##_row_shows(void);                                                   \
     const schema_field *table##_row_shows(void)                                                    \
     {                                                                                              \
-        typedef table##_row shown;                                                                 \
+        typedef table##_row shown_row;                                                             \
         static const schema_field columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};             \
         return columns;                                                                            \
     }                                                                                              \
@@ -43,7 +46,7 @@
     const schema_field *table##_keys_show(void);                                                   \
     const schema_field *table##_keys_show(void)                                                    \
     {                                                                                              \
-        typedef table##_keys shown;                                                                \
+        typedef table##_keys shown_row;                                                            \
         static const schema_field keys[] = {TABLE##_KEYS(KEY){.name = NULL}};                      \
         return keys;                                                                               \
     }                                                                                              \

@@ -6,6 +6,9 @@
 #include "data/schema.h"
 
 /* What may stand in a row of a list. */
+/* In the place of the name: that of the member; of a member of a part. */
+#define AS(own) SHOWS(own), .name = #own
+#define IN(part, own) SHOWS(part.own), .name = #own
 #define NUMBER .quantity = WT_Q_NONE
 #define SI(q) .quantity = WT_Q_##q
 #define UNIT(words) .unit = words
@@ -27,6 +30,6 @@
 #define OPTIONAL .optional = true
 
 #define COLUMN(id, ...) {__VA_ARGS__},
-#define KEY(id, key_name, ...) {.name = key_name, __VA_ARGS__},
+#define KEY(id, ...) {__VA_ARGS__},
 
 #endif
