@@ -253,6 +253,11 @@ typedef struct wt_estimate {
     const char *unit;       /* SI unit, static text */
 } wt_estimate;
 
+/* A number with its 95 % interval; standard_error is half its width over 1.96. */
+typedef struct wt_interval {
+    double value, standard_error, low, high;
+} wt_interval;
+
 /* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
  * standard error; without it the standard error is 0 (not stated). */
 WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,

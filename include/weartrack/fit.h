@@ -232,11 +232,6 @@ typedef enum wt_depth_verdict {
     WT_DEPTH_OTHERWISE, /* there is a residual, but not that of a modulus that changes with depth */
 } wt_depth_verdict;
 
-/* With its 95 % interval; standard_error is half its width over 1.96. */
-typedef struct wt_interval {
-    double value, standard_error, low, high;
-} wt_interval;
-
 enum { WT_DEPTHS = 5 };
 typedef struct wt_curve_depth {
     size_t n, n_units; /* curves; spots, or curves where fewer than three spots are */

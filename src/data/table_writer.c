@@ -113,6 +113,10 @@ static bool takes(table_writer *w, const table_schema *of, unsigned column, bool
         fail(w, of->name, "has no such column");
         return false;
     }
+    if (w->row & SCHEMA_BIT(column)) {
+        fail(w, of->columns[column].name, "was put twice in a row");
+        return false;
+    }
     w->row |= SCHEMA_BIT(column);
     return true;
 }
