@@ -57,8 +57,7 @@ int cmd_indent(int argc, char **argv)
         job.rubber = &rubber;
     }
     char stage[64];
-    snprintf(stage, sizeof stage, "indentation_%s%s", job.group,
-             own.master != NULL ? "_with_material" : "");
+    snprintf(stage, sizeof stage, "indentation_%s", job.group);
     wt_cost_stage(s.cost, stage);
     if (made == WT_OK)
         made = wt_indent_group(&job, &s.work, &tables, &s.err);

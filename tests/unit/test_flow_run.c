@@ -175,8 +175,12 @@ static void test_stand_in(void **state)
     const wt_table *cost = table_of(&r, "cost");
     assert_int_equal(r.n_failed, 1);
     assert_string_equal(text_cell(table_of(&r, "failures"), 0, "file"),
-                        "stage friction_with_layer");
-    assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
+                        "stage friction with the layer");
+    const size_t first = stage_row(cost, "friction");
+    assert_non_null(strstr(text_cell(cost, first, "because"), ", and failed"));
+    assert_string_equal(text_cell(cost, first + 1, "stage"), "friction");
+    assert_string_equal(text_cell(cost, first + 1, "because"),
+                        "runs because it did not succeed with the layer");
     assert_int_equal(wt_table_n_rows(table_of(&r, "friction")), 4);
     check_answer(&r, "thickness", "grows without end");
     check_answer(&r, "friction", "no shear stress is given");

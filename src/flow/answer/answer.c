@@ -21,33 +21,41 @@ static const char what_friction[] = "What does it do to friction?";
 /* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
 #define MM3_PER_N_M 1e9
 
-/* The message of a stage that failed. */
+/* The message of a stage that failed, or that failed to take more into account. */
 static const char *why_failed(const answer_story *story, const char *stage)
 {
+    const size_t length = strlen(stage);
     for (size_t i = 0; i < story->failures.n_rows; i++) {
         const char *name = failures_text(&story->failures, i, FAILURES_FILE);
-        if (strncmp(name, "stage ", 6) == 0 && strcmp(name + 6, stage) == 0)
+        if (strncmp(name, "stage ", 6) == 0 && strncmp(name + 6, stage, length) == 0 &&
+            (name[6 + length] == '\0' || name[6 + length] == ' '))
             return failures_text(&story->failures, i, FAILURES_MESSAGE);
     }
     return "the stage failed";
 }
 
-/* Why a stage gave nothing, as a sentence. */
+/* Why something was not given, as a sentence. */
+static void say_why_not(const answer_story *story, flow_stage_id stage, flow_outcome outcome,
+                        const char *because, const char *question, const char *kind)
+{
+    const char *id = flow_stages[stage].id;
+    if (outcome == FLOW_FAILED)
+        answer_say(story, question, kind, "Not answered: %s.", why_failed(story, id));
+    else if (outcome == FLOW_BLOCKED)
+        answer_say(story, question, kind,
+                   "Not answered: a stage that %s needs failed; the table failures says why.", id);
+    else
+        answer_say(story, question, kind, "Not asked: %s.", because);
+}
+
 static void say_missing(const answer_story *story, flow_stage_id stage, const char *question,
                         const char *kind)
 {
     static const char left_out[] = "left out because ";
-    const char *because = story->plan->because[stage], *id = flow_stages[stage].id;
-    if (story->plan->outcome[stage] == FLOW_FAILED) {
-        answer_say(story, question, kind, "Not answered: %s.", why_failed(story, id));
-    } else if (story->plan->outcome[stage] == FLOW_BLOCKED) {
-        answer_say(story, question, kind,
-                   "Not answered: a stage that %s needs failed; the table failures says why.", id);
-    } else {
-        if (strncmp(because, left_out, strlen(left_out)) == 0)
-            because += strlen(left_out);
-        answer_say(story, question, kind, "Not asked: %s.", because);
-    }
+    const char *because = story->plan->because[stage];
+    if (strncmp(because, left_out, strlen(left_out)) == 0)
+        because += strlen(left_out);
+    say_why_not(story, stage, story->plan->outcome[stage], because, question, kind);
 }
 
 /* ---- layer, difference ----------------------------------------------------------------------- */
@@ -368,7 +376,8 @@ static void answer_friction(const answer_story *story)
     }
     say_friction(story);
     if (friction_words(&story->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
-        say_missing(story, FLOW_STAGE_FRICTION_WITH_LAYER, what_friction, "friction");
+        say_why_not(story, FLOW_STAGE_FRICTION, story->plan->fuller[FLOW_STAGE_FRICTION],
+                    story->plan->without[FLOW_STAGE_FRICTION], what_friction, "friction");
     else if (isnan(friction_at(story, FRICTION_KEY_WITH_LAYER).value))
         return;
     else if (!(friction_at(story, FRICTION_KEY_LAYER_THICKNESS).value > 0))
