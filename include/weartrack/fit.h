@@ -528,6 +528,24 @@ WT_API wt_status wt_thermal_fit(const double *frequency, const double *density, 
                                 double from, double to, wt_thermal *thermal,
                                 wt_error *err) WT_NODISCARD;
 
+/* ---- Sader's method -------------------------------------------------------------------------- */
+
+typedef enum wt_medium { WT_MEDIUM_AIR, WT_MEDIUM_WATER } wt_medium;
+typedef struct wt_fluid {
+    double density, viscosity; /* [kg/m^3], [Pa s] */
+} wt_fluid;
+/* Dry air at 1013.25 hPa or water at a temperature [K]; NaN for water that is not liquid. */
+WT_API wt_fluid wt_fluid_at(wt_medium medium, double temperature);
+/* Of a rectangular blade at the Reynolds number density omega width^2 / (4 viscosity), above 0
+ * (Sader, J. Appl. Phys. 84 (1998) 64). */
+WT_API void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary);
+/* k = 0.1906 density width^2 length Q Im Gamma omega^2 of a rectangular lever much longer than wide
+ * (Sader, Chon and Mulvaney, Rev. Sci. Instrum. 70 (1999) 3967) from SI values above 0, its error
+ * by theirs. */
+WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate width,
+                                            wt_estimate resonance, wt_estimate quality,
+                                            wt_fluid fluid);
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

@@ -247,15 +247,19 @@ WT_API wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job
                                      wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* Spring constant of a lever by the spectrum of its thermal noise: k = mode_shape / chi^2 k_B T /
- * <d^2>, d the deflection by the sensitivity of curves on a hard surface. */
+ * <d^2>, d the deflection by the sensitivity of curves on a hard surface. Beside it, where the plan
+ * view of the lever or its kind's coefficient are given, Sader's method. */
 typedef struct wt_thermal_job {
     const wt_file_set *sets; /* read.sensitivity [m/V] for spectra in volts that say none */
     size_t n_sets;
-    wt_estimate temperature;  /* of the lever [K]; NaN: of the file, else 25 degC with a warning */
-    double sensitivity_error; /* relative */
-    double mode_shape;        /* share of the first mode in the thermal energy of the deflection */
-    double chi;               /* sensitivity of the free lever over that on a surface */
-    double from, to;          /* range of the fit [Hz]; NaN: about the peak */
+    wt_estimate temperature;   /* of the lever [K]; NaN: of the file, else 25 degC with a warning */
+    double sensitivity_error;  /* relative */
+    double mode_shape;         /* share of the first mode in the thermal energy of the deflection */
+    double chi;                /* sensitivity of the free lever over that on a surface */
+    double from, to;           /* range of the fit [Hz]; NaN: about the peak */
+    wt_estimate length, width; /* of a rectangular lever [m]; NaN: not known */
+    wt_medium medium;          /* about the lever */
+    wt_estimate sader_coefficient; /* A of k = A Q f^1.3 [N/m per kHz^1.3]; NaN: not known */
 } wt_thermal_job;
 WT_API wt_thermal_job wt_thermal_job_defaults(void);
 WT_API const wt_params *wt_thermal_job_params(void);

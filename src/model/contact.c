@@ -25,6 +25,13 @@ double tip_facet_factor(unsigned sides)
     return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
 }
 
+bool contact_law_holds(const wt_tip *tip, double depth)
+{
+    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    return (faced || !(depth > ROUND_TIP_REACH * tip->radius)) &&
+           !(thin_sample_reach(tip, depth) > THIN_SAMPLE_REACH);
+}
+
 double contact_switch_depth(const wt_tip *tip)
 {
     switch (tip->shape) {

@@ -93,7 +93,7 @@ static inline void write_heights(const char *path, const double *z, const view *
 {
     const size_t n = v->n;
     const nid_writer_channel channel = {1, "Z-Axis", "m", -1e-6, 2e-6, 32, z};
-    const nid_writer_group group = {"Scan forward", n,   n,        NULL,     "X*", "m",
+    const nid_writer_group group = {"Scan forward", n,   n,        0,        NULL, "X*",    "m",
                                     "Y*",           "m", v->width, v->width, 1,    &channel};
     nid_writer_file file = nid_writer_defaults();
     file.path = path;

@@ -242,6 +242,42 @@ static void test_genuine(void **state)
     wt_table_free(t);
 }
 
+/* Beside the noise Sader's method; who contradicts it by more than a factor 1.5 is not advised. */
+static void test_contradiction(void **state)
+{
+    (void)state;
+    wt_thermal_job job = wt_thermal_job_defaults();
+    wt_table *t = made(&job, NOISE "deflection.csv", (double)NAN);
+    const double k = cell(t, "spring_constant"), f = cell(t, "resonance"),
+                 q = cell(t, "quality_factor");
+    assert_non_null(wt_table_key(t, "indent_option")); /* 0.21 N/m of the file */
+    assert_true(isnan(cell(t, "sader_spring_constant")));
+    wt_table_free(t);
+    for (int far = 0; far < 2; far++) {
+        const double other = far ? 1.6 * k : 1.4 * k;
+        job.sader_coefficient = (wt_estimate){other / q / pow(1e-3 * f, 1.3), 0, 0, "1"};
+        t = made(&job, NOISE "deflection.csv", (double)NAN);
+        assert_near(cell(t, "sader_spring_constant"), other, 1e-9);
+        assert_near(cell(t, "sader_ratio"), k / other, 1e-9);
+        assert_int_equal(wt_table_key(t, "indent_option") == NULL, far);
+        assert_int_equal(wt_table_key(t, "contradiction") != NULL, far);
+        wt_table_free(t);
+    }
+    /* one of the two is no lever, both ways are one too many */
+    wt_error err = WT_ERROR_INIT;
+    job.width = (wt_estimate){30e-6, 0, 0, "m"};
+    assert_int_equal(make(&job, NOISE "deflection.csv", (double)NAN, NULL, &t, &err), WT_E_ARG);
+    job.length = (wt_estimate){200e-6, 0, 0, "m"};
+    assert_int_equal(make(&job, NOISE "deflection.csv", (double)NAN, NULL, &t, &err), WT_E_ARG);
+    job.sader_coefficient.value = (double)NAN;
+    t = made(&job, NOISE "deflection.csv", (double)NAN);
+    const wt_estimate here =
+        wt_sader_spring_constant(job.length, job.width, (wt_estimate){f, 0, 0, "Hz"},
+                                 (wt_estimate){q, 0, 0, "1"}, wt_fluid_at(WT_MEDIUM_AIR, 295.15));
+    assert_near(cell(t, "sader_spring_constant"), here.value, 1e-9);
+    wt_table_free(t);
+}
+
 /* What a spectrum that is no oscillator's is off by may be in all of them: the mean of several has
  * no error, either. */
 static void test_departing(void **state)
@@ -289,8 +325,9 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_metres),  cmocka_unit_test(test_volts),
-        cmocka_unit_test(test_tune),    cmocka_unit_test(test_several),
-        cmocka_unit_test(test_genuine), cmocka_unit_test(test_departing)};
+        cmocka_unit_test(test_metres),       cmocka_unit_test(test_volts),
+        cmocka_unit_test(test_tune),         cmocka_unit_test(test_several),
+        cmocka_unit_test(test_genuine),      cmocka_unit_test(test_departing),
+        cmocka_unit_test(test_contradiction)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -8,9 +8,10 @@
 
 #define ROWS(X)                                                                                    \
     X(indentation)                                                                                 \
-    X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) X(payne_sweep)   \
-        X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) X(modulus_groups)    \
-            X(modulus_rate) X(dma_comparison) X(comparison)
+    X(force_displacement)                                                                          \
+    X(force_indentation) X(modulus_depth) X(modulus_budget) X(payne_sweep) X(payne) X(ramp)        \
+        X(glass_transition) X(moduli_at) X(spot) X(spot_map) X(modulus_groups) X(modulus_rate)     \
+            X(dma_comparison) X(comparison)
 #define KEYS(X)                                                                                    \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) X(comparison)
 

@@ -45,6 +45,9 @@
                         NUMBER, "Over that of the file", .member = NULL)                           \
     X(SENSITIVITY_SCATTER, "scatter", "standard deviation of a unit, of the sensitivity", NUMBER,  \
       LABEL("Scatter"), DIGITS(2), SPARSE)                                                         \
+    X(SENSITIVITY_WAYS_ERROR, "ways_error",                                                        \
+      "part of the standard error by the difference of approach and retract, of the sensitivity",  \
+      NUMBER, LABEL("Of it by the ways"), DIGITS(2), SPARSE)                                       \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_CHANGE, "slope_change",                                     \
                         "change of the slope from end to end of the part, of the slope", NUMBER,   \
                         "Change of the slope", .member = NULL)                                     \
@@ -91,6 +94,13 @@
       SI(SPRING_CONSTANT), LABEL("Of the file"), SPARSE)                                           \
     X(THERMAL_RATIO, "ratio", "spring constant over that of the file", NUMBER, LABEL("Ratio"),     \
       SPARSE)                                                                                      \
+    X(THERMAL_SADER, "sader_spring_constant",                                                      \
+      "spring constant by Sader's method, of resonance and quality factor", SI(SPRING_CONSTANT),   \
+      LABEL("By Sader's method"), STANDARD_ERROR(THERMAL_SADER), SPARSE)                           \
+    X(THERMAL_SADER_STANDARD_ERROR, "sader_spring_constant_standard_error",                        \
+      "its standard error, as far as those of its values are known", SI(SPRING_CONSTANT), SPARSE)  \
+    X(THERMAL_SADER_RATIO, "sader_ratio", "spring constant over that by Sader's method", NUMBER,   \
+      SPARSE)                                                                                      \
     X(THERMAL_FROM, "fit_from", "range of the fit", SI(FREQUENCY), SPARSE)                         \
     X(THERMAL_TO, "fit_to", "its end", SI(FREQUENCY), SPARSE)                                      \
     X(THERMAL_POINTS, "points", "points in it", NUMBER)                                            \
@@ -110,6 +120,7 @@
     X(THERMAL_KEY_INCLUDES, "includes", TEXT)                                                      \
     X(THERMAL_KEY_INDENT, "indent_option", TEXT, OPTIONAL)                                         \
     X(THERMAL_KEY_COMPARE, "compare_option", TEXT, OPTIONAL)                                       \
+    X(THERMAL_KEY_CONTRADICTION, "contradiction", TEXT, LABEL("Not to be used"), OPTIONAL)         \
     X(THERMAL_KEY_N_SPECTRA, "n_spectra", PLAIN)
 
 #endif

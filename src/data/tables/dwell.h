@@ -52,8 +52,9 @@
     X(DWELL_POINTS_TIME, "time", "time from contact", SI(TIME))                                    \
     X(DWELL_POINTS_FORCE, "force", "force above the baseline", SI(FORCE))                          \
     X(DWELL_POINTS_INDENTATION, "indentation", "indentation depth", SI(INDENTATION))               \
-    X(DWELL_POINTS_MODULUS, "modulus", "of an elastic rubber with this force at this indentation", \
-      SI(MODULUS))                                                                                 \
+    X(DWELL_POINTS_MODULUS, "modulus",                                                             \
+      "of an elastic rubber with this force at this indentation; nan: it pulls, or is too deep",   \
+      SI(MODULUS), SPARSE)                                                                         \
     X(DWELL_POINTS_FITTED, "fitted_modulus", "the same of what was fitted", SI(MODULUS), SPARSE)   \
     X(DWELL_POINTS_FILE, "file", "file of the curve", TEXT)                                        \
     X(DWELL_POINTS_CURVE, "curve", "number of the curve in its file", NUMBER)

@@ -15,6 +15,7 @@
 #include "fit/indentation/curve_model.h"
 #include "model/hereditary.h"
 #include "model/prony.h"
+#include "model/tip.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -383,6 +384,9 @@ static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
                 fabs(last->force - first->force);
     if (last->indentation < fell * first->indentation)
         to->why_not = "the indentation falls in it, of which the law holds nothing";
+    if (!contact_law_holds(contact_table_tip(t->table),
+                           fmax(first->indentation, last->indentation)))
+        to->why_not = "deeper than the contact law of the tip holds";
 }
 
 /* Time from where the means cross the contact point to the dwell. */

@@ -312,8 +312,13 @@ static void say_thermal(sentence *s, const table_view *v)
                *compare = thermal_words(v, THERMAL_KEY_COMPARE);
     if (k.standard_error >= 0)
         say(s, "; its error is that of %s", includes);
-    say(s, "; use %s%s%s", indent, compare != NULL ? ", and in compare " : "",
-        compare != NULL ? compare : "");
+    if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_SADER)))
+        say(s, "; by Sader's method %s", words_of(thermal_get(v, 0, THERMAL_SADER), "N/m").text);
+    if (indent == NULL)
+        say(s, "; not to be used: %s", thermal_words(v, THERMAL_KEY_CONTRADICTION));
+    else
+        say(s, "; use %s%s%s", indent, compare != NULL ? ", and in compare " : "",
+            compare != NULL ? compare : "");
 }
 
 static void say_friction(sentence *s, const table_view *v)

@@ -1,6 +1,7 @@
 /* The job of deflection sensitivity: curves on a hard surface, both ways of each, their scatter,
  * and whether the surface is as hard and the detector as straight as that takes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/normal.h"
 #include "base/param.h"
 #include "flow/work/cost.h"
 #include "flow/work/far_values.h"
@@ -14,11 +15,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WAYS = 2, ROWS = 3, OUTLIER_LEAST = 8 };
+enum { WAYS = 2, ROWS = 3 };
+/* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
+ * not known well enough to call one far. */
+enum { OUTLIER_LEAST = 8 };
 static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
 
 wt_sensitivity_job wt_sensitivity_job_defaults(void)
 {
+    /* 5 %: the mean slope of such a part is off by less than half of that, which is what deflection
+     * sensitivities are repeated to (a heuristic). */
     return (wt_sensitivity_job){.options = wt_slope_defaults(), .most_bend = 0.05};
 }
 
@@ -293,6 +299,8 @@ typedef struct group {
     size_t n, n_units, n_with_retract;
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, own_error; /* of one curve alone, of the sensitivity */
+    double scatter;         /* of a unit, of the sensitivity */
+    double ways_error;      /* by the difference of the ways, of the sensitivity; NaN: not known */
     const char *verdict;
     bool refused;
 } group;
@@ -306,7 +314,7 @@ typedef struct collected {
     size_t n;
 } collected;
 
-static void keep_value(collected *c, double value, long unit)
+static void add_value(collected *c, double value, long unit)
 {
     if (isnan(value))
         return;
@@ -332,7 +340,7 @@ static wt_interval own_change(const item *it, size_t row, double value)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-static void judge_group(group *g, double most)
+static void decide_straight(group *g, double most)
 {
     const wt_interval *c = &g->change;
     if (c->value > most && c->low > 0) {
@@ -378,7 +386,7 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
         const item *it = &task->items[i];
         const bool usable = row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1);
         if (usable && !it->outlier)
-            keep_value(c, over_ways(it, row, of), it->unit);
+            add_value(c, over_ways(it, row, of), it->unit);
     }
     return wt_student_mean(c->values, c->units, c->n, n_units);
 }
@@ -391,6 +399,41 @@ static const item *first_of(const sensitivity_task *task, size_t row)
             return it;
     }
     return NULL;
+}
+
+/* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
+ * curve tells how much in each: the sensitivity lies anywhere between them. The standard deviation
+ * of that about their mean is the difference over sqrt(12), about one of them over sqrt(3); an
+ * interval of 95 % about the mean then holds both ways. */
+static double ways_error(size_t row, double retract_over_approach)
+{
+    const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
+    return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
+}
+
+static void widen(wt_interval *i, double relative)
+{
+    const double low = hypot(i->value - i->low, NORMAL_95 * relative * i->value),
+                 high = hypot(i->high - i->value, NORMAL_95 * relative * i->value);
+    i->standard_error = hypot(i->standard_error, relative * i->value);
+    i->low = i->value - low;
+    i->high = i->value + high;
+}
+
+/* Without curves that have both ways the difference is not known and not held. */
+static void add_ways_error(group groups[ROWS])
+{
+    const double difference = groups[WAYS].n > 0 ? groups[WAYS].difference.value : (double)NAN;
+    for (size_t row = 0; row < ROWS; row++) {
+        group *g = &groups[row];
+        const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
+        g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
+        g->ways_error = ways_error(row, difference);
+        if (isnan(g->ways_error))
+            continue;
+        widen(&g->sensitivity, g->ways_error);
+        widen(&g->factor, g->ways_error);
+    }
 }
 
 static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], wt_error *err)
@@ -418,8 +461,10 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
         }
         if (row == WAYS)
             g->difference = mean_of(task, row, &c, &ignored, difference_of);
-        judge_group(g, task->job->most_bend);
+        decide_straight(g, task->job->most_bend);
     }
+    if (status == WT_OK)
+        add_ways_error(groups);
     free(c.values);
     free(c.units);
     return status;
@@ -471,9 +516,8 @@ static void put_group(table_writer *t, size_t row, const group *g, double share)
         return;
     put_interval(t, SENSITIVITY_VALUE, g->sensitivity);
     put_interval(t, SENSITIVITY_FACTOR, g->factor);
-    const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
-    sensitivity_put(t, SENSITIVITY_SCATTER,
-                    of->standard_error * sqrt((double)g->n_units) / of->value);
+    sensitivity_put(t, SENSITIVITY_SCATTER, g->scatter);
+    sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->ways_error);
 }
 
 /* What other subcommands are given. */

@@ -3,6 +3,7 @@
 #include "flow/dwell/dwell.h"
 
 #include "data/force_curve.h"
+#include "model/tip.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -123,6 +124,10 @@ static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
         m->note = "not in contact, or it pulls";
         return WT_OK;
     }
+    if (!contact_law_holds(contact_table_tip(contact), m->indentation)) {
+        m->note = "deeper than the contact law of the tip holds";
+        return WT_OK;
+    }
     const double slope = slope_at(contact, m->indentation, poisson);
     const double common = placed ? d->indentation_common_error : (double)NAN;
     const bool described = isfinite(common);
@@ -139,13 +144,16 @@ static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
                   ? "the amplitude is more than a fifth of the indentation"
               : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
                             : "";
-    m->found = true;
     const wt_status status = wt_modulation_moduli(&m->sine, air != NULL ? &air->sine : NULL,
                                                   spring_constant, slope, &m->moduli, err);
     const double share =
         described ? slope_at(contact, m->indentation + common, poisson) / slope - 1 : common;
     m->moduli.storage_common_error = fabs(share * m->moduli.storage.value);
     m->moduli.loss_common_error = fabs(share * m->moduli.loss.value);
+    m->found = dwell_is_modulus(&m->moduli);
+    if (!m->found)
+        m->note = "E' or E'' is not positive: no modulus; the lag of the instrument may be larger "
+                  "than that of the sample (a modulation in air tells)";
     return status;
 }
 

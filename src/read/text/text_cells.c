@@ -94,12 +94,31 @@ static bool split_at(text_cells *cells, const char *line, size_t length, char ma
     }
 }
 
+/* Of a cell between marks like the one at `from` the place behind the second, if a blank or the end
+ * follows; 0 if there is none. */
+static size_t quoted_end(const char *line, size_t from, size_t length)
+{
+    const char mark = line[from];
+    if (mark != '\'' && mark != '"')
+        return 0;
+    const char *close = memchr(line + from + 1, mark, length - from - 1);
+    const size_t end = close != NULL ? (size_t)(close - line) + 1 : 0;
+    return end > from + 2 && (end == length || is_blank(line[end])) ? end : 0;
+}
+
 static bool split_whitespace(text_cells *cells, const char *line, size_t length)
 {
     for (size_t i = 0; i < length;) {
         while (i < length && is_blank(line[i]))
             i++;
         size_t from = i;
+        const size_t quoted = i < length ? quoted_end(line, i, length) : 0;
+        if (quoted > 0) {
+            if (!append(cells, line + from + 1, quoted - from - 2))
+                return false;
+            i = quoted;
+            continue;
+        }
         while (i < length && !is_blank(line[i]))
             i++;
         if (i > from && !append(cells, line + from, i - from))
