@@ -583,6 +583,31 @@ static void test_gnuplot_draws_every_point(void **state)
     assert_true(drawn_ones > 1000 && points - drawn_ones < points / 10);
 }
 
+/* Panels do not lie on one another: several plots are of a multiplot, with a place for each. */
+static void test_panels(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const char *figure = wt_figure_get(i).name;
+        char *script = plot_file(figure, "gp"), *rest = NULL;
+        size_t plots = 0, places = 0, begun = 0, ended = 0;
+        for (char *line = strtok_r(script, "\n", &rest); line != NULL;
+             line = strtok_r(NULL, "\n", &rest)) {
+            size_t down = 0, across = 0;
+            plots += strncmp(line, "plot", 4) == 0;
+            begun += strncmp(line, "set multiplot", 13) == 0;
+            ended += strcmp(line, "unset multiplot") == 0;
+            if (sscanf(line, "set multiplot layout %zu,%zu", &down, &across) == 2)
+                places = down * across;
+        }
+        if (begun != ended || begun > 1 || (plots > 1) > begun || (places > 0 && places < plots) ||
+            (places > 0 && places >= plots + 3))
+            fail_msg("%s: %zu plots in %zu places of %zu multiplots", figure, plots, places, begun);
+        free(script);
+    }
+}
+
 /* ---- crowds ---------------------------------------------------------------------------------- */
 
 static void repeat(wt_table *copy)
@@ -659,6 +684,7 @@ int main(void)
         cmocka_unit_test(test_names_at_their_places),
         cmocka_unit_test(test_index_finds_every_section),
         cmocka_unit_test(test_gnuplot_draws_every_point),
+        cmocka_unit_test(test_panels),
         cmocka_unit_test(test_crowds),
     };
     return cmocka_run_group_tests_name("points of the figures", tests, draw_everything,
