@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "report/drawing.h"
 #include "report_fixture.h"
 #include "report_place.h"
 
@@ -672,6 +673,21 @@ static void test_crowds(void **state)
     }
 }
 
+static void test_every(void **state)
+{
+    (void)state;
+    static const size_t every[][2] = {{1, 1},  {9, 1},  {10, 1},  {11, 2},
+                                      {20, 2}, {21, 3}, {100, 10}};
+    for (size_t i = 0; i < sizeof every / sizeof *every; i++) {
+        figure_drawing d = {.n_sections = 1, .sections = {wt_table_new("rows", "")}};
+        for (size_t k = 0; k < every[i][0]; k++)
+            fixture_check(wt_table_add_row(d.sections[0], NULL));
+        assert_int_equal(drawing_every(&d, 0, 10), every[i][1]);
+        assert_int_equal(drawing_every(&d, NO_SECTION, 10), 1);
+        wt_table_free(d.sections[0]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -686,6 +702,7 @@ int main(void)
         cmocka_unit_test(test_gnuplot_draws_every_point),
         cmocka_unit_test(test_panels),
         cmocka_unit_test(test_crowds),
+        cmocka_unit_test(test_every),
     };
     return cmocka_run_group_tests_name("points of the figures", tests, draw_everything,
                                        remove_everything);
