@@ -680,6 +680,7 @@ static void test_every(void **state)
                                       {20, 2}, {21, 3}, {100, 10}};
     for (size_t i = 0; i < sizeof every / sizeof *every; i++) {
         figure_drawing d = {.n_sections = 1, .sections = {wt_table_new("rows", "")}};
+        fixture_check(wt_table_add_column(d.sections[0], "x", "1", "", NULL));
         for (size_t k = 0; k < every[i][0]; k++)
             fixture_check(wt_table_add_row(d.sections[0], NULL));
         assert_int_equal(drawing_every(&d, 0, 10), every[i][1]);
