@@ -19,8 +19,8 @@ static void test_values(void **state)
         {0.10049, "1", "0.1"},
         {1.23456, "1", "1.23"},
         {-0.0456, "1", "-0.0456"},
-        {NAN, "m", "not known"},
-        {INFINITY, "m", "without limit"},
+        {(double)NAN, "m", "not known"},
+        {(double)INFINITY, "m", "without limit"},
         {1234, "s", "1230 s"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -47,11 +47,11 @@ static void test_errors(void **state)
         {-0.271, 0.0134, "1", "-0.271 \xc2\xb1 0.013"},
         {2.5e6, 1e5, "Pa", "2.50 \xc2\xb1 0.10 MPa"},
         {2.5e6, 0, "Pa", "2.50 MPa"},
-        {3.163e-6, NAN, "m", "3.16 \xc2\xb5m (error not known)"},
-        {NAN, NAN, "m", "not known"},
-        {NAN, 0.1, "m", "not known"},
-        {INFINITY, NAN, "m", "without limit"},
-        {0.5, INFINITY, "1", "0.5"},
+        {3.163e-6, (double)NAN, "m", "3.16 \xc2\xb5m (error not known)"},
+        {(double)NAN, (double)NAN, "m", "not known"},
+        {(double)NAN, 0.1, "m", "not known"},
+        {(double)INFINITY, (double)NAN, "m", "without limit"},
+        {0.5, (double)INFINITY, "1", "0.5"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const wt_estimate e = {cases[i].value, cases[i].error, 0, cases[i].unit};

@@ -375,7 +375,7 @@ static void test_missing(void **state)
         {4, 3, 0, -1, 1, "the size of the image is not known"},
         {4, 1, 0, 1, 0, NULL},
         {1, 3, 0, 0, 1, NULL},
-        {4, 3, 0, NAN, 1, "the size of the image is not known"},
+        {4, 3, 0, (double)NAN, 1, "the size of the image is not known"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         image_list list = {NULL, 0};

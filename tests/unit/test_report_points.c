@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "report/drawing.h"
 #include "report_fixture.h"
 #include "report_place.h"
 
@@ -583,6 +584,111 @@ static void test_gnuplot_draws_every_point(void **state)
     assert_true(drawn_ones > 1000 && points - drawn_ones < points / 10);
 }
 
+/* Panels do not lie on one another: several plots are of a multiplot, with a place for each. */
+static void test_panels(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const char *figure = wt_figure_get(i).name;
+        char *script = plot_file(figure, "gp"), *rest = NULL;
+        size_t plots = 0, places = 0, begun = 0, ended = 0;
+        for (char *line = strtok_r(script, "\n", &rest); line != NULL;
+             line = strtok_r(NULL, "\n", &rest)) {
+            size_t down = 0, across = 0;
+            plots += strncmp(line, "plot", 4) == 0;
+            begun += strncmp(line, "set multiplot", 13) == 0;
+            ended += strcmp(line, "unset multiplot") == 0;
+            if (sscanf(line, "set multiplot layout %zu,%zu", &down, &across) == 2)
+                places = down * across;
+        }
+        if (begun != ended || begun > 1 || (plots > 1) > begun || (places > 0 && places < plots) ||
+            (places > 0 && places >= plots + 3))
+            fail_msg("%s: %zu plots in %zu places of %zu multiplots", figure, plots, places, begun);
+        free(script);
+    }
+}
+
+/* ---- crowds ---------------------------------------------------------------------------------- */
+
+static void repeat(wt_table *copy)
+{
+    const size_t n = wt_table_n_rows(copy);
+    for (size_t k = 0; k < 7 * n; k++) {
+        fixture_check(wt_table_add_row(copy, NULL));
+        for (size_t c = 0; c < wt_table_n_columns(copy); c++)
+            if (wt_table_column_kind(copy, c) == WT_COLUMN_TEXT)
+                fixture_check(wt_table_put_text(copy, c, wt_table_text(copy, k % n, c), NULL));
+            else
+                wt_table_put(copy, c, wt_table_number(copy, k % n, c));
+    }
+}
+
+/* Of more points than can be told apart every n-th is drawn, the least n that leaves so many, and
+ * the caption says it; the line of a fit is whole. */
+static void test_crowds(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const struct {
+        const char *figure, *table, *caption;
+        size_t limit;
+    } cases[] = {
+        {"force_displacement", "force_displacement", "", 1200},
+        {"force_indentation", "force_indentation", "up to ", 220},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        const fixture_change change = {cases[i].table, .finish = repeat};
+        wt_result *many = fixture_only(&cases[i].table, 1, &change);
+        const wt_table *t = wt_result_find(many, cases[i].table);
+        size_t rows[2][2] = {{0}}, every[2][2], most = 1;
+        write_report(many, "out", NULL);
+        for (size_t k = 0; k < wt_table_n_rows(t); k++) {
+            const bool track = strcmp(text_cell(t, k, "group"), "track") == 0;
+            const bool retract = i == 0 && strcmp(text_cell(t, k, "segment"), "retract") == 0;
+            rows[track][retract]++;
+        }
+        for (size_t g = 0; g < 2; g++) {
+            for (size_t r = 0; r < 2; r++)
+                every[g][r] = (rows[g][r] + cases[i].limit - 1) / cases[i].limit;
+            most = every[g][0] > most ? every[g][0] : most;
+        }
+        assert_true(most > 1);
+        char *script = plot_file(cases[i].figure, "gp"), *rest = NULL, words[64];
+        snprintf(words, sizeof words, "One sample of %s%zu is drawn.", cases[i].caption, most);
+        assert_non_null(strstr(script, words));
+        size_t seen = 0;
+        for (char *line = strtok_r(script, "\n", &rest); line != NULL;
+             line = strtok_r(NULL, "\n", &rest)) {
+            const char *of = strstr(line, " every ");
+            if (of == NULL || strstr(line, "index") == NULL)
+                continue;
+            const size_t g = i == 0 ? seen / 2 : seen, r = i == 0 ? seen % 2 : 0;
+            assert_true(seen++ < 4);
+            assert_int_equal(strtoul(of + strlen(" every "), NULL, 10), every[g][r]);
+        }
+        assert_int_equal(seen, i == 0 ? 4 : 2);
+        free(script);
+        wt_result_free(many);
+    }
+}
+
+static void test_every(void **state)
+{
+    (void)state;
+    static const size_t every[][2] = {{1, 1},  {9, 1},  {10, 1},  {11, 2},
+                                      {20, 2}, {21, 3}, {100, 10}};
+    for (size_t i = 0; i < sizeof every / sizeof *every; i++) {
+        figure_drawing d = {.n_sections = 1, .sections = {wt_table_new("rows", "")}};
+        fixture_check(wt_table_add_column(d.sections[0], "x", "1", "", NULL));
+        for (size_t k = 0; k < every[i][0]; k++)
+            fixture_check(wt_table_add_row(d.sections[0], NULL));
+        assert_int_equal(drawing_every(&d, 0, 10), every[i][1]);
+        assert_int_equal(drawing_every(&d, NO_SECTION, 10), 1);
+        wt_table_free(d.sections[0]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -595,6 +701,9 @@ int main(void)
         cmocka_unit_test(test_names_at_their_places),
         cmocka_unit_test(test_index_finds_every_section),
         cmocka_unit_test(test_gnuplot_draws_every_point),
+        cmocka_unit_test(test_panels),
+        cmocka_unit_test(test_crowds),
+        cmocka_unit_test(test_every),
     };
     return cmocka_run_group_tests_name("points of the figures", tests, draw_everything,
                                        remove_everything);

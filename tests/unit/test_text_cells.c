@@ -107,14 +107,22 @@ static void test_values(void **state)
         cell_kind kind;
         double value;
     } cases[] = {
-        {"1.5", '.', CELL_NUMBER, 1.5},        {"-1,5e3", ',', CELL_NUMBER, -1500},
-        {"9e98", '.', CELL_NUMBER, 9e98},      {"1e99", '.', CELL_MISSING, NAN},
-        {"-1e99", '.', CELL_MISSING, NAN},     {"-9999", '.', CELL_MISSING, NAN},
-        {"-9998", '.', CELL_NUMBER, -9998},    {"off", '.', CELL_MISSING, NAN},
-        {"offs", '.', CELL_TEXT, NAN},         {"", '.', CELL_MISSING, NAN},
-        {"--", '.', CELL_MISSING, NAN},        {"N/A", '.', CELL_MISSING, NAN},
-        {"NaN", '.', CELL_NOT_FINITE, NAN},    {"-Inf", '.', CELL_NOT_FINITE, NAN},
-        {"1.#INF", '.', CELL_NOT_FINITE, NAN}, {"1.5 x", '.', CELL_TEXT, NAN},
+        {"1.5", '.', CELL_NUMBER, 1.5},
+        {"-1,5e3", ',', CELL_NUMBER, -1500},
+        {"9e98", '.', CELL_NUMBER, 9e98},
+        {"1e99", '.', CELL_MISSING, (double)NAN},
+        {"-1e99", '.', CELL_MISSING, (double)NAN},
+        {"-9999", '.', CELL_MISSING, (double)NAN},
+        {"-9998", '.', CELL_NUMBER, -9998},
+        {"off", '.', CELL_MISSING, (double)NAN},
+        {"offs", '.', CELL_TEXT, (double)NAN},
+        {"", '.', CELL_MISSING, (double)NAN},
+        {"--", '.', CELL_MISSING, (double)NAN},
+        {"N/A", '.', CELL_MISSING, (double)NAN},
+        {"NaN", '.', CELL_NOT_FINITE, (double)NAN},
+        {"-Inf", '.', CELL_NOT_FINITE, (double)NAN},
+        {"1.#INF", '.', CELL_NOT_FINITE, (double)NAN},
+        {"1.5 x", '.', CELL_TEXT, (double)NAN},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 7;
