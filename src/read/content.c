@@ -57,7 +57,7 @@ static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
 }
 
 /* Whether a sheet holds something that is read, and of the kinds asked for. */
-static wt_status recognised(const choice *c, size_t i, bool *yes)
+static wt_status sheet_recognised(const choice *c, size_t i, bool *yes)
 {
     wt_error why = WT_ERROR_INIT;
     wt_input *input = NULL;
@@ -104,7 +104,7 @@ static wt_status choose_by_content(const choice *c)
     for (size_t i = 0; i < c->book->n; i++) {
         if (c->book->sheets[i].hidden)
             continue;
-        const wt_status status = recognised(c, i, &c->chosen[i]);
+        const wt_status status = sheet_recognised(c, i, &c->chosen[i]);
         if (status != WT_OK)
             return status;
         n += c->chosen[i];

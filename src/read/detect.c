@@ -51,7 +51,7 @@ static const signature signatures[] = {
     NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
              "copy a JPK file or a spreadsheet again, unpack any other archive"),
     NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
-    NOT_READ("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
+    NOT_READ(HDF5_SIGNATURE, "an HDF5 file of another program", AS_TEXT),
     SIGNATURE("%PDF", "a PDF document", NO_DATA),
     SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),

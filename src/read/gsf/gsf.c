@@ -174,14 +174,8 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
-    if (peek->length >= sizeof first_line - 1 &&
-        memcmp(peek->bytes, first_line, sizeof first_line - 1) == 0) {
-        match.answer = ANSWER_YES;
-        match.score = 95;
-    }
-    return match;
+    return recognised(PEEK_BEGINS(peek, first_line), 95);
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,

@@ -310,27 +310,11 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
     return status;
 }
 
-/* ---- the descriptor ---------------------------------------------------------------------------
- */
-
-static recognition detect(const file_reader *self, file_peek *peek)
-{
-    (void)self;
-    return hdf5_recognise(peek, "nsf_file_version_major");
-}
-
-static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
-{
-    double factor, offset;
-    /* Behind the door no file can be opened, so the units are read from theirs before it. */
-    const wt_status units = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
-    if (units != WT_OK)
-        return units;
-    wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
-                    "force curves of this format were not verified on a genuine file: compare one "
-                    "with the instrument's own software");
-    return hdf5_as_text(input, print_curves, text, err);
-}
+static const hdf5_curves curves = {
+    .words = "nsf_file_version_major",
+    .print = print_curves,
+    .note = "force curves of this format were not verified on a genuine file: compare one with the "
+            "instrument's own software"};
 
 const file_reader reader_nhf = {
     .info = {.id = "nhf",
@@ -339,9 +323,5 @@ const file_reader reader_nhf = {
              .verified = false,
              .evidence = "two other programs that read it; no measured file",
              .version = "1"},
-    .runs = "weartrack-stream",
-    .detect = detect,
-    .as_text = as_text,
-    .force = &text_force,
-    .describe = text_describe_made,
+    READER_OF_HDF5_CURVES(curves),
 };

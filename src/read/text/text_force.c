@@ -278,7 +278,7 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
     text_source *s = (text_source *)source;
     size_t piece = 0;
     wt_status status =
-        self->as_text != NULL ? self->as_text(input, source->log, &s->text, err) : WT_OK;
+        self->as_text != NULL ? self->as_text(self, input, source->log, &s->text, err) : WT_OK;
     wt_input *const text = s->text != NULL ? s->text : input;
     if (status == WT_OK)
         status = text_piece(self->description, text, &piece, err);
