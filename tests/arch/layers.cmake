@@ -39,13 +39,39 @@ set(within_read/nhf read/reader.h read/force_source.h read/hierarchy read/text r
 set(within_read/ntmdt read/reader.h read/bytes read/text read/description)
 set(within_read/stored read/reader.h read/facts.h read/force_source.h read/bytes read/description
   read/text)
-set(within_flow/job "")
-set(within_flow/accuracy flow/job)
-set(within_flow/case flow/case_schema.h flow/job)
+# Abilities have one folder in fit and one in flow, of the same name. The files of fit itself are for
+# all of them.
+set(within_fit/calibration "")
+set(within_fit/comparison fit)
+set(within_fit/indentation fit)
+set(within_fit/dwell fit fit/indentation)
+set(within_fit/materials fit)
+set(within_fit/ramp fit)
+set(within_fit/spot "")
+set(within_fit/strain "")
+set(within_fit/sweeps fit)
+set(within_flow/work "")
+set(within_flow/calibration flow/work)
+set(within_flow/indentation flow/work flow/materials)
+set(within_flow/dwell flow/work flow/indentation)
+set(within_flow/spot flow/work)
+set(within_flow/sweeps flow/work)
+set(within_flow/ramp flow/work flow/sweeps)
+set(within_flow/strain flow/work flow/sweeps)
+set(within_flow/materials flow/work flow/sweeps flow/comparison/margin.h)
+set(within_flow/sliding flow/work flow/materials flow/strain)
+set(within_flow/layer flow/work flow/strain flow/sliding)
+set(within_flow/comparison flow/work flow/materials flow/indentation flow/dwell)
+set(abilities work calibration comparison indentation dwell spot sweeps ramp strain materials sliding
+  layer)
+list(TRANSFORM abilities PREPEND flow/)
+set(within_flow/errors ${abilities})
+set(within_flow/accuracy flow/work)
+set(within_flow/case flow/case_schema.h ${abilities})
 set(within_flow/plan flow/case)
 set(within_flow/answer flow/case flow/plan)
-set(within_flow/run flow/job flow/case flow/plan flow/answer)
-# The sub-rooms whose headers other rooms may include.
+set(within_flow/run ${abilities} flow/errors flow/case flow/plan flow/answer)
+# The sub-rooms whose headers other rooms may include; those of an ability, the same ability may.
 set(shown data/tables)
 
 # Third-party headers: pattern, then the rooms that may include it (joined by '+': lists do not nest).
@@ -103,6 +129,7 @@ endfunction()
 
 # `folder` is the room or sub-room of the file, `row` its row in the table if it has one.
 function(check_include file room folder row header quoted)
+  string(REGEX REPLACE "^[a-z]+/?(.*)$" "\\1" ability "${folder}")
   if(header MATCHES "^weartrack/([a-z]+)\\.h$")
     set(other ${CMAKE_MATCH_1})
     set(other_folder ${other})
@@ -119,10 +146,12 @@ function(check_include file room folder row header quoted)
     check_third_party("${file}" ${room} "${header}")
     return()
   endif()
+  string(REGEX REPLACE "^[a-z]+/?(.*)$" "\\1" other_ability "${other_folder}")
   if(NOT other STREQUAL room)
     if(NOT other IN_LIST knows_${room})
       violation("${file}" "${room} may not include ${other}")
-    elseif(NOT other_folder STREQUAL other AND NOT other_folder IN_LIST shown)
+    elseif(NOT other_folder STREQUAL other AND NOT other_folder IN_LIST shown
+           AND NOT other_ability STREQUAL ability)
       violation("${file}" "${other_folder} is for ${other} alone")
     endif()
   elseif(DEFINED within_${row} AND NOT header MATCHES "^weartrack/" AND NOT row STREQUAL other_folder

@@ -43,8 +43,12 @@ set(plants
   "read/text/planted.c|#include \"read/formats.h\""
   "read/reader.h|#include \"read/formats.h\""
   "read/new/planted.c|#include \"read/reader.h\""
-  "flow/job/planted.c|#include \"flow/run/steps.h\""
-  "flow/job/planted.c|#include <gsl/gsl_math.h>"
+  "flow/indentation/planted.c|#include \"flow/run/steps.h\""
+  "flow/indentation/planted.c|#include <gsl/gsl_math.h>"
+  "flow/indentation/planted.c|#include \"fit/sweeps/spectrum.h\""
+  "flow/work/planted.c|#include \"flow/sweeps/master.h\""
+  "flow/sweeps/planted.c|#include \"flow/sliding/friction.h\""
+  "fit/indentation/planted.c|#include \"fit/sweeps/spectrum.h\""
   "cmd/planted.c|#include \"read/text/text.h\"")
 foreach(plant IN LISTS plants)
   string(REGEX MATCH "^([^|]+)\\|(.*)$" unused "${plant}")

@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "fit/curve_model.h"
+#include "fit/indentation/curve_model.h"
 #include "synthetic_curve.h"
 
 #include <stdlib.h>

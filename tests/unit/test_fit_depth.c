@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "flow/job/curve_tables.h"
+#include "flow/indentation/curve_tables.h"
 #include "model/thin_layer.h"
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"

@@ -1,7 +1,7 @@
 /* One spectrum behind all isotherms: intervals that hold the truth, far starts, outliers, which
  * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/shift_law.h"
+#include "fit/sweeps/shift_law.h"
 #include "near.h"
 #include "weartrack/fit.h"
 

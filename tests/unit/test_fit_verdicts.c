@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "fit/curve.h"
+#include "fit/indentation/curve.h"
 #include "model/adhesion.h"
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"

@@ -4,9 +4,9 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "flow/job/coverage_share.h"
-#include "flow/job/draws.h"
-#include "flow/job/regenerate.h"
+#include "flow/errors/coverage_share.h"
+#include "flow/errors/regenerate.h"
+#include "flow/work/draws.h"
 
 /* ---- numerical parts ------------------------------------------------------------------------- */
 

@@ -5,7 +5,7 @@
 #include "sliding.h"
 
 #include "base/array.h"
-#include "fit/posterior.h"
+#include "fit/sweeps/posterior.h"
 #include "flow/plan/plan.h"
 #include "kernel/angular_panels.h"
 

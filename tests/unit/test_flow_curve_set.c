@@ -2,9 +2,10 @@
  * noisy ones hold it. The curve that the set is made of is that of synthetic_curve.h.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
+#include "flow/indentation/indent.h"
 #include "synthetic_curve.h"
 
-#include "flow/job/curve_set.h"
+#include "flow/indentation/curve_set.h"
 #include "weartrack/fit.h"
 
 #include <string.h>
@@ -80,7 +81,7 @@ static void set_up(fixture *f, double noise, double correlation, const wt_prony 
     wt_indent_workspace *workspace = wt_indent_workspace_new();
     f->set = wt_curve_set_new();
     assert_true(workspace != NULL && f->set != NULL);
-    assert_int_equal(flow_contact_table(&job.tip, &f->contact, NULL), WT_OK);
+    assert_int_equal(indent_contact_table(&job.tip, &f->contact, NULL), WT_OK);
     assert_int_equal(wt_indent_force_curve(f->contact, &options, &curve, workspace, &f->fit, NULL),
                      WT_OK);
     if (f->fit.verdict != WT_CURVE_ACCEPTED)

@@ -3,7 +3,7 @@
 #include "cells.h"
 
 #include "data/tables/tables.h"
-#include "flow/job/dwell.h"
+#include "flow/dwell/dwell.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #include "cells.h"
 
 #include "base/array.h"
-#include "flow/job/draws.h"
+#include "flow/work/draws.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 

@@ -6,10 +6,10 @@
 #include "base/digest.h"
 #include "cells.h"
 
-#include "fit/curve.h"
-#include "fit/superposition.h"
-#include "flow/job/master.h"
+#include "fit/indentation/curve.h"
+#include "fit/sweeps/superposition.h"
 #include "flow/plan/plan.h"
+#include "flow/sweeps/master.h"
 #include "kernel/friction.h"
 #include "kernel/layer.h"
 #include "model/root.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "fit/spot_image.h"
+#include "fit/spot/height_image.h"
 #include "weartrack/flow.h"
 #include "writers/nid_writer.h"
 

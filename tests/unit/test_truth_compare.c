@@ -4,7 +4,7 @@
 #include "truth.h"
 
 #include "data/tables/tables.h"
-#include "flow/job/compare.h"
+#include "flow/comparison/compare.h"
 #include "weartrack/flow.h"
 
 enum { SPOTS = 3, RATES = 2 };

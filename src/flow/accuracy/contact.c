@@ -1,6 +1,6 @@
 /* Contact force and contact fit. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
-#include "flow/job/draws.h"
+#include "flow/work/draws.h"
 
 #include <float.h>
 #include <math.h>

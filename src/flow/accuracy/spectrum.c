@@ -1,7 +1,7 @@
 /* Shifting, the spectrum, and standard errors by draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
-#include "flow/job/draws.h"
+#include "flow/work/draws.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,9 @@
 /* A case and what it owns. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case.h"
 #include "flow/case_schema.h"
-#include "flow/job/inputs.h"
+#include "flow/materials/rubber.h"
+#include "flow/sliding/counter_surface.h"
+#include "flow/work/inputs.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case_sections.h"
 
-#include "flow/job/indent.h"
+#include "flow/indentation/indent.h"
 #include "read/params.h"
 
 #include <math.h>

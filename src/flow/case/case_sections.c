@@ -1,8 +1,10 @@
 /* The sections of a case file: their parameters, and what is in them beside.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case_sections.h"
+#include "flow/materials/rubber.h"
+#include "flow/sliding/counter_surface.h"
 
-#include "flow/job/inputs.h"
+#include "flow/work/inputs.h"
 #include "report/files.h"
 
 #include <math.h>

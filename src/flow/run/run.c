@@ -1,10 +1,10 @@
 /* Running a case: the stages of the plan in order, their cost, what failed, the tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/answer.h"
-#include "flow/job/cost.h"
-#include "flow/job/drawn.h"
-#include "flow/job/inputs.h"
 #include "flow/run/steps.h"
+#include "flow/sliding/drawn_materials.h"
+#include "flow/work/cost.h"
+#include "flow/work/inputs.h"
 
 #include "base/array.h"
 #include "data/tables/tables.h"

@@ -1,8 +1,10 @@
 /* The function of each stage: takes what the case and the stages before gave, runs one job.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
-#include "flow/job/cost.h"
-#include "flow/job/inputs.h"
+#include "flow/materials/rubber.h"
+#include "flow/sliding/counter_surface.h"
+#include "flow/work/cost.h"
+#include "flow/work/inputs.h"
 
 #include "data/tables/tables.h"
 

@@ -1,0 +1,355 @@
+/* Adhesion of one force curve: a snap-on of the approach, the pull-off of the retract, and the fit
+ * of adhesive contact where there is one of them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/indentation/curve_fitting.h"
+
+#include "model/adhesion.h"
+#include "model/tip.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double snap_noise = 6.0;    /* a pull, in noise of the baseline */
+static const double snap_rest = 1.5;     /* and against the deepest pull elsewhere */
+static const double gap_tolerance = 0.5; /* of the indentation: how far a snap-on may lie */
+static const double work_errors = 3.0;   /* a work of adhesion, in its standard errors */
+static const double better_chi2 = 9.0;   /* 2 ln(likelihood ratio) against no adhesion */
+static const double least_tabor = 1.0;   /* far below 5 the law is another */
+static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
+static const double most_loss = 2.0;     /* rubber loses of what the lever gives back, too */
+enum { MAX_ROUNDS = 3, LEVER_ROUNDS = 50 };
+
+/* ---- snap-on --------------------------------------------------------------------------------- */
+
+typedef struct snap {
+    size_t start, deepest, end; /* the first sample below the baseline, and the first above again */
+    double pull;
+} snap;
+
+/* A pull right before the force rises that stands out of everything before it. */
+WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
+{
+    const curve_samples *s = &f->input.samples;
+    const curve_solution *fit = &f->solution;
+    double *restrict above = f->workspace->scratch;
+    size_t deepest = 0;
+    for (size_t i = 0; i < s->n; i++)
+        above[i] = s->force[i] - curve_baseline(fit, s->position[i]);
+    const double pull = -curve_span_of(above, s->n).low;
+    while (-above[deepest] < pull)
+        deepest++;
+    size_t start = deepest, end = deepest;
+    while (start > 0 && above[start - 1] < -2.0 * f->input.step_noise && above[start - 1] < 0.0)
+        start--;
+    while (end < s->n && above[end] < 0.0)
+        end++;
+    if (start < CURVE_BASELINE_SAMPLES)
+        return false;
+    double elsewhere = 0.0, noise = 0.0;
+    for (size_t i = 0; i < start; i++) {
+        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
+        noise += above[i] * above[i];
+    }
+    noise = sqrt(noise / (double)start);
+    const double after_contact = s->position[start] - fit->p[CURVE_C];
+    const double reach = s->position[s->n - 1] - fit->p[CURVE_C];
+    *found = (snap){start, deepest, end, pull};
+    return pull > snap_noise * noise && pull > snap_rest * elsewhere &&
+           fabs(after_contact) < gap_tolerance * reach && end < s->n &&
+           s->n - (end - start) >= CURVE_MIN_SAMPLES;
+}
+
+static void leave_out(curve_fitting *f, size_t start, size_t end)
+{
+    curve_samples *s = &f->input.samples;
+    const wt_indent_workspace *w = f->workspace;
+    const size_t behind = f->input.n_all - f->n_snap - end;
+    memmove(s->position + start, s->position + end, behind * sizeof *s->position);
+    memmove(s->force + start, s->force + end, behind * sizeof *s->force);
+    if (s->force != w->force) /* less a wave */
+        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
+    s->n -= end - start;
+    f->n_snap += end - start;
+}
+
+/* ---- pull-off -------------------------------------------------------------------------------- */
+
+static double median(double *x, size_t n)
+{
+    const curve_span all = curve_span_of(x, n);
+    for (size_t i = 0; i < n; i++)
+        x[i] -= all.low;
+    return all.low + curve_select(x, n, n / 2, all.high - all.low);
+}
+
+static double within(double x, double from, double to)
+{
+    return x < from ? from : x > to ? to : x;
+}
+
+/* Without branches, which noise would take at random. */
+static double middle_of(double a, double b, double c)
+{
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    const double least = c < high ? c : high;
+    return least > low ? least : low;
+}
+
+/* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
+ * stands out of them and ends at once; else 0. */
+WIDE_REGISTERS static double sudden_pull(const double *above, size_t n, size_t far, double noise,
+                                         double *restrict middle)
+{
+    for (size_t i = 1; i + 1 < n; i++)
+        middle[i] = middle_of(above[i - 1], above[i], above[i + 1]);
+    const double elsewhere = fmax(0.0, -curve_span_of(middle + n - far, far - 1).low),
+                 pull = fmax(0.0, -curve_span_of(middle + 1, n - far - 1).low);
+    size_t deepest = pull > 0.0 ? 1 : 0;
+    while (pull > 0.0 && -middle[deepest] < pull)
+        deepest++;
+    bool sudden = false;
+    const size_t last = deepest + (size_t)(let_go * (double)n) + 3;
+    for (size_t i = deepest; i < last && i < n; i++)
+        sudden |= -above[i] < 0.5 * pull;
+    return sudden && pull > snap_noise * noise && pull > snap_rest * elsewhere ? pull : 0.0;
+}
+
+/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
+static double work_along(const double *position, const double *force, size_t n, double from,
+                         double to)
+{
+    double sum = 0.0, last = n > 0 ? within(position[0], from, to) : 0.0;
+    for (size_t i = 1; i < n; i++) {
+        const double first = last;
+        last = within(position[i], from, to);
+        if (!(fabs(last - first) > 0.0))
+            continue;
+        const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,
+                     behind = force[i] > 0.0 ? force[i] : 0.0;
+        const double step = position[i] - position[i - 1];
+        const double middle = (0.5 * (first + last) - position[i - 1]) / step;
+        sum += (before + middle * (behind - before)) * (last - first);
+    }
+    return fabs(sum);
+}
+
+/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
+ * of one force would make loss. */
+static double lever_work(const curve_fitting *f, double top)
+{
+    const double *p = f->solution.p, k = f->input.samples.spring_constant,
+                 z = fmax(top - p[CURVE_C], 0.0);
+    double depth = z, step = z;
+    for (int i = 0; i < LEVER_ROUNDS && fabs(step) > 1e-9 * z; i++) {
+        double g, slope;
+        wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
+        step = (k * (z - depth) - p[CURVE_E] * g) / (k + p[CURVE_E] * slope);
+        depth = fmax(depth + step, 0.0);
+    }
+    const double force = k * (z - depth);
+    return 0.5 * force * force / k;
+}
+
+/* Positions of the retract and forces above the baseline; returns how many are numbers. */
+WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
+                                             const double *force, size_t n)
+{
+    double *above = f->workspace->retract_force, *position = f->workspace->retract_position;
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        position[i] = f->input.direction * height[i] - f->input.position_origin;
+        above[i] = force[i] - f->input.force_origin - curve_baseline(&f->solution, position[i]);
+    }
+    sum = curve_sum(position, n) + curve_sum(above, n);
+    if (isfinite(sum))
+        return n;
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(position[i]) && isfinite(above[i])) {
+            position[kept] = position[i];
+            above[kept++] = above[i];
+        }
+    return kept;
+}
+
+/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
+ * of the sample, if it is there, too. */
+static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
+                          size_t far)
+{
+    const curve_wave *wave = &f->solution.wave;
+    const double number = wave->p[WAVE_NUMBER];
+    double *part = f->workspace->scratch;
+    for (size_t i = 0; i < n; i++) {
+        const double bent = i < n - far && !wave->by_height
+                                ? fmax(above[i], 0.0) / f->input.samples.spring_constant
+                                : 0.0;
+        const double angle = number * (position[i] - bent);
+        part[i] = wave->p[WAVE_COSINE] * cos(angle) + wave->p[WAVE_SINE] * sin(angle);
+    }
+    const double with = gsl_stats_variance(above + n - far, 1, far);
+    for (size_t i = 0; i < n; i++)
+        part[i] = above[i] - part[i];
+    if (gsl_stats_variance(part + n - far, 1, far) < with)
+        memcpy(above, part, n * sizeof *above);
+}
+
+void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
+{
+    wt_indent_workspace *w = f->workspace;
+    const curve_samples *s = &f->input.samples;
+    const double c = f->solution.p[CURVE_C];
+    double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
+    const size_t kept = measure_retract(f, height, force, n);
+    const size_t far = kept / 4;
+    if (far < CURVE_BASELINE_SAMPLES)
+        return;
+    if (curve_has_wave(&f->solution.wave))
+        take_out_wave(f, position, above, kept, far);
+    /* The far end is its own baseline: drag and drift part it from that of the approach. */
+    memcpy(scratch, above + kept - far, far * sizeof *scratch);
+    const double level = median(scratch, far);
+    for (size_t i = 0; i < kept; i++)
+        above[i] -= level;
+    for (size_t i = 0; i < far; i++)
+        scratch[i] = fabs(above[kept - far + i]);
+    const double noise = median(scratch, far) / 0.6744897501960817;
+    f->pull_off = sudden_pull(above, kept, far, noise, scratch);
+    /* A way out may begin below the top of the way in: what both have is compared. */
+    const double top =
+        fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
+    const double back = work_along(position, above, kept, c, top);
+    for (size_t i = 0; i < f->input.n_all; i++)
+        scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
+    const double in = work_along(s->position, scratch, f->input.n_all, c, top);
+    const double share = (in - back) / (in - lever_work(f, top));
+    /* Else the sample took too little of the work to say. */
+    if (share > 1.0 - most_loss && share < most_loss)
+        f->loss = share;
+}
+
+/* ---- adhesive contact ------------------------------------------------------------------------ */
+
+static size_t first_beyond(const curve_samples *s, double position)
+{
+    size_t i = 0;
+    while (i < s->n && !(s->position[i] > position))
+        i++;
+    return i;
+}
+
+static void refine(curve_fitting *f, curve_solution *s)
+{
+    curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
+}
+
+/* From a jump: first with the contact point there, then with a free one, for from the wrong side of
+ * the jump the fit does not find the way. follows: the jump stays where the tip touches. */
+static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jump, bool follows)
+{
+    const bool fixed = f->kind.contact_fixed;
+    const size_t n = f->input.samples.n;
+    curve_solution best = {.cost = (double)INFINITY};
+    if (!fixed)
+        s.p[CURVE_C] = f->input.samples.position[jump];
+    f->kind.jump = jump;
+    f->kind.contact_fixed = true;
+    refine(f, &s);
+    f->kind.contact_fixed = fixed;
+    for (int round = 0; !fixed && round < MAX_ROUNDS; round++) {
+        refine(f, &s);
+        if (!(s.cost < best.cost))
+            break;
+        best = s;
+        jump = first_beyond(&f->input.samples, s.p[CURVE_C]);
+        if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
+            n - jump < CURVE_BASELINE_SAMPLES)
+            break;
+        f->kind.jump = jump;
+    }
+    best = fixed ? s : best;
+    f->kind.jump = best.first_contact;
+    return best;
+}
+
+static bool is_adhesive(const curve_fitting *f)
+{
+    const curve_solution *s = &f->solution;
+    const double root = s->p[CURVE_W];
+    const adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], root * root};
+    return s->converged && root > work_errors * s->standard_error[CURVE_W] &&
+           !(adhesion_tabor(&law) < least_tabor);
+}
+
+/* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
+ * a jump before the contact point without adhesion. */
+static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
+{
+    static const double depths[] = {2.0, 1.0, 4.0};
+    const double k = f->input.samples.spring_constant;
+    const curve_samples *samples = &f->input.samples;
+    curve_solution start = f->solution;
+    const wt_tip *tip = contact_table_tip(f->table);
+    const adhesion law = {tip, start.p[CURVE_E], adhesion_work(tip, start.p[CURVE_E], k, pull)};
+    if (isnan(law.work))
+        return false;
+    const double release = adhesion_release(&law, k);
+    const double depth = adhesion_at(&law, adhesion_radius(&law, k, 0.0, release, 0.0)).depth;
+    const bool follows = jump == 0;
+    start.p[CURVE_W] = sqrt(law.work);
+    f->kind.adhesive = true;
+    for (size_t i = 0; i < (follows ? sizeof depths / sizeof depths[0] : 1); i++) {
+        if (follows)
+            jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
+        if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
+            continue;
+        f->solution = refine_from(f, start, jump, follows);
+        if (is_adhesive(f))
+            return true;
+    }
+    return false;
+}
+
+bool curve_fit_adhesion(curve_fitting *f)
+{
+    const curve_solution elastic = f->solution;
+    const curve_kind plainly = f->kind;
+    const bool try_it =
+        !f->options->plain_least_squares && adhesion_applies(contact_table_tip(f->table));
+    snap found;
+    if (find_snap(f, &found)) {
+        f->snap_on = found.pull;
+        if (try_it) {
+            leave_out(f, found.start, found.deepest + 1);
+            if (try_adhesive(f, found.pull, found.start)) {
+                curve_allow_loss(f);
+                if (curve_fits(f))
+                    return true;
+            }
+            found.end -= found.deepest + 1 - found.start;
+            found.deepest = found.start;
+        }
+        f->kind = plainly;
+        leave_out(f, found.start, found.end);
+        curve_begin_wave(f, &plainly.wave);
+        return curve_scan_and_refine(f);
+    }
+    /* Where the law without adhesion describes the curve it has none to speak of. */
+    if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
+        return true;
+    if (try_adhesive(f, f->pull_off, 0) &&
+        f->solution.effective_n * log(elastic.cost / f->solution.cost) > better_chi2)
+        return true;
+    /* Forces without a wave, depths and residuals shall be of that solution, too. */
+    f->kind = plainly;
+    f->solution = elastic;
+    f->kind.wave = elastic.wave;
+    refine(f, &f->solution);
+    f->kind = plainly;
+    f->solution = elastic;
+    return true;
+}

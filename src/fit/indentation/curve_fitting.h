@@ -1,0 +1,99 @@
+/* Inside the fit room: one curve on its way from samples to a verdict.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_FIT_INDENTATION_CURVE_FITTING_H
+#define WEARTRACK_FIT_INDENTATION_CURVE_FITTING_H
+
+#include "fit/indentation/curve.h"
+
+enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* least */
+
+typedef struct curve_fitting {
+    const wt_contact_table *table;
+    const wt_indent_options *options;
+    const curve_branch *approach;
+    wt_indent_workspace *workspace;
+    curve_input input;
+    curve_kind kind;
+    curve_solution solution;
+    curve_minimum minima[CURVE_MAX_MINIMA];
+    size_t n_minima;
+    double snap_on;  /* pull before contact [N]; 0: none stands out */
+    double pull_off; /* of the retract; 0: none stands out, NaN: no retract that tells */
+    double loss;     /* work that is lost on the way out, of that on the way in; NaN: no retract */
+    double loss_power; /* of time, of a memory that loses as much; 0: none; NaN: not known */
+    double loss_bias;  /* what a fit without it has more, of the modulus */
+    double loss_shift, loss_error; /* of the modulus: what other spectra have more, and its error */
+    size_t n_snap;                 /* samples left out because of a snap-on */
+    bool range_settled;
+    bool range_empty;    /* too few samples in it: the fit is that of all */
+    bool another_rubber; /* than that of the spectrum */
+    double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
+} curve_fitting;
+
+/* The fitted baseline at a position. */
+static inline double curve_baseline(const curve_solution *s, double position)
+{
+    return s->p[CURVE_F0] + s->p[CURVE_T] * (position - s->p[CURVE_C]);
+}
+
+/* Scan and refinement on the samples as they are now, with memory where a spectrum is given; false
+ * if nothing but a baseline is found. */
+bool curve_scan_and_refine(curve_fitting *f);
+/* Makes the memory ready for the samples: that of a series, its times in loading times or in
+ * seconds. False if the times of the samples are not known. */
+bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times);
+/* Does noise alone explain the residual? True where there is too little baseline to say. */
+bool curve_fits(const curve_fitting *f);
+
+/* ---- interference: curve_interference.c --------------------------------------------------------
+ */
+
+/* From a fit of all samples: where the baseline shows a sine, fits it, too. False if nothing but a
+ * baseline is found then. */
+bool curve_fit_interference(curve_fitting *f);
+/* Takes the wave out of the forces, with its phase that of the height, for a scan or a fit that
+ * begins with it. */
+void curve_begin_wave(curve_fitting *f, const curve_wave *wave);
+
+/* ---- range of the fit: curve_range.c -----------------------------------------------------------
+ */
+
+/* Fits the range of the options, from a fit of all samples. False if nothing but a baseline is
+ * found then. */
+bool curve_fit_range(curve_fitting *f);
+/* Samples in contact that are compared. */
+size_t curve_in_range(const curve_fitting *f);
+
+/* Contact points by other estimators less that of the fit, of all samples: curve_estimators.c. */
+void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATORS]);
+
+/* ---- adhesion: curve_adhesion.c -------------------------------------------------------------- */
+
+/* pull_off and loss of a retract that comes free of the sample. height, force: as measured. */
+void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n);
+/* From a fit without adhesion: finds a snap-on, and where it or the retract says that there is
+ * adhesion, fits adhesive contact; if that does not describe the curve, the pull is left out. False
+ * if nothing but a baseline is found then. */
+bool curve_fit_adhesion(curve_fitting *f);
+
+/* ---- loss without a spectrum: curve_loss.c --------------------------------------------------- */
+
+/* Where the retract shows loss, finds its bias; where the residual is more than noise, tries it
+ * again with the shape of loss allowed for. */
+void curve_allow_loss(curve_fitting *f);
+/* Loss under a punch, without a spectrum: other spectra that lose as much scatter more there than
+ * the error that is stated for the other tips. */
+bool curve_unknown_loss(const curve_fitting *f);
+
+/* ---- verdict: curve_judge.c ------------------------------------------------------------------ */
+
+/* A curve of which nothing but a baseline was found. */
+wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160]);
+/* Does the curve look more like a contact when it is run backwards? Destroys the samples then. */
+bool curve_leaves_the_sample(curve_fitting *f, char reason[160]);
+/* The verdict on a fit, with its reason. */
+wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit);
+
+#endif

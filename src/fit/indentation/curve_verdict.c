@@ -1,0 +1,383 @@
+/* The verdict on one force curve and its reason.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/indentation/curve_fitting.h"
+
+#include "base/number.h"
+#include "model/tip.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Limits of plausibility; every verdict names the number and the limit. */
+static const double contact_noise = 5.0;   /* force in contact, in noise of the baseline */
+static const double baseline_length = 0.1; /* of the largest indentation */
+static const double baseline_bend = 0.1;   /* departure from a line, of the largest force */
+static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
+static const double told_gain = 1000.0;    /* of it, in words */
+static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
+static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
+static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against the fit */
+/* In radii of a sphere, paraboloid or punch: strains of 1. A sphere's paraboloid is 11 % off there.
+ */
+static const double deepest_round = 1.0;
+enum { BEND_BLOCKS = 16 };
+static const double least_bias = 0.005; /* of a modulus by loss, to be said */
+/* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
+ * a pyramid was up to 12 % off, a cone 17 %. */
+static const double most_tried = 0.85;
+static const double flat_chance = 0.001; /* of a top of the force that flattens by noise */
+static const double most_flat = 0.5;     /* loss: much of it flattens the force, too */
+static const double large_error = 0.2;   /* of a modulus that is accepted, to be said */
+
+static const struct {
+    const char *id, *text;
+} verdicts[] = {
+#define VERDICT_ROW(name, id, text) {id, text},
+    WT_CURVE_VERDICT_LIST(VERDICT_ROW)
+#undef VERDICT_ROW
+};
+
+const char *wt_curve_verdict_id(wt_curve_verdict verdict)
+{
+    size_t i = (size_t)verdict;
+    return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].id : "unknown";
+}
+
+const char *wt_curve_verdict_text(wt_curve_verdict verdict)
+{
+    size_t i = (size_t)verdict;
+    return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].text : "unknown verdict";
+}
+
+/* How far means over blocks of the baseline residual depart from a line, peak to peak of a wave of
+ * their scatter, beyond what white noise does. */
+static double baseline_departure(const curve_fitting *f)
+{
+    const curve_samples *s = &f->input.samples;
+    size_t length = f->solution.first_contact / BEND_BLOCKS;
+    if (length == 0)
+        return 0.0;
+    double square = 0.0;
+    for (size_t block = 0; block < BEND_BLOCKS; block++) {
+        double sum = 0.0;
+        for (size_t i = block * length; i < (block + 1) * length; i++)
+            sum += s->force[i] - curve_baseline(&f->solution, s->position[i]);
+        square += sum / (double)length * (sum / (double)length) / BEND_BLOCKS;
+    }
+    square -= f->input.step_noise * f->input.step_noise / (double)length;
+    return square > 0.0 ? 2.0 * M_SQRT2 * sqrt(square) : 0.0;
+}
+
+/* ---- verdict --------------------------------------------------------------------------------- */
+
+/* How far the mean force falls from the first tenth of the samples to the last. */
+static double force_fall(const curve_samples *s)
+{
+    size_t tenth = s->n / 10;
+    double first = 0.0, last = 0.0;
+    for (size_t i = 0; i < tenth; i++) {
+        first += s->force[i] / (double)tenth;
+        last += s->force[s->n - 1 - i] / (double)tenth;
+    }
+    return first - last;
+}
+
+wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160])
+{
+    const double fall = force_fall(&f->input.samples);
+    const si_text change = curve_si(fabs(fall), "N"), noise = curve_si(f->input.step_noise, "N");
+    if (fall > contact_noise * f->input.step_noise) {
+        curve_say(reason,
+                  "the force falls by %s towards the sample (noise %s): sign of the deflection?",
+                  change.words, noise.words);
+        return WT_CURVE_NEGATIVE;
+    }
+    curve_say(reason, "the force changes by %s from start to end (noise %s)", change.words,
+              noise.words);
+    return WT_CURVE_NO_CONTACT;
+}
+
+bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
+{
+    curve_samples *s = &f->input.samples;
+    const double fall = force_fall(s);
+    if (!(fall > contact_noise * f->input.step_noise))
+        return false;
+    curve_minimum minima[CURVE_MAX_MINIMA];
+    double cost = (double)INFINITY;
+    size_t n = curve_scan(f->table, s, true, false, f->workspace, minima);
+    if (n > 0 && minima[0].contact_point > s->position[0])
+        cost = minima[0].cost;
+    curve_reverse(s);
+    n = curve_scan(f->table, s, true, false, f->workspace, minima);
+    if (n > 0 && minima[0].contact_point > s->position[0] &&
+        minima[0].cost < reverse_ratio * cost) {
+        curve_say(reason, "the force falls by %s along the segment: it leaves the sample",
+                  curve_si(fall, "N").words);
+        return true;
+    }
+    curve_reverse(s);
+    return false;
+}
+
+/* What is against the contact point; accepted if nothing is. */
+static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fit *fit,
+                                      char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    const curve_samples *samples = &f->input.samples;
+    const double length = s->p[CURVE_C] - samples->position[0];
+    if (length <= 0.0) {
+        curve_say(reason, "contact is found %s before the first sample",
+                  curve_si(-length, "m").words);
+        return WT_CURVE_NO_BASELINE;
+    }
+    if (!(fit->max_force > contact_noise * s->noise)) {
+        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed",
+                  curve_si(fit->max_force, "N").words, fit->max_force / s->noise,
+                  curve_si(s->noise, "N").words, contact_noise);
+        return WT_CURVE_NO_CONTACT;
+    }
+    if (s->first_contact < CURVE_BASELINE_SAMPLES ||
+        length < baseline_length * s->max_indentation) {
+        curve_say(reason, "baseline of %zu samples and %s; %d samples and %s needed",
+                  s->first_contact, curve_si(length, "m").words, CURVE_BASELINE_SAMPLES,
+                  curve_si(baseline_length * s->max_indentation, "m").words);
+        return WT_CURVE_NO_BASELINE;
+    }
+    if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
+        curve_say(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
+                  f->range_empty || samples->gap_to > samples->gap_from ||
+                          samples->n < f->input.n_all - f->n_snap
+                      ? " in the range of the fit"
+                      : "",
+                  CURVE_CONTACT_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+    if (s->sensitivity_gain > rigid_gain) {
+        curve_say(
+            reason,
+            "1 %% of deflection sensitivity would change the modulus by %s%.0f %%, %g %% allowed",
+            s->sensitivity_gain > told_gain ? "more than " : "",
+            fmin(s->sensitivity_gain, told_gain), rigid_gain);
+        return WT_CURVE_RIGID;
+    }
+    if (f->n_minima < 2 || f->kind.adhesive)
+        return WT_CURVE_ACCEPTED;
+    const curve_minimum *second = &f->minima[1];
+    const double ratio = second->cost / f->minima[0].cost;
+    const double moduli = log(second->reduced_modulus / s->p[CURVE_E]);
+    if (!(s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio))
+        return WT_CURVE_ACCEPTED;
+    const double other = second->reduced_modulus * fit->modulus.value / s->p[CURVE_E];
+    curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
+              curve_si(fabs(second->contact_point - s->p[CURVE_C]), "m").words,
+              curve_si(other, "Pa").words, curve_si(fit->modulus.value, "Pa").words, ratio);
+    return WT_CURVE_AMBIGUOUS;
+}
+
+bool curve_fits(const curve_fitting *f)
+{
+    return !(f->solution.lack.chance < f->options->least_chance);
+}
+
+bool curve_unknown_loss(const curve_fitting *f)
+{
+    return contact_table_tip(f->table)->shape == WT_TIP_PUNCH && f->loss > CURVE_LEAST_LOSS &&
+           !f->kind.memory;
+}
+
+/* Forces of a punch do not rise ever steeper. */
+static bool flattens(const curve_fitting *f)
+{
+    return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
+           contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
+}
+
+/* Whether the contact law holds so deep. */
+static bool is_too_deep(const curve_fitting *f, char reason[160])
+{
+    const double depth = f->solution.max_indentation;
+    const wt_tip *tip = contact_table_tip(f->table);
+    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    const double reach = thin_sample_reach(tip, depth);
+    if (!faced && depth > deepest_round * tip->radius) {
+        curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
+                  curve_si(depth, "m").words, depth / tip->radius, deepest_round);
+        return true;
+    }
+    if (reach > THIN_SAMPLE_REACH)
+        curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
+                  reach, THIN_SAMPLE_REACH);
+    return reach > THIN_SAMPLE_REACH;
+}
+
+/* What makes the residual larger than the noise. */
+static wt_curve_verdict judge_lack(const curve_fitting *f, char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    const double lack = sqrt(s->lack.statistic);
+    if (f->snap_on > 0.0 || f->pull_off > 0.0) {
+        curve_say(reason,
+                  "pull of %s; neither contact with adhesion nor without describes the rest: "
+                  "residual %.3g times its noise",
+                  curve_si(fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0), "N").words,
+                  lack);
+        return WT_CURVE_ADHESIVE;
+    }
+    if (s->bent) {
+        curve_say(reason,
+                  "baseline bent (chance %s if it were straight), and slow residual in "
+                  "contact %.3g times its noise: piezo or drift",
+                  number_chance(s->lack.baseline_chance).text, lack);
+        return WT_CURVE_DRIFT;
+    }
+    curve_say(reason,
+              "slow residual %.3g times what the noise of the baseline explains: another "
+              "tip, a layer, loss, adhesion, an uneven piezo or detector",
+              lack);
+    return WT_CURVE_POOR_FIT;
+}
+
+/* What is against the contact law. */
+static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
+                                  char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    if (is_too_deep(f, reason))
+        return WT_CURVE_TOO_DEEP;
+    if (flattens(f)) {
+        curve_say(
+            reason,
+            "the force flattens towards its top (chance %s by noise): detector, or the sample "
+            "gives way; a force limit below %s makes the rest usable",
+            number_chance(s->lack.flat_chance).text, curve_si(s->lack.flat_from, "N").words);
+        return WT_CURVE_SATURATED;
+    }
+    if (curve_unknown_loss(f)) {
+        curve_say(
+            reason,
+            "%.0f %% of the work lost; what loss does under a punch is known with the DMA only",
+            100.0 * f->loss);
+        return WT_CURVE_POOR_FIT;
+    }
+    if (!s->converged || isnan(s->standard_error[CURVE_E])) {
+        curve_say(reason, "the least-squares fit found no minimum within its iterations");
+        return WT_CURVE_POOR_FIT;
+    }
+    if (isnan(s->lack.chance) && f->options->least_chance > 0.0) {
+        curve_say(reason, "baseline of %zu samples: too short to try the fit against its noise",
+                  s->first_contact);
+        return WT_CURVE_NO_BASELINE;
+    }
+    if (!curve_fits(f))
+        return judge_lack(f, reason);
+    if (!f->kind.adhesive && fit->tabor_number < 1.0 &&
+        f->pull_off * fit->modulus.value > 2.0 * fit->modulus.standard_error * fit->max_force) {
+        curve_say(reason,
+                  "pull-off of %s at a Tabor number of %.2g: the attraction reaches beyond the "
+                  "contact, of which the contact law knows nothing",
+                  curve_si(f->pull_off, "N").words, fit->tabor_number);
+        return WT_CURVE_ADHESIVE;
+    }
+    if (fit->modulus.standard_error > f->options->largest_error * fit->modulus.value) {
+        curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s",
+                  100.0 * fit->modulus.standard_error / fit->modulus.value,
+                  curve_si(fit->modulus.value, "Pa").words, 100.0 * f->options->largest_error,
+                  s->bent ? "; baseline bent" : "");
+        return WT_CURVE_IMPRECISE;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+/* Whole, or not at all. */
+static void append(char reason[160], const char *text)
+{
+    if (strlen(reason) + strlen(text) < 160)
+        strcat(reason, text);
+}
+
+/* Appends what is odd about an accepted curve. */
+static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
+{
+    char text[160];
+    if (f->kind.adhesive) {
+        curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
+        append(reason, text);
+    } else if (f->snap_on > 0.0) {
+        curve_say(text, "; snap-on of %s left out (%zu samples)", curve_si(f->snap_on, "N").words,
+                  f->n_snap);
+        append(reason, text);
+    }
+    if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
+        !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
+        curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
+                  curve_si(f->pull_off, "N").words);
+        append(reason, text);
+    }
+    if (f->another_rubber && !f->kind.adhesive)
+        append(reason, "; not of the spectrum of the DMA");
+    if (f->kind.lossy && f->kind.memory) {
+        append(reason, "; the spectrum of the DMA does not describe its loss");
+    } else if (fabs(f->loss_bias) >= least_bias) {
+        curve_say(
+            text,
+            "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
+            100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
+            f->loss_bias > 0.0 ? "less" : "more");
+        append(reason, text);
+    } else if (f->kind.lossy) {
+        curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
+                  fit->loss > most_tried ? "how near |E*| is not known"
+                                         : "|E*| at 1/(loading time) within 20 %");
+        append(reason, text);
+    }
+    if (fit->interference_amplitude > 0.0) {
+        curve_say(text, "; interference of %s and a period of %s fitted",
+                  curve_si(fit->interference_amplitude, "N").words,
+                  curve_si(fit->interference_period, "m").words);
+        append(reason, text);
+    }
+    if (f->solution.bent)
+        append(reason, "; baseline bent, which the error holds");
+    const double error = fit->modulus.standard_error / fit->modulus.value;
+    if (error > large_error) {
+        curve_say(text, "; standard error %.0f %%", 100.0 * error);
+        append(reason, text);
+    }
+    const struct {
+        size_t n;
+        const char *what;
+    } left_out[] = {{f->input.n_missing, "missing samples"},
+                    {f->input.n_repeated, "repeated samples"},
+                    {f->input.n_spikes, "spikes left out"}};
+    for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
+        if (left_out[i].n > 0) {
+            curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
+            append(reason, text);
+        }
+    if (!f->range_settled)
+        append(reason, "; the range of the fit did not settle");
+}
+
+wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
+{
+    wt_curve_verdict verdict = judge_contact(f, fit, fit->reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+    const double departure = baseline_departure(f);
+    if (departure > baseline_bend * fit->max_force) {
+        curve_say(fit->reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed",
+                  curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
+                  curve_si(fit->max_force, "N").words, 100.0 * baseline_bend);
+        return WT_CURVE_DRIFT;
+    }
+    verdict = judge_law(f, fit, fit->reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+    curve_say(fit->reason, "accepted");
+    add_notes(f, fit, fit->reason);
+    return WT_CURVE_ACCEPTED;
+}

@@ -1,0 +1,197 @@
+/* Where a curve has its peak, and what it is between its points.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/ramp/smooth.h"
+
+#include "base/normal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A peak is looked at down to this share of its height, and over at least so many points. Values
+ * between points come from so many neighbours. */
+static const double share = 0.6;
+enum { LEAST = 9, NEIGHBOURS = 15, FROM_END = 2, GRID = 100, HALVINGS = 40 };
+
+static void nothing(wt_peak *peak, const char *why)
+{
+    *peak = (wt_peak){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                      .height = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                      .misfit = (double)NAN,
+                      .why_not = why};
+}
+
+/* First and one past the last point of the peak about the largest one; false: it leaves the range.
+ */
+static bool choose_points(const double *y, size_t n, size_t top, size_t asked, size_t *first,
+                          size_t *last)
+{
+    *first = top;
+    *last = top + 1;
+    if (asked > 0) {
+        *first = top - (asked - 1) / 2;
+        *last = *first + asked;
+        return top >= (asked - 1) / 2 && *last <= n;
+    }
+    while (*first > 0 && y[*first - 1] > share * y[top])
+        --*first;
+    while (*last < n && y[*last] > share * y[top])
+        ++*last;
+    while (*last - *first < LEAST && *last - *first < n) {
+        if (*first > 0 && (*last == n || y[*first - 1] >= y[*last]))
+            --*first;
+        else
+            ++*last;
+    }
+    return true;
+}
+
+/* ---- the place of a maximum ------------------------------------------------------------------ */
+
+static double falls(const smooth *s, double x)
+{
+    return smooth_below(s, x, SMOOTH_SLOPE, 0);
+}
+
+/* Where it becomes as probable that the curve falls as `level`, between two places. */
+static double crossing(const smooth *s, double low, double high, double level)
+{
+    for (int i = 0; i < HALVINGS; i++) {
+        const double middle = 0.5 * (low + high);
+        if (falls(s, middle) < level)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The maximum nearest to the largest point, with the places where it is 97.5 % sure to rise and to
+ * fall; NaN where the points do not tell. */
+static wt_interval find_top(const smooth *s, double from, double to, double largest)
+{
+    const double step = (to - from) / GRID;
+    double probable[GRID + 1];
+    wt_interval top = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    long at = -1;
+    for (int i = 0; i <= GRID; i++)
+        probable[i] = falls(s, from + i * step);
+    for (long i = 0; i < GRID; i++)
+        if (probable[i] < 0.5 && probable[i + 1] >= 0.5 &&
+            (at < 0 ||
+             fabs(from + (double)i * step - largest) < fabs(from + (double)at * step - largest)))
+            at = i;
+    if (at < 0)
+        return top;
+    top.value = crossing(s, from + (double)at * step, from + (double)(at + 1) * step, 0.5);
+    long low = at, high = at + 1;
+    while (low >= 0 && probable[low] > 0.025)
+        low--;
+    while (high <= GRID && probable[high] < 0.975)
+        high++;
+    if (low >= 0)
+        top.low = crossing(s, from + (double)low * step, from + (double)(low + 1) * step, 0.025);
+    if (high <= GRID)
+        top.high = crossing(s, from + (double)(high - 1) * step, from + (double)high * step, 0.975);
+    top.standard_error = (top.high - top.low) / (2 * NORMAL_95);
+    return top;
+}
+
+/* ---- peak ------------------------------------------------------------------------------------ */
+
+static double relative_misfit(const smooth *s, const double *x, const double *z, size_t n)
+{
+    double squares = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = z[i] - smooth_mean(s, x[i], SMOOTH_VALUE);
+        squares += off * off;
+    }
+    return sqrt(squares / (double)n);
+}
+
+/* Of n points about the largest; z: what is fitted, the logarithm or with `parabola` the value over
+ * that of the largest. */
+static wt_status place_peak(const double *x, const double *z, size_t n, double largest_x,
+                            double largest_y, bool parabola, wt_peak *peak, wt_error *err)
+{
+    smooth s;
+    wt_status status = smooth_new(x, z, n, parabola, &s, err);
+    if (status == WT_OK) {
+        peak->at = find_top(&s, x[0], x[n - 1], largest_x);
+        peak->n = n;
+    }
+    const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
+    peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
+    if (status == WT_OK && !peak->found) {
+        nothing(peak, "no peak that stands out of the scatter of the points");
+    } else if (status == WT_OK) {
+        const wt_interval height = smooth_interval(&s, peak->at.value);
+        peak->misfit = relative_misfit(&s, x, z, n);
+        if (parabola)
+            peak->misfit /= height.value;
+        peak->height.value = largest_y * (parabola ? height.value : exp(height.value));
+        peak->height.low = largest_y * (parabola ? height.low : exp(height.low));
+        peak->height.high = largest_y * (parabola ? height.high : exp(height.high));
+        peak->height.standard_error =
+            largest_y * height.standard_error * (parabola ? 1 : exp(height.value));
+        peak->why_not = closed ? "" : "so few points do not bound it";
+    }
+    smooth_free(&s);
+    return status;
+}
+
+wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points, wt_peak *peak,
+                       wt_error *err)
+{
+    size_t top = 0, first, last;
+    nothing(peak, "fewer than 5 points");
+    if (n < SMOOTH_LEAST)
+        return WT_OK;
+    for (size_t i = 1; i < n; i++)
+        top = y[i] > y[top] ? i : top;
+    if (top < FROM_END || top + FROM_END >= n) {
+        nothing(peak, top < FROM_END ? "no peak in range: largest at the lowest temperatures"
+                                     : "no peak in range: largest at the highest temperatures");
+        return WT_OK;
+    }
+    if (!choose_points(y, n, top, points, &first, &last)) {
+        nothing(peak, "no peak in range: too few points on one side of the largest");
+        return WT_OK;
+    }
+    double *z = malloc((last - first) * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a peak");
+    for (size_t i = first; i < last; i++)
+        z[i - first] = points > 0 ? y[i] / y[top] : log(y[i] / y[top]);
+    const wt_status status =
+        place_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
+    free(z);
+    return status;
+}
+
+/* ---- between points -------------------------------------------------------------------------- */
+
+wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
+                           wt_interval *value, wt_error *err)
+{
+    *value = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    if (n < SMOOTH_LEAST || at < x[0] || at > x[n - 1])
+        return WT_OK;
+    const size_t most = n < NEIGHBOURS ? n : NEIGHBOURS;
+    size_t first = 0;
+    while (first + most < n && at - x[first] > x[first + most] - at)
+        first++;
+    double z[NEIGHBOURS];
+    for (size_t i = 0; i < most; i++)
+        z[i] = log(y[first + i]);
+    smooth s;
+    const wt_status status = smooth_new(x + first, z, most, false, &s, err);
+    if (status == WT_OK) {
+        const wt_interval log_value = smooth_interval(&s, at);
+        value->value = exp(log_value.value);
+        value->low = exp(log_value.low);
+        value->high = exp(log_value.high);
+        value->standard_error = value->value * log_value.standard_error;
+    }
+    smooth_free(&s);
+    return status;
+}

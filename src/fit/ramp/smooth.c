@@ -1,0 +1,307 @@
+/* A curve through scattered points. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/ramp/smooth.h"
+
+#include "base/array.h"
+#include "base/gsl_quiet.h"
+#include "base/normal.h"
+#include "fit/pool_gsl.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+enum { PARABOLA = SMOOTH_PARABOLA };
+/* Lengths over which the departure changes, of half the range; its variance over that of the
+ * scatter of a point. */
+static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
+static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios), HALVINGS = 40 };
+/* What weighs less than this share of the best changes no digit that is shown. */
+static const double counts_for_nothing = 1e-3;
+
+/* One smoothness and size of the departure. */
+typedef struct smooth_way {
+    double length, ratio;
+    double log_weight, weight;
+    double variance;  /* of the scatter */
+    gsl_matrix *root; /* Cholesky factor of the covariance over that variance */
+    gsl_matrix *flat; /* [n][PARABOLA] covariance^-1 powers */
+    gsl_vector *pull; /* [n] covariance^-1 residual */
+    double coefficient[PARABOLA], inverse[PARABOLA][PARABOLA];
+} smooth_way;
+
+/* Powers of x, or their slopes. */
+static void powers(double x, smooth_order order, double p[PARABOLA])
+{
+    p[0] = order == SMOOTH_VALUE ? 1 : 0;
+    p[1] = order == SMOOTH_VALUE ? x : 1;
+    p[2] = order == SMOOTH_VALUE ? x * x : 2 * x;
+}
+
+/* Of the departure at x, or its slope, with that at a point. */
+static double covariance(const smooth_way *w, double x, double at, smooth_order order)
+{
+    const double away = (x - at) / w->length, value = w->ratio * exp(-0.5 * away * away);
+    return order == SMOOTH_VALUE ? value : -away / w->length * value;
+}
+
+/* ---- points ---------------------------------------------------------------------------------- */
+
+static wt_status take_points(smooth *s, const double *x, const double *y, size_t n, wt_error *err)
+{
+    const size_t each = (n + SMOOTH_POINTS - 1) / SMOOTH_POINTS;
+    s->n = (n + each - 1) / each;
+    s->x = pool_numbers(&s->memory, s->n);
+    s->y = pool_numbers(&s->memory, s->n);
+    s->count = pool_numbers(&s->memory, s->n);
+    s->ways = pool_alloc(&s->memory, WAYS, sizeof *s->ways);
+    if (s->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    s->centre = 0.5 * (x[0] + x[n - 1]);
+    s->half = x[n - 1] > x[0] ? 0.5 * (x[n - 1] - x[0]) : 1;
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = i / each;
+        const double before = s->count[k]++;
+        s->x[k] += ((x[i] - s->centre) / s->half - s->x[k]) / (before + 1);
+        s->y[k] += (y[i] - s->y[k]) / (before + 1);
+    }
+    return WT_OK;
+}
+
+/* ---- one way --------------------------------------------------------------------------------- */
+
+/* Generalised least squares of the parabola; false if the matrices are singular. */
+static bool solve_parabola(const smooth *s, smooth_way *w, gsl_vector *powers_y, double *log_det)
+{
+    double data[PARABOLA * PARABOLA] = {0};
+    gsl_matrix_view normal = gsl_matrix_view_array(data, PARABOLA, PARABOLA);
+    gsl_vector_view coefficient = gsl_vector_view_array(w->coefficient, PARABOLA);
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA];
+        powers(s->x[i], SMOOTH_VALUE, p);
+        for (size_t a = 0; a < PARABOLA; a++)
+            for (size_t b = 0; b < PARABOLA; b++)
+                data[a * PARABOLA + b] += p[a] * gsl_matrix_get(w->flat, i, b);
+    }
+    if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS)
+        return false;
+    for (size_t a = 0; a < PARABOLA; a++)
+        *log_det += 2 * log(gsl_matrix_get(&normal.matrix, a, a));
+    gsl_linalg_cholesky_solve(&normal.matrix, powers_y, &coefficient.vector);
+    gsl_linalg_cholesky_invert(&normal.matrix);
+    memcpy(w->inverse, data, sizeof data);
+    return true;
+}
+
+/* Fills the way from its length and ratio; false if it cannot be. powers_y: [n] scratch. */
+static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
+{
+    double log_det = 0, squares = 0;
+    gsl_vector_set_zero(powers_y);
+    for (size_t i = 0; i < s->n; i++)
+        for (size_t k = 0; k < s->n; k++)
+            gsl_matrix_set(w->root, i, k,
+                           covariance(w, s->x[i], s->x[k], SMOOTH_VALUE) +
+                               (i == k ? 1 / s->count[i] : 0));
+    if (gsl_linalg_cholesky_decomp1(w->root) != GSL_SUCCESS)
+        return false;
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA];
+        powers(s->x[i], SMOOTH_VALUE, p);
+        log_det += 2 * log(gsl_matrix_get(w->root, i, i));
+        for (size_t a = 0; a < PARABOLA; a++)
+            gsl_matrix_set(w->flat, i, a, p[a]);
+    }
+    for (size_t a = 0; a < PARABOLA; a++) {
+        gsl_vector_view column = gsl_matrix_column(w->flat, a);
+        gsl_linalg_cholesky_svx(w->root, &column.vector);
+        for (size_t i = 0; i < s->n; i++)
+            *gsl_vector_ptr(powers_y, a) += gsl_vector_get(&column.vector, i) * s->y[i];
+    }
+    gsl_vector_view known = gsl_vector_subvector(powers_y, 0, PARABOLA);
+    if (!solve_parabola(s, w, &known.vector, &log_det))
+        return false;
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA], fitted = 0;
+        powers(s->x[i], SMOOTH_VALUE, p);
+        for (size_t a = 0; a < PARABOLA; a++)
+            fitted += p[a] * w->coefficient[a];
+        gsl_vector_set(w->pull, i, s->y[i] - fitted);
+    }
+    gsl_vector_memcpy(powers_y, w->pull);
+    gsl_linalg_cholesky_svx(w->root, w->pull);
+    gsl_blas_ddot(powers_y, w->pull, &squares);
+    const double freedom = (double)(s->n - PARABOLA);
+    squares = fmax(squares, 1e-300);
+    w->variance = squares / freedom;
+    w->log_weight = -0.5 * (log_det + freedom * log(squares));
+    return isfinite(w->log_weight);
+}
+
+static smooth_way *new_way(smooth *s, double length, double ratio)
+{
+    smooth_way *w = &s->ways[s->n_ways];
+    *w = (smooth_way){.length = length,
+                      .ratio = ratio,
+                      .root = pool_matrix(&s->memory, s->n, s->n),
+                      .flat = pool_matrix(&s->memory, s->n, PARABOLA),
+                      .pull = pool_vector(&s->memory, s->n)};
+    return w;
+}
+
+wt_status smooth_new(const double *x, const double *y, size_t n, bool parabola, smooth *s,
+                     wt_error *err)
+{
+    *s = (smooth){.n = 0};
+    gsl_quiet();
+    wt_status status = take_points(s, x, y, n, err);
+    gsl_vector *scratch = status == WT_OK ? pool_vector(&s->memory, s->n) : NULL;
+    double best = -HUGE_VAL, sum = 0;
+    for (size_t k = 0; status == WT_OK && k < COUNT_OF(lengths); k++)
+        for (size_t r = 0; r < COUNT_OF(ratios); r++) {
+            if (parabola && k + r > 0)
+                continue;
+            smooth_way *w = new_way(s, lengths[k], parabola ? 0 : ratios[r]);
+            if (s->memory.failed)
+                return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+            if (!fit_way(s, w, scratch))
+                continue;
+            best = fmax(best, w->log_weight);
+            s->n_ways++;
+        }
+    if (status == WT_OK && s->n_ways == 0)
+        status = wt_fail(err, WT_E_CONVERGENCE, "no curve through %zu points", n);
+    const size_t made = s->n_ways;
+    s->n_ways = 0;
+    for (size_t i = 0; i < made; i++) {
+        s->ways[i].weight = exp(s->ways[i].log_weight - best);
+        if (s->ways[i].weight < counts_for_nothing)
+            continue;
+        sum += s->ways[i].weight;
+        s->ways[s->n_ways++] = s->ways[i];
+    }
+    for (size_t i = 0; i < s->n_ways; i++)
+        s->ways[i].weight /= sum;
+    return status;
+}
+
+void smooth_free(smooth *s)
+{
+    pool_free(&s->memory);
+    *s = (smooth){.n = 0};
+}
+
+/* ---- what it says ---------------------------------------------------------------------------- */
+
+/* By one way, in units of the scaled x. */
+static double way_mean(const smooth *s, const smooth_way *w, double x, smooth_order order)
+{
+    double p[PARABOLA], mean = 0;
+    powers(x, order, p);
+    for (size_t a = 0; a < PARABOLA; a++)
+        mean += p[a] * w->coefficient[a];
+    for (size_t i = 0; i < s->n; i++)
+        mean += covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
+    return mean;
+}
+
+static double way_error(const smooth *s, const smooth_way *w, double x, smooth_order order)
+{
+    double p[PARABOLA], known[SMOOTH_POINTS];
+    double square = order == SMOOTH_VALUE ? w->ratio : w->ratio / (w->length * w->length);
+    gsl_vector_view column = gsl_vector_view_array(known, s->n);
+    powers(x, order, p);
+    for (size_t i = 0; i < s->n; i++) {
+        known[i] = covariance(w, x, s->x[i], order);
+        for (size_t a = 0; a < PARABOLA; a++)
+            p[a] -= known[i] * gsl_matrix_get(w->flat, i, a);
+    }
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, w->root, &column.vector);
+    for (size_t i = 0; i < s->n; i++)
+        square -= known[i] * known[i];
+    for (size_t a = 0; a < PARABOLA; a++)
+        for (size_t b = 0; b < PARABOLA; b++)
+            square += p[a] * w->inverse[a][b] * p[b];
+    return sqrt(fmax(square, 0) * w->variance);
+}
+
+/* The order counts from the scaled x to x. */
+static double scale_of(const smooth *s, smooth_order order)
+{
+    return order == SMOOTH_VALUE ? 1 : 1 / s->half;
+}
+
+double smooth_mean(const smooth *s, double x, smooth_order order)
+{
+    double mean = 0;
+    for (size_t i = 0; i < s->n_ways; i++)
+        mean += s->ways[i].weight * way_mean(s, &s->ways[i], (x - s->centre) / s->half, order);
+    return mean * scale_of(s, order);
+}
+
+/* What each way says of a place. */
+typedef struct opinions {
+    size_t n;
+    double weight[WAYS], mean[WAYS], error[WAYS], freedom;
+} opinions;
+
+static opinions ask(const smooth *s, double x, smooth_order order)
+{
+    opinions o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
+    const double at = (x - s->centre) / s->half, scale = scale_of(s, order);
+    for (size_t i = 0; i < o.n; i++) {
+        o.weight[i] = s->ways[i].weight;
+        o.mean[i] = scale * way_mean(s, &s->ways[i], at, order);
+        o.error[i] = scale * way_error(s, &s->ways[i], at, order);
+    }
+    return o;
+}
+
+static double below(const opinions *o, double limit)
+{
+    double probability = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        const double away = limit - o->mean[i];
+        probability +=
+            o->weight[i] *
+            (o->error[i] > 0 ? gsl_cdf_tdist_P(away / o->error[i], o->freedom) : away > 0);
+    }
+    return probability;
+}
+
+double smooth_below(const smooth *s, double x, smooth_order order, double limit)
+{
+    const opinions o = ask(s, x, order);
+    return below(&o, limit);
+}
+
+/* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
+static double quantile(const opinions *o, double probability, double from, double step)
+{
+    double other = from + step;
+    while (step != 0 && (below(o, other) < probability) == (step > 0) && isfinite(other))
+        other += step *= 2;
+    for (int i = 0; i < HALVINGS; i++) {
+        const double middle = 0.5 * (from + other);
+        if ((below(o, middle) < probability) == (step > 0))
+            from = middle;
+        else
+            other = middle;
+    }
+    return 0.5 * (from + other);
+}
+
+wt_interval smooth_interval(const smooth *s, double x)
+{
+    const opinions o = ask(s, x, SMOOTH_VALUE);
+    double mean = 0, error = 0;
+    for (size_t i = 0; i < o.n; i++) {
+        mean += o.weight[i] * o.mean[i];
+        error = fmax(error, o.error[i]);
+    }
+    const double low = quantile(&o, 0.025, mean, -error), high = quantile(&o, 0.975, mean, error);
+    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
+}

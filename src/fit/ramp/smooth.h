@@ -1,0 +1,34 @@
+/* A curve through scattered points: a parabola and a smooth departure from it (a Gaussian process),
+ * averaged over how smooth and how large by restricted likelihood. Internal to the fit room.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FIT_RAMP_SMOOTH_H
+#define WEARTRACK_FIT_RAMP_SMOOTH_H
+
+#include "base/pool.h"
+#include "weartrack/fit.h"
+
+/* Coefficients of the parabola; points that the fit is made of, others are joined to so many. */
+enum { SMOOTH_PARABOLA = 3, SMOOTH_POINTS = 48, SMOOTH_LEAST = 5 };
+
+struct smooth_way;
+typedef struct smooth {
+    pool memory;
+    size_t n;
+    double *x, *y, *count; /* [n] x from -1 to 1; how many points were joined */
+    double centre, half;
+    size_t n_ways;
+    struct smooth_way *ways;
+} smooth;
+
+typedef enum smooth_order { SMOOTH_VALUE, SMOOTH_SLOPE } smooth_order;
+
+/* x rising, n >= SMOOTH_LEAST; `parabola`: no departure from it. */
+wt_status smooth_new(const double *x, const double *y, size_t n, bool parabola, smooth *s,
+                     wt_error *err) WT_NODISCARD;
+void smooth_free(smooth *s);
+double smooth_mean(const smooth *s, double x, smooth_order order);
+/* Probability that the curve, or its slope, is below `limit` at x. */
+double smooth_below(const smooth *s, double x, smooth_order order, double limit);
+wt_interval smooth_interval(const smooth *s, double x);
+
+#endif

@@ -1,0 +1,477 @@
+/* The master curve of a sweep: start, outliers, which isotherms hang together, noise, the fits over
+ * the widths of the vertical shift, the law, the verdict. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/sweeps/master.h"
+
+#include "base/param.h"
+#include "fit/pool_gsl.h"
+#include "fit/sweeps/closed_form.h"
+#include "fit/sweeps/spectrum_start.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. Cells:
+ * what of all widths each stands for; in one of four sweeps there is next to none of either. */
+static const double geometry_widths[] = {0.0003, 0.002, 0.008, 0.03};
+static const double geometry_cells[] = {0.0068, 0.0032, 0.0115, 0.0445};
+static const double departure_widths[] = {0.0, 0.02, 0.1};
+static const double departure_cells[] = {0.02, 0.04, 0.12};
+static const double geometry_believed = 0.01, departure_believed = 0.05;
+/* Noise that is the same all along an isotherm. */
+static const double even[SPECTRUM_SHAPES] = {0.0};
+enum { GEOMETRIES = 4, DEPARTURES = 3, MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
+
+/* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says.
+ */
+static const double hopeless = 20.0;
+
+/* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
+ * chambers agree to. */
+static const double same_temperature = 0.1;
+/* A fit is started anew when a shift has moved so far from its start that the relaxation times no
+ * longer reach well beyond the isotherms [decade]. */
+static const double far = 0.5;
+/* Terms per decade that describe a smooth spectrum, and one of sharp lines. Where neighbouring
+ * terms bend more than `sharp` [ln], it is no smooth one: lines then lie between the terms, which
+ * pull the isotherms towards themselves, all but the one that is held, by more than their errors
+ * (tests/study: lines). */
+static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
+/* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
+static const double much_steeper = 2.0;
+/* Bends of lines, to start from; noise over what lines leave of it that is more than smooth spectra
+ * have (they have 1.17 at most: tests/study), and by how many of its standard errors. */
+static const double lines_smooth = 5.0, more_noise = 1.3, surely = 6.0;
+
+wt_master_options wt_master_options_defaults(void)
+{
+    return (wt_master_options){.reference_temperature = (double)NAN,
+                               .vertical = WT_VERTICAL_TIED,
+                               .terms_per_decade = (double)NAN};
+}
+
+static const wt_param rows[] = {
+    {PARAM("reference-temperature", wt_master_options, reference_temperature, WT_Q_TEMPERATURE,
+           ABOVE(0)),
+     .value = "T", .unset = "the isotherm in the middle",
+     .help = "reference temperature, such as 20degC; it need not be one of the isotherms"},
+    {PARAM_CHOICE_OF("reference-at", wt_master_options, reference_at, "temperature|tan-delta-peak"),
+     .help =
+         "reference: the temperature that is given or chosen, or that at which tan delta peaks at "
+         "1 Hz, a glass transition"},
+    {PARAM_CHOICE_OF("vertical-shift", wt_master_options, vertical, "none|physical|free|tied"),
+     .help = "vertical shift: none, as rubber elasticity says (Tref/T, with the thermal expansion "
+             "of the density), fitted, or tied to that of rubber elasticity as closely as the data "
+             "ask for"},
+    {PARAM("expansion", wt_master_options, expansion, WT_Q_NONE, FROM_TO(0, 0.01)), .value = "X",
+     .help =
+         "volumetric thermal expansion in 1/K for the vertical shift of rubber elasticity; that "
+         "of rubber is about 7e-4"},
+    {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
+     .value = "X", .unset = "as the spectrum needs: 3, or 10 of sharp lines",
+     .help = "of the relaxation spectrum"},
+    {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
+    {PARAM_CHOICE_OF("shift-by", wt_master_options, shift_by, "moduli|storage|loss|loss-factor"),
+     .help =
+         "what isotherms are shifted by and the spectrum is fitted to: both moduli (or what was "
+         "measured of all isotherms), one of them, or the loss factor, which tells no level"},
+};
+PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options_defaults, NO_PARTS)
+
+/* ---- start ----------------------------------------------------------------------------------- */
+
+/* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
+static wt_status check_vertical(master_work *work, wt_error *err)
+{
+    if (work->set.by == WT_BY_LOSS_FACTOR)
+        work->options.vertical = WT_VERTICAL_NONE;
+    if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
+    wt_error_place(err, "vertical-shift");
+    wt_error_expected(err, "tied, physical or none");
+    return WT_E_ARG;
+}
+
+/* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
+static wt_status choose_anchor(master_work *work, wt_error *err)
+{
+    const shift_set *set = &work->set;
+    const double asked = work->options.reference_temperature;
+    double nearest = HUGE_VAL;
+    bool given = false; /* then the anchor is one of these */
+    work->anchor = set->n;
+    for (size_t i = 0; i < set->n; i++)
+        given = given || (set->curves[i].given && set->curves[i].n >= SHIFT_MIN_POINTS);
+    for (size_t i = 0; i < set->n; i++) {
+        const double away = isnan(asked) ? fabs((double)i - (double)(set->n / 2))
+                                         : fabs(set->curves[i].temperature - asked);
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!given || set->curves[i].given) &&
+            away < nearest) {
+            nearest = away;
+            work->anchor = i;
+        }
+    }
+    if (work->anchor == set->n) {
+        wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
+        wt_error_expected(err, "at least %d points each", SHIFT_MIN_POINTS);
+        return WT_E_MISSING;
+    }
+    const double at = set->curves[work->anchor].temperature;
+    work->reference = isnan(asked) ? at : asked;
+    work->measured_reference = fabs(at - work->reference) <= same_temperature;
+    work->vertical.reference_temperature = work->reference;
+    work->vertical.expansion = work->options.expansion;
+    for (size_t i = 0; i < set->n; i++)
+        work->physical[i] = vertical_physical(&work->vertical, set->curves[i].temperature) / M_LN10;
+    return WT_OK;
+}
+
+static wt_status work_alloc(master_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    pool *m = &work->memory;
+    work->placed = pool_alloc(m, n, sizeof *work->placed);
+    work->a = pool_numbers(m, n);
+    work->b = pool_numbers(m, n);
+    work->physical = pool_numbers(m, n);
+    work->overlap = pool_numbers(m, n);
+    work->vertical.precision = pool_matrix(m, n, n);
+    work->posterior = posterior_new();
+    if (work->posterior != NULL) {
+        work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
+        work->posterior->closed_form = pool_numbers(&work->posterior->memory, n);
+        work->curve = work->posterior->curve;
+        work->s = &work->posterior->frame;
+    }
+    return m->failed || work->posterior == NULL || work->posterior->memory.failed
+               ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n)
+               : WT_OK;
+}
+
+static wt_status set_widths(master_work *work, wt_vertical_shift kind, double geometry,
+                            double departure, wt_error *err)
+{
+    work->vertical.geometry = geometry;
+    work->vertical.departure = departure;
+    wt_status status = vertical_prior(&work->vertical, kind, work->posterior->temperature, work->s,
+                                      &work->prior, err);
+    if (status == WT_OK)
+        spectrum_set_prior(work->s, &work->prior);
+    return status;
+}
+
+/* A spectrum for the placed curves, and what the posterior keeps of each. */
+static wt_status make_spectrum(master_work *work, wt_error *err)
+{
+    wt_posterior *p = work->posterior;
+    const size_t evaluations = work->s->evaluations;
+    spectrum_free(work->s);
+    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                                    work->terms_per_decade, work->options.liquid, work->s, err);
+    work->s->evaluations = evaluations;
+    if (status != WT_OK)
+        return status;
+    const size_t n = work->s->n_curves;
+    pool *m = &work->s->memory; /* these go with the spectrum */
+    p->temperature = pool_numbers(m, n);
+    p->mean_b = pool_numbers(m, n);
+    p->slope = pool_numbers(m, n);
+    p->scratch = pool_numbers(m, 7 * n + 4 * work->s->n_linear);
+    if (m->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
+    work->vertical.mean = p->mean_b;
+    size_t curve = 0;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->placed[i]) {
+            p->temperature[curve] = work->set.curves[i].temperature;
+            work->curve[i] = curve++;
+        }
+    return set_widths(work, work->options.vertical, geometry_widths[1], departure_widths[1], err);
+}
+
+/* First with heavy tails, then without the points that are far off. */
+static wt_status fit_robust(master_work *work, wt_error *err)
+{
+    wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
+        const size_t changed = spectrum_outliers(work->s);
+        if (round > 0 && changed == 0)
+            break;
+        status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
+    }
+    return status;
+}
+
+/* Takes the shifts over; how far one has moved. */
+static double take_shifts(master_work *work)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < work->set.n; i++) {
+        if (!work->placed[i])
+            continue;
+        const double a = spectrum_a(work->s, work->curve[i]) / M_LN10;
+        most = fmax(most, fabs(a - work->a[i]));
+        work->a[i] = a;
+        work->b[i] = spectrum_b(work->s, work->curve[i]) / M_LN10;
+    }
+    return most;
+}
+
+/* Whether lines leave less noise of a modulus. The standard error of the logarithm of their ratio:
+ * by what the parameters that lines have more take from it by chance. */
+static bool leave_less(const spectrum *lines, const spectrum *s, int q)
+{
+    const double less = log(s->noise[q] / lines->noise[q]);
+    const double left = spectrum_squares(lines, q) / (lines->noise[q] * lines->noise[q]);
+    const double more = fmax(lines->freedom[q] - s->freedom[q], 0.0);
+    return s->used[q] && less > log(more_noise) && less * left > surely * sqrt(more / 2.0);
+}
+
+/* Whether more terms leave less noise, as lines and with the vertical shifts as they are. */
+static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
+{
+    const spectrum *s = work->s;
+    spectrum lines;
+    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                                    trial_terms, work->options.liquid, &lines, err);
+    if (status != WT_OK)
+        return status;
+    double *b = pool_numbers(&lines.memory, s->n_curves);
+    const spectrum_prior held = {.held = true, .mean = b};
+    if (b == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    for (size_t i = 0; i < s->n_curves && status == WT_OK; i++)
+        b[i] = spectrum_b(s, i);
+    if (status == WT_OK) {
+        spectrum_set_prior(&lines, &held);
+        lines.smooth = lines_smooth;
+        for (int q = 0; q < MODULI; q++) {
+            memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
+            lines.noise[q] = s->noise[q];
+        }
+        status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
+        if (status == WT_OK)
+            (void)spectrum_noise_update(&lines);
+    }
+    for (int q = 0; q < MODULI && status == WT_OK; q++)
+        *better |= leave_less(&lines, s, q);
+    work->s->evaluations += lines.evaluations;
+    spectrum_free(&lines);
+    return status;
+}
+
+/* More terms where they are needed: few of them either bend, or take lines for noise. */
+static wt_status sharpen(master_work *work, wt_error *err)
+{
+    bool better = work->s->smooth > sharp;
+    wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
+    (void)take_shifts(work);
+    if (!better && try_lines(work, &better, &no_lines) == WT_E_MEMORY)
+        return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
+    if (!better)
+        return WT_OK;
+    work->lines = true;
+    work->terms_per_decade = sharp_terms;
+    const wt_status status = make_spectrum(work, err);
+    work->s->smooth = lines_smooth;
+    return status == WT_OK ? fit_robust(work, err) : status;
+}
+
+static wt_status place_all(master_work *work, wt_error *err)
+{
+    const double asked = work->options.terms_per_decade;
+    wt_status status = WT_OK;
+    work->terms_per_decade = isnan(asked) ? smooth_terms : asked;
+    spectrum_start(&work->set, work->anchor, work->options.vertical, work->physical, work->placed,
+                   work->a, work->b);
+    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
+        const size_t before = work->s->n_curves;
+        const double moved = round > 0 ? take_shifts(work) : 0.0;
+        const size_t n =
+            spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
+        if (round > 0 && n == before && moved < far)
+            break;
+        status = make_spectrum(work, err);
+        if (status == WT_OK)
+            status = fit_robust(work, err);
+    }
+    if (status == WT_OK && isnan(asked))
+        status = sharpen(work, err);
+    if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
+        status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
+                         work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);
+        wt_error_expected(err, "neighbouring isotherms that share a range of storage modulus");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+    }
+    return status;
+}
+
+/* ---- the fits -------------------------------------------------------------------------------- */
+
+/* Noise factors by what is within the isotherms; where the spectrum bends; correlation by the fit,
+ * so that what a spectrum misses a little counts as noise. */
+static wt_status find_noise(master_work *work, wt_error *err)
+{
+    wt_status status = spectrum_noise_within(work->s, &work->within, err);
+    spectrum_spread(work->s, even);
+    for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
+        status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
+        if (status == WT_OK && round + 1 < BEND_ROUNDS)
+            spectrum_bends(work->s);
+    }
+    return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
+}
+
+static double log_prior_of(double width, double believed, double cell)
+{
+    return log(cell / (1.0 + width * width / (believed * believed)));
+}
+
+/* One pair of widths of the tied vertical shift: ln of what it weighs. */
+static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_error *err)
+{
+    wt_status status =
+        set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
+    if (status == WT_OK)
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+    *weight = log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
+              log_prior_of(departure_widths[d], departure_believed, departure_cells[d]) -
+              0.5 * work->s->criterion;
+    return status == WT_OK && work->options.vertical == WT_VERTICAL_TIED
+               ? posterior_keep(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight, err)
+               : status;
+}
+
+/* From the widest down, for as long as it is not hopeless to be narrower; of[GEOMETRIES]: ln of the
+ * weight of each error of the geometry. */
+static wt_status fit_tied(master_work *work, double *of, wt_error *err)
+{
+    wt_status status = WT_OK;
+    double best = -HUGE_VAL;
+    for (int g = 0; g < GEOMETRIES; g++)
+        of[g] = -HUGE_VAL;
+    for (int g = GEOMETRIES - 1; g == GEOMETRIES - 1 || (g >= 0 && of[g + 1] > best - hopeless);
+         g--) {
+        double weight = 0.0;
+        for (int d = DEPARTURES - 1; weight >= of[g] - hopeless && d >= 0; d--) {
+            status = fit_cell(work, g, d, &weight, err);
+            if (status != WT_OK)
+                return status;
+            of[g] = fmax(of[g], weight) + log1p(exp(-fabs(of[g] - weight)));
+        }
+        best = fmax(best, of[g]);
+    }
+    return status;
+}
+
+/* The shifts are free, but the reference was clamped as the others were: what a tied shift makes of
+ * their scatter is the error of its level. */
+static wt_status fit_free(master_work *work, const double *of, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (int g = 0; status == WT_OK && g < GEOMETRIES; g++) {
+        if (!(of[g] > -HUGE_VAL))
+            continue;
+        status = set_widths(work, WT_VERTICAL_FREE, geometry_widths[g], 0.0, err);
+        if (status == WT_OK)
+            status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        if (status == WT_OK)
+            status = posterior_keep(work->posterior, WT_VERTICAL_FREE, &work->vertical, of[g], err);
+    }
+    return status;
+}
+
+/* All widths that count; the spectrum is left at the best of them. */
+static wt_status fit_widths(master_work *work, wt_error *err)
+{
+    const wt_vertical_shift kind = work->options.vertical;
+    wt_posterior *p = work->posterior;
+    double of[GEOMETRIES];
+    wt_status status = WT_OK;
+    if (work->prior.held) {
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        return status == WT_OK ? posterior_keep(p, kind, &work->vertical, 0.0, err) : status;
+    }
+    status = fit_tied(work, of, err);
+    if (status == WT_OK && kind == WT_VERTICAL_FREE)
+        status = fit_free(work, of, err);
+    if (status != WT_OK)
+        return status;
+    const posterior_cell *best = posterior_best(p);
+    status = set_widths(work, kind, best->geometry, best->departure, err);
+    posterior_restore(p, best);
+    return status;
+}
+
+/* With free vertical shifts, so that those are no part of the verdict, and with the noise as it is
+ * along the isotherms: the fit takes it as even, for a misfit at their ends is no reason to believe
+ * them less. */
+static wt_status test_superposition(master_work *work, wt_error *err)
+{
+    if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
+        return WT_OK;
+    spectrum *s = work->s;
+    const double rho = s->rho;
+    wt_status status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
+    s->rho = work->within.rho;
+    spectrum_spread(s, work->within.shape);
+    if (status == WT_OK)
+        status = spectrum_fit(s, SPECTRUM_NOISE, err);
+    if (status == WT_OK && !work->options.series_only)
+        status = superposition_test(s, work->within.uncertainty, &work->lack, err);
+    s->rho = rho;
+    spectrum_spread(s, even);
+    if (status == WT_OK) /* the columns as the cells have them */
+        status =
+            set_widths(work, work->options.vertical, geometry_widths[0], departure_widths[0], err);
+    return status;
+}
+
+/* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
+ */
+static double steeper(const master_work *work)
+{
+    const shift_set *set = &work->set;
+    size_t steepest = work->anchor;
+    for (size_t i = 0; i < set->n; i++)
+        if (set->curves[i].n >= SHIFT_MIN_POINTS &&
+            shift_change(set, i) > shift_change(set, steepest))
+            steepest = i;
+    return shift_change(set, steepest) > much_steeper * shift_change(set, work->anchor)
+               ? set->curves[steepest].temperature
+               : (double)NAN;
+}
+
+wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                          wt_master *master, double *better, wt_error *err)
+{
+    master_work work = {.options = *options};
+    wt_status status = param_check(wt_master_options_params(), &work.options, err);
+    if (status == WT_OK)
+        status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
+    if (status == WT_OK)
+        status = check_vertical(&work, err);
+    if (status == WT_OK)
+        status = work_alloc(&work, err);
+    if (status == WT_OK)
+        status = choose_anchor(&work, err);
+    if (status == WT_OK) {
+        closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
+        status = place_all(&work, err);
+    }
+    if (status == WT_OK)
+        status = find_noise(&work, err);
+    if (status == WT_OK)
+        status = test_superposition(&work, err);
+    if (status == WT_OK)
+        status = fit_widths(&work, err);
+    if (status == WT_OK)
+        status = posterior_close(work.posterior, work.reference, err);
+    if (status == WT_OK)
+        status = master_report(&work, sweep, log, master, err);
+    *better = status == WT_E_NO_OVERLAP ? steeper(&work) : (double)NAN;
+    posterior_free(work.posterior);
+    pool_free(&work.memory);
+    return status;
+}

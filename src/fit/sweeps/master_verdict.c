@@ -1,0 +1,116 @@
+/* The verdict on superposition, and what would settle it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/sweeps/master.h"
+
+#include "base/clocale.h"
+#include "base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Lack of fit is real below this probability, with what is not known of the noise. A smaller one
+ * would miss second processes (unit_fit_master), and be right a little more often where noise goes
+ * together over most of an isotherm (tests/study: correlated_strong). */
+static const double significant = 0.01;
+/* Superposition does not hold below this one, with the noise as estimated: its factors and their
+ * place on the isotherms make small probabilities a few times too small. */
+static const double doubtful = 0.01;
+/* A misfit certainly above the first fails; possibly above the second leaves it open (relative).
+ * Two processes miss by some per cent; isotherms of polyisoprene, the example of a simple rubber,
+ * by what a rheometer does, 0.3 to 0.4 %. */
+static const double matters = 0.004, may_matter = 0.01;
+/* Narrower windows hide a second process [decade]. */
+static const double least_window = 1.5;
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
+static const double loss_matters = 0.01, loss_significant = 0.001;
+/* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
+ * places it [decade]. */
+static const double least_overlap = 0.3;
+enum { LEAST_ISOTHERMS = 3 };
+
+static double widest_of_half(const master_work *work)
+{
+    double widest = 0.0; /* the widest window: one that is wide shows a second process */
+    for (size_t i = 0; i < work->set.n; i++) {
+        const shift_curve *c = &work->set.curves[i];
+        if (work->placed[i])
+            widest = fmax(widest, c->x[c->n - 1] - c->x[0]);
+    }
+    return widest;
+}
+
+/* A bound in per cent, which rounding does not make smaller. */
+static double at_most(double share)
+{
+    return fmax(0.1, 0.1 * ceil(1e3 * share));
+}
+
+void master_judge(const master_work *work, wt_master *m)
+{
+    size_t determined = 0;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        determined += m->shifts[i].determined && work->overlap[i] >= least_overlap;
+    const size_t undetermined = m->n_shifts - determined;
+    const lack_of_fit *lack = &work->lack;
+    const double window = widest_of_half(work);
+    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->s->n_curves > 1;
+    m->lack_of_fit_p = tested ? lack->p : (double)NAN;
+    m->misfit_low = tested ? lack->misfit_low : (double)NAN;
+    m->misfit_high = tested ? lack->misfit_high : (double)NAN;
+    m->kramers_kronig_p = tested ? lack->kk : (double)NAN;
+    m->loss_factor = tested ? lack->factor : (double)NAN;
+    m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
+    m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    if (!both) {
+        clocale_print(m->because, sizeof m->because,
+                      "%s alone does not tell; storage and loss modulus together would",
+                      work->set.by == WT_BY_LOSS_FACTOR ? "the loss factor" : "one modulus");
+    } else if (determined >= 2 && lack->kk < loss_significant &&
+               fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        clocale_print(m->because, sizeof m->because,
+                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
+                      "instrument, the columns, and whether the material changed meanwhile",
+                      100.0 * expm1(lack->factor), number_chance(lack->kk).text);
+    } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
+               lack->misfit_low > matters) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        char low[16], high[16];
+        clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
+        clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
+        const bool one = strcmp(low, high) == 0;
+        clocale_print(m->because, sizeof m->because,
+                      "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
+                      "or a change of the material; treat the temperatures apart",
+                      one ? "about " : low, one ? "" : " to ", high,
+                      number_chance(lack->p_sure).text);
+    } else if (determined < LEAST_ISOTHERMS) {
+        clocale_print(m->because, sizeof m->because,
+                      "%zu isotherm%s that overlap%s; three or more would tell", determined,
+                      determined == 1 ? "" : "s", determined == 1 ? "s" : "");
+    } else if (3 * undetermined > m->n_shifts) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
+            "frequencies would tell",
+            undetermined, m->n_shifts);
+    } else if (lack->misfit_high > may_matter) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
+            "points, would tell",
+            at_most(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
+    } else if (lack->p < doubtful) {
+        clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
+                      number_chance(lack->p).text, at_most(lack->misfit_high));
+    } else if (window < least_window) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "windows of %.1f decades hide a second process; 1.5 decades or more would tell",
+            window);
+    } else {
+        m->superposition = WT_SUPERPOSITION_HOLDS;
+        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
+                      at_most(lack->misfit_high), number_chance(lack->p).text);
+    }
+}

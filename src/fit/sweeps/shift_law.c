@@ -1,0 +1,576 @@
+/* Laws of the shift factors: generalised least squares with the full covariance of the shifts and
+ * an error of temperature for every isotherm, which is averaged over; which law by a criterion.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/sweeps/shift_law.h"
+
+#include "base/gsl_quiet.h"
+#include "base/quantity.h"
+#include "fit/dense.h"
+#include "fit/pool_gsl.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
+ * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
+ * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
+static const double believed = 0.3, steady = 0.15;
+/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
+static const double odd_gain = 20.0;
+enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6, LEAST_STEADY = 7 };
+/* Joints that are tried all over the isotherms; between the two beside the best of them all are. */
+enum { JOINTS = 24 };
+/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law. */
+static const double odd_tried = 0.25;
+
+double law_spread(size_t i)
+{
+    return ldexp(0.004, (int)i);
+}
+
+/* ---- the laws -------------------------------------------------------------------------------- */
+
+static bool has_wlf(const law_shape *shape)
+{
+    return shape->kind != WT_LAW_ARRHENIUS;
+}
+
+size_t law_unknowns(const law_shape *shape)
+{
+    static const size_t count[] = {[WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4};
+    return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
+}
+
+size_t law_odd_index(const law_shape *shape)
+{
+    if (shape->odd < 0)
+        return LAW_MOST;
+    return shape->kind == WT_LAW_JOINED ? 3 : 2;
+}
+
+size_t law_pole_index(const law_shape *shape)
+{
+    return has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MOST;
+}
+
+/* -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the distance of the pole. */
+static double wlf_part(const law_shape *shape, double distance, double temperature, double *by_pole)
+{
+    const double rise = temperature - shape->reference;
+    const double sum = distance + temperature - shape->coldest;
+    *by_pole = rise / sum * (distance / sum);
+    return -rise / sum;
+}
+
+static double arrhenius_part(double reference, double temperature)
+{
+    return (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
+}
+
+/* The main part and its derivative by the pole. */
+static double part_main(const law_shape *shape, double distance, double temperature,
+                        double *by_pole)
+{
+    const double r = shape->reference, joint = shape->joint;
+    *by_pole = 0.0;
+    if (!has_wlf(shape))
+        return arrhenius_part(r, temperature);
+    if (shape->kind != WT_LAW_JOINED)
+        return wlf_part(shape, distance, temperature, by_pole);
+    double of_reference;
+    const double part = wlf_part(shape, distance, fmax(temperature, joint), by_pole) -
+                        wlf_part(shape, distance, fmax(r, joint), &of_reference);
+    *by_pole -= of_reference;
+    return part;
+}
+
+/* The part below the joint. */
+static double part_below(const law_shape *shape, double temperature)
+{
+    return shape->kind == WT_LAW_JOINED ? arrhenius_part(fmin(shape->reference, shape->joint),
+                                                         fmin(temperature, shape->joint))
+                                        : 0.0;
+}
+
+static double pole_distance(const law_shape *shape, const double *unknown)
+{
+    return has_wlf(shape) ? exp(unknown[law_pole_index(shape)]) : 1.0;
+}
+
+double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient)
+{
+    double by_pole;
+    const double main_part = part_main(shape, pole_distance(shape, unknown), temperature, &by_pole),
+                 below = part_below(shape, temperature);
+    const bool joined = shape->kind == WT_LAW_JOINED;
+    if (gradient != NULL) {
+        for (size_t u = 0; u < LAW_MOST; u++)
+            gradient[u] = 0.0;
+        gradient[1] = main_part;
+        if (joined)
+            gradient[2] = below;
+        if (has_wlf(shape))
+            gradient[law_pole_index(shape)] = unknown[1] * by_pole;
+    }
+    return unknown[1] * main_part + (joined ? unknown[2] * below : 0.0);
+}
+
+double law_of_isotherm(const law_data *data, const law_shape *shape, const double *unknown,
+                       size_t i)
+{
+    return unknown[0] + law_at(shape, unknown, data->temperature[i], NULL) +
+           ((long)i == shape->odd ? unknown[law_odd_index(shape)] : 0.0);
+}
+
+wt_shift_law law_constants(const law_shape *shape, const double *unknown)
+{
+    wt_shift_law law = {.kind = shape->kind,
+                        .wlf = {shape->reference, (double)NAN, (double)NAN},
+                        .activation_energy = (double)NAN,
+                        .joint = shape->kind == WT_LAW_JOINED ? shape->joint : (double)NAN};
+    if (has_wlf(shape)) {
+        law.wlf.c1 = unknown[1];
+        law.wlf.c2 = shape->reference - shape->coldest + pole_distance(shape, unknown);
+    }
+    if (shape->kind == WT_LAW_ARRHENIUS)
+        law.activation_energy = unknown[1];
+    if (shape->kind == WT_LAW_JOINED)
+        law.activation_energy = unknown[2];
+    return law;
+}
+
+/* ---- generalised least squares --------------------------------------------------------------- */
+
+wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *covariance,
+                             wt_error *err)
+{
+    for (size_t i = 0; i < data->n; i++)
+        for (size_t k = 0; k < data->n; k++)
+            gsl_matrix_set(covariance, i, k, gsl_matrix_get(data->covariance, i, k));
+    for (size_t i = 0; i < data->n; i++)
+        *gsl_matrix_ptr(covariance, i, i) += spread * spread * data->slope[i] * data->slope[i];
+    if (!dense_factor(covariance))
+        return wt_fail(err, WT_E_CONVERGENCE, "the covariance of the shifts is not positive");
+    return WT_OK;
+}
+
+/* What hangs on the distance of the pole: the main part, and the derivative by it if the matrix has
+ * that column. */
+static void design_pole(const law_data *data, const law_shape *shape, double distance,
+                        double main_factor, gsl_matrix *x)
+{
+    const size_t pole = law_pole_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
+        double by_pole;
+        gsl_matrix_set(x, i, 1, part_main(shape, distance, data->temperature[i], &by_pole));
+        if (pole < x->size2)
+            gsl_matrix_set(x, i, pole, main_factor * by_pole);
+    }
+}
+
+/* Offset, part below the joint, odd isotherm. */
+static void design_fixed(const law_data *data, const law_shape *shape, gsl_matrix *x)
+{
+    const size_t odd = law_odd_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
+        gsl_matrix_set(x, i, 0, 1.0);
+        if (shape->kind == WT_LAW_JOINED)
+            gsl_matrix_set(x, i, 2, part_below(shape, data->temperature[i]));
+        if (odd < LAW_MOST)
+            gsl_matrix_set(x, i, odd, (long)i == shape->odd ? 1.0 : 0.0);
+    }
+}
+
+void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x)
+{
+    design_fixed(data, shape, x);
+    design_pole(data, shape, pole_distance(shape, unknown), unknown[1], x);
+}
+
+/* Shifts and design in units of the errors. */
+struct gls {
+    const law_data *data;
+    const law_shape *shape;
+    const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
+    gsl_vector_view y;      /* [n] */
+    gsl_matrix_view x;      /* [n * unknowns] */
+};
+
+/* The columns that hang on the pole, or those that do not. */
+static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
+{
+    for (size_t u = 0; u < x->size2; u++) {
+        gsl_vector_view column = gsl_matrix_column(x, u);
+        if ((u == 1 || u == law_pole_index(g->shape)) == of_pole)
+            gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, g->root, &column.vector);
+    }
+}
+
+static struct gls gls_new(const law_data *data, const law_shape *shape, const gsl_matrix *root)
+{
+    struct gls g = {data, shape, root, gsl_vector_view_array(data->scratch, data->n),
+                    gsl_matrix_view_array(data->scratch + data->n, data->n, law_unknowns(shape))};
+    for (size_t i = 0; i < data->n; i++)
+        gsl_vector_set(&g.y.vector, i, data->log_a[i]);
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, root, &g.y.vector);
+    design_fixed(data, shape, &g.x.matrix);
+    whiten_columns(&g, &g.x.matrix, false);
+    return g;
+}
+
+/* The covariance of the first unknowns, which solve() leaves as its inverse. */
+static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
+{
+    return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
+}
+
+/* Least squares for a given distance of the pole, with `used` columns; false if they are
+ * dependent. In the place of the covariance is the factor of its inverse. */
+static bool solve(struct gls *g, double distance, double main_factor, size_t used, law_fit *fit)
+{
+    gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
+    gsl_matrix_view cross = covariance_of(fit, used);
+    gsl_vector_view right = gsl_vector_view_array(fit->unknown, used);
+    design_pole(g->data, g->shape, distance, main_factor, &x.matrix);
+    whiten_columns(g, &x.matrix, true);
+    gsl_blas_dsyrk(CblasLower, CblasTrans, 1.0, &x.matrix, 0.0, &cross.matrix);
+    gsl_blas_dgemv(CblasTrans, 1.0, &x.matrix, &g->y.vector, 0.0, &right.vector);
+    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+        return false;
+    gsl_linalg_cholesky_svx(&cross.matrix, &right.vector);
+    fit->log_det_design = fit->chi_square = 0.0;
+    for (size_t u = 0; u < used; u++)
+        fit->log_det_design += 2.0 * log(fit->covariance[u][u]);
+    for (size_t i = 0; i < g->data->n; i++) {
+        double off = gsl_vector_get(&g->y.vector, i);
+        for (size_t u = 0; u < used; u++)
+            off -= gsl_matrix_get(&x.matrix, i, u) * fit->unknown[u];
+        fit->chi_square += off * off;
+    }
+    return true;
+}
+
+static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
+{
+    const bool good = solve(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
+    /* a law that rises with temperature is none */
+    return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
+}
+
+/* ln of the distance of the pole that fits best: scanned, then by halves. */
+static double best_pole(struct gls *g, law_fit *fit)
+{
+    const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
+    double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
+    for (int i = 0; i <= POLE_GRID; i++) {
+        const double p = nearest + i * step, chi = chi_square_at(g, p, fit);
+        if (chi < best) {
+            best = chi;
+            at = p;
+        }
+    }
+    for (; step > 1e-5; step *= 0.5)
+        for (int side = -1; side <= 1; side += 2) {
+            const double p = fmax(nearest, fmin(farthest, at + 0.5 * side * step));
+            const double chi = chi_square_at(g, p, fit);
+            if (chi < best) {
+                best = chi;
+                at = p;
+                break;
+            }
+        }
+    return at;
+}
+
+wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
+                       law_fit *fit, wt_error *err)
+{
+    struct gls g = gls_new(data, shape, root);
+    const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
+    *fit = (law_fit){.n_unknowns = k};
+    bool good;
+    if (pole == LAW_MOST) {
+        good = solve(&g, 1.0, 1.0, k, fit);
+    } else {
+        const double p = best_pole(&g, fit);
+        good = chi_square_at(&g, p, fit) < HUGE_VAL;
+        const law_fit linear = *fit;
+        good = good && solve(&g, exp(p), linear.unknown[1], k, fit);
+        memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
+        fit->unknown[pole] = p;
+        fit->chi_square = linear.chi_square;
+    }
+    if (!good || !(fit->unknown[1] > 0.0)) {
+        wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
+        wt_error_advice(err, "are the temperatures those of the isotherms?");
+        return WT_E_RANGE;
+    }
+    gsl_matrix_view covariance = covariance_of(fit, k);
+    gsl_linalg_cholesky_invert(&covariance.matrix);
+    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < POLE_ERROR * POLE_ERROR))
+        fit->chi_square = HUGE_VAL;
+    for (size_t i = 0; i < data->n; i++)
+        fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));
+    return WT_OK;
+}
+
+double law_reml(const law_fit *fit)
+{
+    return fit->chi_square + fit->log_det + fit->log_det_design;
+}
+
+double law_spread_prior(const law_data *data, double spread)
+{
+    const bool none = data->n >= LEAST_STEADY && !(spread > law_spread(0));
+    return spread / (1.0 + spread * spread / (believed * believed)) + (none ? steady : 0.0);
+}
+
+/* ---- which law ------------------------------------------------------------------------------- */
+
+struct search {
+    law_data *data;
+    pool memory;
+    gsl_matrix *root[LAW_SPREADS]; /* of the covariance with each spread */
+    double best;                   /* score */
+    double largest;                /* likelihood that goes with it */
+    law_shape chosen;
+};
+
+/* For the slopes as they are. */
+static wt_status make_roots(struct search *search, wt_error *err)
+{
+    const size_t n = search->data->n;
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < LAW_SPREADS && status == WT_OK; i++) {
+        if (search->root[i] == NULL)
+            search->root[i] = pool_matrix(&search->memory, n, n);
+        status = search->memory.failed
+                     ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
+                     : law_gls_covariance(search->data, law_spread(i), search->root[i], err);
+    }
+    return status;
+}
+
+/* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
+static wt_status likelihoods(const struct search *search, const law_shape *shape, double *largest,
+                             double *mean, wt_error *err)
+{
+    const law_data *data = search->data;
+    double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
+    *largest = HUGE_VAL;
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        law_fit fit;
+        const wt_status status = law_fit_with(data, shape, search->root[i], &fit, err);
+        if (status != WT_OK)
+            return status;
+        value[i] = fit.chi_square + fit.log_det;
+        *largest = fmin(*largest, value[i]);
+    }
+    if (!(*largest < HUGE_VAL))
+        return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        sum += law_spread_prior(data, law_spread(i)) * exp(-0.5 * (value[i] - *largest));
+        weights += law_spread_prior(data, law_spread(i));
+    }
+    *mean = *largest - 2.0 * log(sum / weights);
+    return WT_OK;
+}
+
+static double score(const law_data *data, const law_shape *shape, double largest, double mean)
+{
+    /* offset, constants and spread; the odd isotherm counts for every law alike */
+    const double n = (double)data->n,
+                 k = (double)law_unknowns(shape) + 1.0 + (shape->kind == WT_LAW_JOINED ? 1.0 : 0.0);
+    if (data->n < LEAST_CORRECTED)
+        return mean + 2.0 * k;
+    return n > k + 1.0 ? largest + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0) : HUGE_VAL;
+}
+
+/* better: whether it is the best so far. */
+static wt_status consider(struct search *search, law_shape shape, bool *better, wt_error *err)
+{
+    double largest, mean;
+    wt_error failure = WT_ERROR_INIT;
+    const wt_status status = likelihoods(search, &shape, &largest, &mean, &failure);
+    *better = false;
+    if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
+        if (err != NULL)
+            *err = failure;
+        return status;
+    }
+    const double s = status == WT_OK ? score(search->data, &shape, largest, mean) : HUGE_VAL;
+    if (s < search->best) {
+        *better = true;
+        search->best = s;
+        search->largest = largest;
+        search->chosen = shape;
+    }
+    return WT_OK;
+}
+
+/* Joints from `first` to before `end`; the best of them, if one is better than all before. */
+static wt_status consider_joints(struct search *search, law_shape shape, size_t first, size_t end,
+                                 size_t step, size_t *best, wt_error *err)
+{
+    const law_data *data = search->data;
+    wt_status status = WT_OK;
+    shape.kind = WT_LAW_JOINED;
+    for (size_t i = first; status == WT_OK && i < end; i += step) {
+        bool better = false;
+        shape.joint = data->temperature[i];
+        shape.coldest = fmin(shape.joint, shape.reference);
+        if (data->temperature[i] > data->temperature[0])
+            status = consider(search, shape, &better, err);
+        if (better)
+            *best = i;
+    }
+    return status;
+}
+
+static wt_status consider_all(struct search *search, const law_shape *start, wt_error *err)
+{
+    const size_t n = search->data->n, step = 1 + n / JOINTS;
+    bool better;
+    size_t joint = 0;
+    law_shape shape = *start;
+    shape.kind = WT_LAW_ARRHENIUS;
+    wt_status status = consider(search, shape, &better, err);
+    shape.kind = WT_LAW_WLF;
+    if (status == WT_OK && n >= LAW_LEAST_TOLD)
+        status = consider(search, shape, &better, err);
+    if (status == WT_OK && n >= LEAST_JOINED)
+        status = consider_joints(search, shape, 2, n - 3, step, &joint, err);
+    if (status == WT_OK && joint > 0 && step > 1)
+        status = consider_joints(search, shape, joint > step + 1 ? joint - step + 1 : 2,
+                                 joint + step < n - 3 ? joint + step : n - 3, 1, &joint, err);
+    return status;
+}
+
+/* What -2 ln likelihood each isotherm would take away with a shift of its own, by the law made
+ * linear at its best. */
+static wt_status odd_gains(struct search *search, const law_shape *shape, double *gain,
+                           wt_error *err)
+{
+    const law_data *data = search->data;
+    const size_t n = data->n, k = law_unknowns(shape);
+    pool *m = &search->memory;
+    gsl_matrix *scratch = pool_matrix(m, n, n), *inverse = pool_matrix(m, n, n),
+               *x = pool_matrix(m, n, k), *mx = pool_matrix(m, n, k);
+    gsl_vector *gap = pool_vector(m, n), *pull = pool_vector(m, n);
+    double least[LAW_SPREADS];
+    wt_status status = m->failed ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
+        law_fit fit;
+        status = law_fit_with(data, shape, search->root[i], &fit, err);
+        if (status != WT_OK)
+            break;
+        least[i] = fit.chi_square + fit.log_det - search->largest;
+        law_design(data, shape, fit.unknown, x);
+        for (size_t p = 0; p < n; p++)
+            gsl_vector_set(gap, p, data->log_a[p] - law_of_isotherm(data, shape, fit.unknown, p));
+        dense_inverse(search->root[i], scratch, inverse);
+        gsl_blas_dgemv(CblasNoTrans, 1.0, inverse, gap, 0.0, pull);
+        gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, inverse, x, 0.0, mx);
+        for (size_t p = 0; p < n; p++) {
+            double own = gsl_matrix_get(inverse, p, p);
+            for (size_t u = 0; u < k; u++)
+                for (size_t w = 0; w < k; w++)
+                    own -=
+                        gsl_matrix_get(mx, p, u) * fit.covariance[u][w] * gsl_matrix_get(mx, p, w);
+            const double pulled = gsl_vector_get(pull, p);
+            gain[p] = fmax(gain[p], pulled * pulled / fmax(own, 1e-300) - least[i]);
+        }
+    }
+    return status;
+}
+
+/* An isotherm that does not belong to the law. */
+static wt_status find_odd(struct search *search, wt_error *err)
+{
+    const struct search plain = *search;
+    const size_t n = search->data->n;
+    double *gain = pool_numbers(&search->memory, n);
+    wt_status status =
+        gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : make_roots(search, err);
+    if (status == WT_OK)
+        status = odd_gains(search, &plain.chosen, gain, err);
+    if (status == WT_E_RANGE)
+        return WT_OK; /* at some spread the law does not fall: none is odd by it */
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        double largest, mean;
+        law_shape shape = plain.chosen;
+        shape.odd = (long)i;
+        if (gain[i] < odd_tried * odd_gain)
+            continue;
+        status = likelihoods(search, &shape, &largest, &mean, err);
+        if (status == WT_E_RANGE) {
+            status = WT_OK; /* without this isotherm there is no such law */
+            continue;
+        }
+        if (status == WT_OK && largest < search->largest && largest < plain.largest - odd_gain) {
+            search->largest = largest;
+            search->chosen = shape;
+        }
+    }
+    return status;
+}
+
+/* Slopes of the law at the isotherms, by which an error of temperature moves a shift. */
+static void set_slopes(law_data *data, const law_shape *shape, const double *unknown)
+{
+    const double step = 0.01; /* K */
+    for (size_t i = 0; i < data->n; i++)
+        data->slope[i] = (law_at(shape, unknown, data->temperature[i] + step, NULL) -
+                          law_at(shape, unknown, data->temperature[i] - step, NULL)) /
+                         (2.0 * step);
+}
+
+/* Slopes of a WLF law first, then with the law that is chosen. */
+static wt_status choose(struct search *search, const law_shape *start, gsl_matrix *root,
+                        wt_error *err)
+{
+    law_data *data = search->data;
+    wt_status status = WT_OK;
+    for (int round = 0; status == WT_OK && round < 3; round++) {
+        law_fit fit;
+        if (round == 2 && !(search->best < HUGE_VAL))
+            break; /* with the spread of the temperatures no law falls */
+        const law_shape *shape = round == 2 ? &search->chosen : start;
+        status = law_gls_covariance(data, believed, root, err);
+        if (status == WT_OK)
+            status = law_fit_with(data, shape, root, &fit, err);
+        if (status != WT_OK)
+            break;
+        set_slopes(data, shape, fit.unknown);
+        if (round == 1)
+            status = make_roots(search, err);
+        if (round == 1 && status == WT_OK)
+            status = consider_all(search, start, err);
+    }
+    if (status == WT_OK && !(search->best < HUGE_VAL))
+        status = wt_fail(err, WT_E_RANGE, "no law describes the shift factors");
+    return status;
+}
+
+wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
+                     wt_error *err)
+{
+    struct search search = {.data = data, .best = HUGE_VAL, .largest = HUGE_VAL};
+    const law_shape start = {.kind = data->n >= LAW_LEAST_TOLD ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
+                             .reference = reference,
+                             .odd = -1,
+                             .coldest = fmin(data->temperature[0], reference)};
+    gsl_quiet();
+    for (size_t i = 0; i < data->n; i++)
+        data->slope[i] = 0.1;
+    wt_status status = choose(&search, &start, root, err);
+    if (status == WT_OK && data->n >= LEAST_ODD)
+        status = find_odd(&search, err);
+    pool_free(&search.memory);
+    *chosen = search.chosen;
+    return status;
+}

@@ -1,0 +1,156 @@
+/* One relaxation spectrum behind all isotherms: the model, its fit and its errors. Internal to the
+ * fit room. Inside, logarithms are natural: x = ln w, y = ln modulus; a shifted isotherm lies at
+ * x + a, and what was measured is ln E(x + a) - b.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FIT_SWEEPS_SPECTRUM_H
+#define WEARTRACK_FIT_SWEEPS_SPECTRUM_H
+
+#include "base/pool.h"
+#include "fit/sweeps/isotherm.h"
+
+#include <gsl/gsl_matrix.h>
+
+/* Prior of the vertical shifts: normal about `mean` with precision matrix; without one they are
+ * free but for those that are held. */
+typedef struct spectrum_prior {
+    bool held;             /* the vertical shifts are `mean` */
+    const double *mean;    /* [n_curves] */
+    gsl_matrix *precision; /* [n_curves^2], or NULL: free, the anchor held */
+    double log_det;        /* of the covariance */
+} spectrum_prior;
+
+typedef struct spectrum {
+    pool memory; /* of all below */
+    /* data: the curves that take part, point by point */
+    size_t n_curves, n;
+    size_t *first;          /* [n_curves + 1] first point of a curve */
+    double *x;              /* [n] */
+    double *y[MODULI];      /* [n] */
+    double *weight[MODULI]; /* [n] 0: left out; 1, or less while outliers are looked for */
+    size_t anchor;          /* its horizontal shift is 0 */
+    bool used[MODULI];      /* the other one has weight 0 */
+    bool ratio;             /* in the place of LOSS is tan delta: no level, no vertical shift */
+    bool *given;            /* [n_curves] the horizontal shift is not fitted */
+    double *given_a;        /* [n_curves] it */
+    double *given_b;        /* [n_curves] the vertical shift, NaN: not given */
+
+    /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
+    size_t n_terms, n_linear; /* terms; with the equilibrium modulus */
+    size_t n_fast;            /* terms before the fast end of the measured range */
+    size_t n_measured;        /* and before the slow one */
+    double log_tau, step;     /* ln of the first relaxation time and between them */
+    bool liquid;              /* no equilibrium modulus */
+    size_t n_unknowns;
+    double *value;                               /* [n_unknowns] */
+    long *column_a, *column_b;                   /* [n_curves] unknown of a curve, -1: held */
+    double equilibrium_mean, equilibrium_spread; /* prior of its logarithm */
+    double level; /* of ratio: mean of ln of the terms, which nothing tells, to 1 */
+    const spectrum_prior *prior;
+
+    /* noise and smoothness */
+    double noise[MODULI];
+    double *kappa;          /* [n_curves] factor on the noise of an isotherm */
+    double *spread[MODULI]; /* [n] the same of a point */
+    double *bend;           /* [n_terms] weight of a second difference */
+    double smooth;          /* standard deviation of the second differences */
+    double smooth_move;     /* its last step, ln */
+    double rho;             /* correlation of neighbouring points */
+
+    size_t evaluations; /* so far */
+    /* of the last evaluation: whitened rows, curve by curve; E' of a point, then E'' */
+    double *residual[MODULI]; /* [n] */
+    double *row[MODULI];      /* [n * (n_linear + 2)] d/d terms, d/da, d/db */
+    double objective;
+    gsl_matrix *normal[MODULI]; /* J'J of the rows of a modulus */
+    gsl_matrix *precision;      /* of all unknowns: normal / noise^2 + priors */
+    gsl_matrix *covariance;     /* its inverse, the errors of everything */
+    gsl_vector *gradient;
+    double log_det;         /* of the precision */
+    double criterion;       /* -2 ln evidence */
+    double freedom[MODULI]; /* effective parameters of a modulus */
+
+    double *term;        /* [n_linear] */
+    double *copy;        /* [n] scratch */
+    double *was[MODULI]; /* [n] weights before */
+    gsl_matrix *factor, *scratch;
+    gsl_vector *direction;
+    double *trial;
+} spectrum;
+
+/* Of the curves in `use`, with shifts (decades) to start from. */
+wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
+                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
+                       wt_error *err) WT_NODISCARD;
+void spectrum_free(spectrum *s);
+/* Sets the prior of b and with it the unknowns; shifts stay where they are. */
+void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
+double spectrum_a(const spectrum *s, size_t curve);
+double spectrum_b(const spectrum *s, size_t curve);
+
+/* ln E', ln E'' at x of the spectrum, and their derivatives; slope: by x. gradient: [n_linear]. */
+void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
+                 double slope[MODULI], double *const gradient[MODULI]);
+void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n_linear] */
+
+/* ---- spectrum_model.c: rows, normal equations, priors */
+void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
+/* Takes from the values of a curve, v[n * width], what the neighbour before foretells. */
+void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
+double spectrum_log_det_correlation(const spectrum *s);
+void spectrum_normal(spectrum *s);
+/* precision and gradient for the present noise and smoothness. */
+void spectrum_assemble(spectrum *s);
+/* What a residual in ln of a point is multiplied by; 0: left out. */
+double spectrum_weight(const spectrum *s, size_t k, int q);
+/* Of the residuals evaluated last. */
+double spectrum_objective(const spectrum *s, const double *value);
+double spectrum_squares(const spectrum *s, int q);                 /* of the whitened residuals */
+double spectrum_roughness(const spectrum *s, const double *value); /* squared second differences */
+double spectrum_roughness_trace(const spectrum *s); /* what the covariance adds to them */
+double spectrum_prior_log_det(const spectrum *s);
+
+/* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
+typedef enum spectrum_mode {
+    SPECTRUM_NOISE,  /* noise and smoothness are estimated */
+    SPECTRUM_ROUGH,  /* the same, good enough to look for outliers */
+    SPECTRUM_ROBUST, /* the same, with the weights of a Student distribution */
+    SPECTRUM_HELD,   /* noise and smoothness are held */
+    SPECTRUM_TRIAL   /* the same, good enough to see whether much less is left */
+} spectrum_mode;
+wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
+#define SPECTRUM_LEAST_GAIN                                                                        \
+    1e-3 /* of -2 ln likelihood by a step; the square of standard errors                           \
+          */
+
+/* ---- spectrum_noise.c */
+/* Of both moduli and the smoothness; the largest relative change. */
+double spectrum_noise_update(spectrum *s);
+void spectrum_criterion(spectrum *s);
+void spectrum_student_weights(spectrum *s);
+/* A transition bends more than a plateau: weights of the second differences by what is near. Beyond
+ * the slow end none is held more than elsewhere: how it goes on there is open. */
+void spectrum_bends(spectrum *s);
+/* Leaves out single points far off and takes back those that are not; how many changed. */
+size_t spectrum_outliers(spectrum *s);
+
+/* Noise of an isotherm is estimated with as much belief that it is that of all as so many points
+ * would give. */
+#define SPECTRUM_KAPPA_BELIEF 8.0
+
+/* ---- spectrum_correlation.c */
+/* Correlation along the isotherms by the criterion. */
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
+/* Noise by what is left of each isotherm about a curve of its own: a spectrum that does not fit is
+ * no noise. */
+enum { SPECTRUM_SHAPES = 2 };
+typedef struct spectrum_within {
+    double rho;
+    double shape[SPECTRUM_SHAPES]; /* of ln noise along an isotherm, from -1 to 1: line, parabola */
+    double uncertainty; /* variance of ln of the variance that slow waves of such noise have */
+} spectrum_within;
+/* Sets the factors of the isotherms, and leaves the rest to the caller. */
+wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err) WT_NODISCARD;
+/* Factors of the points: of their isotherm, and by their place on it. */
+void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES]);
+
+#endif

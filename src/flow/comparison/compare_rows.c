@@ -1,0 +1,280 @@
+/* The table "comparison": all rates together, then rate by rate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/comparison/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct comparison_task {
+    compare_pair *p;
+    const wt_compare_job *job;
+    const wt_job *work;
+    compare_known known;
+    compare_row *rows; /* [1 + n_bins] */
+} comparison_task;
+
+/* A rate with one unit or without scatter leaves its row without numbers. */
+static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, wt_error *err)
+{
+    compare_pair *p = task->p;
+    const bool all = bin == COMPARE_ALL_BINS;
+    wt_group bulk = compare_part(p, 0, bin, 0, p->by_factor),
+             track = compare_part(p, 1, bin, bulk.n, p->by_factor);
+    if (task->known.rates_by_dma)
+        bulk.rate = track.rate = NULL;
+    *r = (compare_row){.low = all ? (double)NAN : p->low[bin],
+                       .high = all ? (double)NAN : p->high[bin],
+                       .n = {bulk.n, track.n},
+                       .holm = (double)NAN};
+    if (!all && (bulk.n == 0 || track.n == 0))
+        return WT_OK;
+    wt_error failure = WT_ERROR_INIT;
+    const wt_status status = wt_compare(&bulk, &track, &task->known.offset, &r->c, &failure);
+    r->valid = status == WT_OK && r->c.unsettled == WT_SETTLED;
+    if (all && status == WT_OK) {
+        r->n[0] = r->c.curves_bulk;
+        r->n[1] = r->c.curves_track;
+    }
+    if (status == WT_OK || (status == WT_E_RANGE && !all))
+        return WT_OK;
+    if (err != NULL)
+        *err = failure;
+    return status;
+}
+
+static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
+{
+    double *p = malloc((2 * n + 1) * sizeof *p);
+    size_t m = 0;
+    if (p == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++)
+        if (rows[i].valid)
+            p[m++] = rows[i].c.p;
+    wt_holm(p, m, p + n);
+    m = 0;
+    for (size_t i = 0; i < n; i++)
+        if (rows[i].valid)
+            rows[i].holm = p[n + m++];
+    free(p);
+    return WT_OK;
+}
+
+static wt_status nothing_to_compare(const compare_pair *p, wt_error *err)
+{
+    wt_fail(err, WT_E_EMPTY, "too few accepted curves to compare");
+    wt_error_expected(err, "some in each group");
+    wt_error_found(err, "bulk %zu, track %zu", p->data[0].group.n, p->data[1].group.n);
+    wt_error_advice(err, "the column reason of the indentation tables says why curves were "
+                         "rejected");
+    return WT_E_EMPTY;
+}
+
+/* Where the curves do not say what their rates do, the DMA may. */
+static wt_status compare_rows(comparison_task *task, wt_error *err)
+{
+    compare_pair *p = task->p;
+    wt_status status = compare_find_known(p, task->job, task->work, false, &task->known, err);
+    if (status == WT_OK)
+        status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
+    if (status == WT_OK && task->rows[0].c.unsettled == WT_RATES_APART &&
+        (task->job->rubber != NULL || p->by_factor)) {
+        status = compare_find_known(p, task->job, task->work, true, &task->known, err);
+        if (status == WT_OK)
+            status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
+    }
+    for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
+        status = compare_bin(task, b, &task->rows[b + 1], err);
+    return status == WT_OK ? holm_rows(task->rows + 1, p->n_bins, err) : status;
+}
+
+/* ---- warnings -------------------------------------------------------------------------------- */
+
+static void warn_copies(const comparison_task *task)
+{
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &task->p->data[g];
+        if (d->n_copies > 0)
+            wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                            "%zu curves of the %s are there twice and count once: %s and %s hold "
+                            "the same",
+                            d->n_copies, compare_group_name[g], d->copy_of[0], d->copy_of[1]);
+    }
+}
+
+/* Where two scatter five times as much as six, a "yes" without a layer comes in one of eight trials
+ * (tests/study, T4.wide); room for it would make all others half as wide again. */
+static void warn_two_spots(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (!c->by_spot || (c->n_bulk == 2) == (c->n_track == 2) || c->n_bulk < 2 || c->n_track < 2)
+        return;
+    const int g = c->n_track == 2;
+    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                    "the two spots of the %s do not tell whether they scatter more than those of "
+                    "the %s; if they do, the interval is too narrow and a difference may be shown "
+                    "where there is none: measure a third spot",
+                    compare_group_name[g], compare_group_name[!g]);
+}
+
+/* Rates in one group only are left out if there are others. */
+static void warn_rates(const comparison_task *task)
+{
+    const compare_pair *p = task->p;
+    const compare_row *all = &task->rows[0];
+    const size_t unknown[2] = {p->data[0].group.n, p->data[1].group.n};
+    size_t left_out = p->by_rate ? unknown[0] + unknown[1] : 0;
+    for (size_t b = 0; b < p->n_bins; b++) {
+        const compare_row *r = &task->rows[b + 1];
+        left_out -= p->by_rate ? r->n[0] + r->n[1] : 0;
+        if ((r->n[0] == 0) == (r->n[1] == 0))
+            continue;
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "curves at %.3g to %.3g m/s are in one group only (bulk %zu, track %zu)%s",
+                        r->low, r->high, r->n[0], r->n[1],
+                        all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
+                            ? "; the comparison leaves them out"
+                            : "");
+    }
+    if (left_out > 0)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "%zu curves tell no indentation rate; the comparison leaves them out",
+                        left_out);
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval)
+{
+    for (size_t i = 0; i < n; i++) {
+        const wt_comparison *c = &rows[i].c;
+        table_row(t);
+        comparison_put(t, COMPARISON_RATE_LOW, rows[i].low);
+        comparison_put(t, COMPARISON_RATE_HIGH, rows[i].high);
+        comparison_put(t, COMPARISON_N_BULK, (double)rows[i].n[0]);
+        comparison_put(t, COMPARISON_N_TRACK, (double)rows[i].n[1]);
+        comparison_put(t, COMPARISON_SPOTS_BULK, (double)c->n_bulk);
+        comparison_put(t, COMPARISON_SPOTS_TRACK, (double)c->n_track);
+        if (silent || (i > 0 && !rows[i].valid))
+            continue;
+        comparison_put(t, COMPARISON_RATIO, c->ratio);
+        if (!interval || !rows[i].valid)
+            continue;
+        comparison_put(t, COMPARISON_RATIO_LOW, c->ratio_low);
+        comparison_put(t, COMPARISON_RATIO_HIGH, c->ratio_high);
+        comparison_put(t, COMPARISON_WELCH_T, c->t);
+        comparison_put(t, COMPARISON_WELCH_DF, c->df);
+        comparison_put(t, COMPARISON_WELCH_P, c->p);
+        comparison_put(t, COMPARISON_HOLM_P, rows[i].holm);
+        comparison_put(t, COMPARISON_MANN_WHITNEY_P, c->mann_whitney_p);
+        comparison_put(t, COMPARISON_MANN_WHITNEY_SMALLEST_P, c->mann_whitney_smallest_p);
+        comparison_put(t, COMPARISON_EFFECT_SIZE, c->effect_size);
+    }
+}
+
+static const char *unit_words(const compare_pair *p, const wt_compare_job *job,
+                              const wt_comparison *c)
+{
+    if (!c->by_spot)
+        return "curve: no spots in the tables";
+    if (p->data[0].spots_given && p->data[1].spots_given)
+        return "spot";
+    if (job->map_spots)
+        return "spot: each place of a map counts as one";
+    return "spot: each file counts as one where none were named";
+}
+
+static const char *rates_words(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (!task->p->by_rate)
+        return "not known";
+    if (task->known.rates_by_dma || (task->p->by_factor && c->rates_by != WT_RATES_COMMON))
+        return "brought to one by the DMA";
+    if (task->p->by_factor)
+        return "those that both groups have, each brought to one by the DMA";
+    return c->rates_by == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
+           : c->rates_by == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
+                                             : "those that both groups have";
+}
+
+/* Half of what the ratios of the rates are apart, in ln; it goes on as an error of the one ratio.
+ */
+static double spread_of_rates(const compare_row *rates, size_t n)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        if (rates[i].valid) {
+            low = fmin(low, rates[i].c.log_ratio.value);
+            high = fmax(high, rates[i].c.log_ratio.value);
+        }
+    return high > low ? (high - low) / 2 : 0;
+}
+
+/* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
+static void set_ratio(table_writer *t, const comparison_task *task, const compare_verdict *v,
+                      bool interval)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    double error = interval ? c->log_ratio.standard_error : (double)NAN;
+    if (v->twisted)
+        error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
+    if (v->silent)
+        return;
+    comparison_set_value(t, COMPARISON_KEY_MODULUS_RATIO, c->ratio, c->ratio * error, 0);
+    if (interval && isfinite(c->df))
+        comparison_set_value(t, COMPARISON_KEY_MODULUS_RATIO_DF, c->df, 0, 0);
+    /* of the variance above: spring constants, sensitivities, tips, temperatures */
+    const double known = c->known_share * pow(c->log_ratio.standard_error / error, 2);
+    if (interval && known > 0)
+        comparison_set_value(t, COMPARISON_KEY_CALIBRATION_SHARE, known, 0, 0);
+}
+
+static wt_status write_table(const comparison_task *task, wt_table **table, wt_error *err)
+{
+    const compare_pair *p = task->p;
+    const wt_comparison *c = &task->rows[0].c;
+    const compare_verdict v =
+        compare_judge(p, task->job, &task->known, &task->rows[0], task->rows + 1, p->n_bins);
+    const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
+    table_writer t = table_begin(&comparison_schema, err);
+    add_rows(&t, task->rows, p->n_bins + 1, v.silent, interval);
+    comparison_set_text(&t, COMPARISON_KEY_DIFFERS, v.differs);
+    if (v.settled_by[0] != '\0')
+        comparison_set_text(&t, COMPARISON_KEY_SETTLED_BY, v.settled_by);
+    comparison_set_text(&t, COMPARISON_KEY_UNIT_OF_ANALYSIS, unit_words(p, task->job, c));
+    comparison_set_text(&t, COMPARISON_KEY_RATES, rates_words(task));
+    if (interval && !v.silent)
+        comparison_set_text(&t, COMPARISON_KEY_INCLUDES, task->known.includes);
+    comparison_set_text(&t, COMPARISON_KEY_CANTILEVERS, task->known.two_levers ? "two" : "one");
+    if (task->known.cancels[0] != '\0' && !v.silent)
+        comparison_set_text(&t, COMPARISON_KEY_CANCELS, task->known.cancels);
+    comparison_set_value(&t, COMPARISON_KEY_MARGIN, task->job->margin, 0, 0);
+    if (!isnan(c->rate_slope.value))
+        comparison_set(&t, COMPARISON_KEY_RATE_SLOPE, c->rate_slope);
+    if (!isnan(c->interaction_p))
+        comparison_set_value(&t, COMPARISON_KEY_INTERACTION_P, c->interaction_p, 0, 0);
+    set_ratio(&t, task, &v, interval);
+    return table_end(&t, table);
+}
+
+wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                             wt_table **table, wt_error *err)
+{
+    comparison_task task = {.p = p, .job = job, .work = work};
+    if (p->data[0].group.n == 0 || p->data[1].group.n == 0)
+        return nothing_to_compare(p, err);
+    task.rows = calloc(p->n_bins + 1, sizeof *task.rows);
+    if (task.rows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = compare_rows(&task, err);
+    if (status == WT_OK) {
+        warn_copies(&task);
+        warn_two_spots(&task);
+        warn_rates(&task);
+        status = write_table(&task, table, err);
+    }
+    free(task.rows);
+    return status;
+}

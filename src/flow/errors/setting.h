@@ -1,0 +1,44 @@
+/* Everything that friction and layer rest on, to be computed again with one thing changed. Internal
+ * to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_ERRORS_SETTING_H
+#define WEARTRACK_FLOW_ERRORS_SETTING_H
+
+#include "weartrack/flow.h"
+
+typedef struct setting {
+    wt_sliding sliding; /* of the velocity, rubber and surface below */
+    double velocity;
+    wt_rubber rubber;   /* borrowed, or another one */
+    wt_surface surface; /* borrowed; its cut-offs are numbers */
+    bool has_softness;
+    wt_softness softness; /* borrowed */
+    bool has_layer, has_known;
+    wt_layer_job layer;
+    wt_layer_known known;
+    wt_vertical_shift vertical;
+    /* after setting_compute: what is to be said of the material, and what share of the hysteresis
+     * comes from outside its frequencies (NaN: not asked for) */
+    char statement[512];
+    double extrapolated_share;
+} setting;
+
+/* What comes of it, at the reference velocity. */
+typedef enum setting_number {
+    SETTING_HYSTERESIS,
+    SETTING_AREA_RATIO,
+    SETTING_FRICTION,
+    SETTING_THICKNESS,
+    SETTING_WITH_LAYER,
+    SETTING_NUMBERS
+} setting_number;
+
+/* `layer` NULL: no thickness; `known` NULL: no friction with a layer. With both, the thickness is
+ * that which `layer` gives. */
+wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                       const wt_layer_known *known, const wt_job *work, setting *s,
+                       wt_error *err) WT_NODISCARD;
+/* number: [SETTING_NUMBERS]; those that do not apply stay as they are. */
+wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number,
+                          wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,555 @@
+/* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
+ * moved, how far and why is the list `choices`.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/errors/setting.h"
+#include "flow/sliding/sliding_contact.h"
+#include "flow/work/cost.h"
+
+#include "base/array.h"
+#include "base/clocale.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- choices --------------------------------------------------------------------------------- */
+
+enum { MOST_TRIED = 4, WORDS = 64 };
+
+/* A choice without a measurement. */
+typedef struct choice {
+    const char *words; /* in a sentence, after "if the" */
+    const char *unit;  /* of its value; NULL: it has words */
+    const char *why;   /* why it is moved so far */
+    const char *lacks; /* why it does not apply, where it does not; NULL: not worth a word */
+    bool (*applies)(const setting *s);
+    double (*value)(const setting *s);                       /* if it has a unit, */
+    void (*name)(const setting *s, char text[WORDS]);        /* else */
+    bool (*move)(const setting *used, size_t i, setting *s); /* false: no more of them */
+} choice;
+
+static double limited(double value, double low, double high)
+{
+    return fmax(fmin(value, high), low);
+}
+
+static bool always(const setting *s)
+{
+    (void)s;
+    return true;
+}
+
+/* The densities are known between these wavenumbers only. */
+static double first_known(const setting *s)
+{
+    return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
+}
+
+static double last_known(const setting *s)
+{
+    const wt_power_spectrum *p = &s->surface.spectrum;
+    return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
+}
+
+/* The roll-off of a self-affine law, else the cut-off on the other side. */
+static double roll_off(const setting *s, double other)
+{
+    return s->surface.self_affine ? s->surface.qr : other;
+}
+
+static double value_q1(const setting *s)
+{
+    return s->surface.q1;
+}
+
+/* No surface has waves below the size of a molecule. */
+#define SHORTEST_WAVE 1e-9
+
+static bool move_q1(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.1, 0.3, 3, 10};
+    const double q1 = used->surface.q1,
+                 lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
+                 highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->surface.q1 = limited(factor[i] * q1, lowest, highest);
+    return true;
+}
+
+static double value_q0(const setting *s)
+{
+    return s->surface.q0;
+}
+
+/* A law without a roll-off is tied to its q0. */
+static bool has_q0(const setting *s)
+{
+    return !s->surface.self_affine || s->surface.qr > s->surface.q0;
+}
+
+static bool move_q0(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.5, 2};
+    const double q0 = used->surface.q0,
+                 highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->surface.q0 = limited(factor[i] * q0, fmin(first_known(used), q0), highest);
+    return true;
+}
+
+static double value_gamma(const setting *s)
+{
+    return s->sliding.gamma;
+}
+
+static bool move_gamma(const setting *used, size_t i, setting *s)
+{
+    static const double tried[] = {0.5, 1};
+    (void)used;
+    if (i >= COUNT_OF(tried))
+        return false;
+    s->sliding.gamma = tried[i];
+    return true;
+}
+
+static bool has_strain(const setting *s)
+{
+    return s->has_softness;
+}
+
+static double value_strain(const setting *s)
+{
+    return s->sliding.strain_factor;
+}
+
+static bool move_strain(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.5, 2};
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->sliding.strain_factor = limited(factor[i] * used->sliding.strain_factor, 0.01, 100);
+    return true;
+}
+
+/* Else it is not what the surface feels. */
+static bool has_poisson(const setting *s)
+{
+    const wt_rubber *r = &s->rubber;
+    return !r->is_transverse || isnan(r->transverse.plane_poisson) ||
+           isnan(r->transverse.axial_poisson);
+}
+
+static double value_poisson(const setting *s)
+{
+    return s->rubber.poisson_ratio;
+}
+
+static bool move_poisson(const setting *used, size_t i, setting *s)
+{
+    static const double tried[] = {0.4, 0.5};
+    (void)used;
+    if (i >= COUNT_OF(tried))
+        return false;
+    s->rubber.poisson_ratio = tried[i];
+    return true;
+}
+
+/* A thickness that is put in moves with nothing. */
+static bool has_profile(const setting *s)
+{
+    return s->has_layer && isnan(s->layer.observed_thickness.value);
+}
+
+static void name_profile(const setting *s, char text[WORDS])
+{
+    if (s->layer.profile == WT_PROFILE_PERSSON)
+        snprintf(text, WORDS, "exponential");
+    else
+        clocale_print(text, WORDS, "incompressible, m = %.3g", s->layer.local_friction);
+}
+
+static bool move_profile(const setting *used, size_t i, setting *s)
+{
+    static const struct {
+        wt_depth_profile profile;
+        double local_friction;
+    } tried[] = {
+        {WT_PROFILE_PERSSON, 0}, {WT_PROFILE_INCOMPRESSIBLE, 0}, {WT_PROFILE_INCOMPRESSIBLE, 1}};
+    (void)used;
+    if (i >= COUNT_OF(tried))
+        return false;
+    s->layer.profile = tried[i].profile;
+    s->layer.local_friction = tried[i].local_friction;
+    return true;
+}
+
+static bool has_vertical(const setting *s)
+{
+    return s->rubber.sweep.n_isotherms > 1;
+}
+
+static void name_vertical(const setting *s, char text[WORDS])
+{
+    static const char *const names[] = {[WT_VERTICAL_NONE] = "none",
+                                        [WT_VERTICAL_PHYSICAL] = "physical",
+                                        [WT_VERTICAL_FREE] = "free",
+                                        [WT_VERTICAL_TIED] = "tied"};
+    snprintf(text, WORDS, "%s", names[s->vertical]);
+}
+
+static bool move_vertical(const setting *used, size_t i, setting *s)
+{
+    static const wt_vertical_shift tried[] = {WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL,
+                                              WT_VERTICAL_FREE, WT_VERTICAL_TIED};
+    (void)used;
+    if (i >= COUNT_OF(tried))
+        return false;
+    s->vertical = tried[i];
+    return true;
+}
+
+static bool has_shear(const setting *s)
+{
+    return s->has_known && !isnan(s->sliding.shear_stress.value);
+}
+
+static void name_shear(const setting *s, char text[WORDS])
+{
+    snprintf(text, WORDS, "%s", s->known.bulk_shear ? "that of the bulk" : "scaled by the ratio");
+}
+
+static bool move_shear(const setting *used, size_t i, setting *s)
+{
+    if (i >= 1)
+        return false;
+    s->known.bulk_shear = !used->known.bulk_shear;
+    return true;
+}
+
+static const choice choices[] = {
+    {"largest wavenumber q1", "rad/m",
+     "a decade down and up, as far as the counter surface is known: nothing measures which waves "
+     "still reach the rubber",
+     "", always, value_q1, NULL, move_q1},
+    {"smallest wavenumber q0", "rad/m",
+     "half and twice, as far as the counter surface is known: the longest waves of a measured "
+     "spectrum are its least certain",
+     "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0},
+    {"factor gamma of partial contact", "1",
+     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "", always,
+     value_gamma, NULL, move_gamma},
+    {"strain over slope", "1",
+     "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
+     "more is known",
+     NULL, has_strain, value_strain, NULL, move_strain},
+    {"Poisson ratio", "1",
+     "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
+     "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
+     move_poisson},
+    {"vertical shift", NULL, "all four; which of them is right the isotherms do not say",
+     "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical},
+    {"depth profile", NULL,
+     "exponential, or of a half-space that keeps its volume, without local friction and with m = "
+     "1: how energy falls off with depth is not measured",
+     "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile},
+    {"shear stress of the layer", NULL,
+     "scaled by the modulus ratio or not: it is not measured on the layer",
+     "no layer with a modulus ratio, or no shear stress", has_shear, NULL, name_shear, move_shear},
+};
+
+/* "2e5", where C has 2e+05. */
+static void short_number(double value, char text[WORDS])
+{
+    clocale_print(text, WORDS, "%.3g", value);
+    char *from = strstr(text, "e+"), *to = from;
+    if (from == NULL)
+        return;
+    from += strspn(from, "e+0");
+    *to++ = 'e';
+    memmove(to, from, strlen(from) + 1);
+}
+
+static void say(const choice *c, const setting *s, char text[WORDS])
+{
+    if (c->unit == NULL) {
+        c->name(s, text);
+        return;
+    }
+    short_number(c->value(s), text);
+    const size_t length = strlen(text);
+    if (c->unit[0] != '1')
+        snprintf(text + length, WORDS - length, " %s", c->unit);
+}
+
+/* What a setting comes to. */
+typedef struct outcome {
+    const choice *choice; /* NULL: as used */
+    setting setting;
+    char used[WORDS], tried[WORDS];
+    double number[SETTING_NUMBERS];
+    double error;   /* the largest relative numerical one of them */
+    double seconds; /* NaN: not timed */
+    char note[512];
+} outcome;
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+typedef struct what_if {
+    wt_job work; /* of one setting */
+    outcome *outcomes;
+    size_t n;
+} what_if;
+
+static wt_status compute(outcome *o, const wt_job *work, wt_error *err)
+{
+    wt_estimate number[SETTING_NUMBERS];
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        number[k].value = (double)NAN;
+    const wt_status status = setting_compute(&o->setting, work, number, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+        o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
+        if (fabs(o->number[k]) > 0) /* fmax leaves out NaN */
+            o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
+    }
+    return status;
+}
+
+static wt_status compute_one(void *user, size_t i, unsigned worker)
+{
+    const what_if *w = user;
+    outcome *o = &w->outcomes[1 + i];
+    wt_error why = WT_ERROR_INIT;
+    wt_rubber refitted = {0};
+    wt_status status = WT_OK;
+    const double start = cost_clock(w->work.cost);
+    (void)worker;
+    if (o->choice->move == move_vertical) {
+        status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
+        o->setting.rubber = refitted;
+    }
+    if (status == WT_OK)
+        status = compute(o, &w->work, &why);
+    wt_rubber_clear(&refitted);
+    o->seconds = cost_clock(w->work.cost) - start;
+    if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
+        return status;
+    snprintf(o->note, sizeof o->note, "%s%s%s", why.message,
+             why.expected[0] != '\0' ? ", expected " : "", why.expected);
+    return WT_OK;
+}
+
+static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
+{
+    outcome *o = &w->outcomes[w->n++];
+    *o = (outcome){.choice = c, .setting = *s};
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        o->number[k] = (double)NAN;
+    return o;
+}
+
+/* A limit may leave nothing to try on one side. */
+static void add_choice(what_if *w, const choice *c, const setting *used)
+{
+    char as_used[WORDS], tried[WORDS];
+    say(c, used, as_used);
+    setting moved = *used;
+    for (size_t i = 0; i < MOST_TRIED && c->move(used, i, &moved); i++) {
+        say(c, &moved, tried);
+        if (strcmp(tried, as_used) != 0) {
+            outcome *o = add_outcome(w, c, &moved);
+            memcpy(o->used, as_used, WORDS);
+            memcpy(o->tried, tried, WORDS);
+        }
+        moved = *used;
+    }
+}
+
+/* ---- table ----------------------------------------------------------------------------------- */
+
+static const struct {
+    what_if_column value, change;
+    what_if_key key;
+    const char *unit;
+} numbers[SETTING_NUMBERS] = {
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE, WHAT_IF_KEY_HYSTERESIS,
+                            "1"},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE, WHAT_IF_KEY_AREA_RATIO,
+                            "1"},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE, WHAT_IF_KEY_FRICTION, "1"},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE, WHAT_IF_KEY_THICKNESS, "m"},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE, WHAT_IF_KEY_WITH_LAYER,
+                            "1"}};
+
+static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
+{
+    table_row(t);
+    what_if_put_text(t, WHAT_IF_CHOICE, o->choice != NULL ? o->choice->words : "as used");
+    what_if_put_text(t, WHAT_IF_USED, o->used);
+    what_if_put_text(t, WHAT_IF_TRIED, o->tried);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+        const double used = w->outcomes[0].number[k];
+        what_if_put(t, numbers[k].value, o->number[k]);
+        what_if_put(t, numbers[k].change, used != 0 ? o->number[k] / used - 1 : (double)NAN);
+    }
+    what_if_put_text(t, WHAT_IF_WHY, o->choice != NULL ? o->choice->why : "");
+    what_if_put_text(t, WHAT_IF_NOTE, o->note);
+}
+
+/* The settings between which a number goes by one choice. */
+typedef struct range {
+    const outcome *low, *high;   /* of the number */
+    const outcome *first, *last; /* of the value of the choice */
+} range;
+
+static double spread(range r, size_t k)
+{
+    return r.high->number[k] - r.low->number[k];
+}
+
+static range range_of(const what_if *w, const choice *c, size_t k)
+{
+    const outcome *used = &w->outcomes[0];
+    range r = {used, used, used, used};
+    for (size_t i = 1; i < w->n; i++) {
+        const outcome *o = &w->outcomes[i];
+        if (o->choice != c || !isfinite(o->number[k]))
+            continue;
+        r.low = o->number[k] < r.low->number[k] ? o : r.low;
+        r.high = o->number[k] > r.high->number[k] ? o : r.high;
+        if (c->unit != NULL && c->value(&o->setting) < c->value(&r.first->setting))
+            r.first = o;
+        if (c->unit != NULL && c->value(&o->setting) > c->value(&r.last->setting))
+            r.last = o;
+    }
+    return r;
+}
+
+static void number_words(double value, const char *unit, char text[WORDS])
+{
+    if (unit[0] == '1')
+        short_number(value, text);
+    else if (!(value > 0))
+        snprintf(text, WORDS, "none");
+    else
+        wt_format_si(value, unit, 3, text, WORDS);
+}
+
+/* "0.08 to 0.58 if the largest wavenumber q1 lies between 2e5 and 2e7 rad/m": by the
+ * choice that moves the number most. */
+static void set_range(const what_if *w, size_t k, table_writer *t)
+{
+    const choice *most = NULL;
+    range widest = {0};
+    char low[WORDS], high[WORDS], first[WORDS], last[WORDS];
+    if (!isfinite(w->outcomes[0].number[k]))
+        return;
+    for (size_t i = 0; i < COUNT_OF(choices); i++) {
+        const range r = range_of(w, &choices[i], k);
+        if (spread(r, k) > (most != NULL ? spread(widest, k) : 0)) {
+            most = &choices[i];
+            widest = r;
+        }
+    }
+    if (most == NULL)
+        return;
+    const bool is_number = most->unit != NULL;
+    number_words(widest.low->number[k], numbers[k].unit, low);
+    number_words(widest.high->number[k], numbers[k].unit, high);
+    if (strcmp(low, high) == 0)
+        return; /* such as a thickness that was observed */
+    say(most, is_number ? &widest.first->setting : &widest.low->setting, first);
+    say(most, is_number ? &widest.last->setting : &widest.high->setting, last);
+    if (is_number)
+        first[strcspn(first, " ")] = '\0'; /* the unit stands behind the other one */
+    what_if_set_print(t, numbers[k].key,
+                      is_number ? "%s to %s if the %s lies between %s and %s"
+                                : "%s to %s if the %s is %s or %s",
+                      low, high, most->words, first, last);
+}
+
+static void set_left_out(const setting *used, table_writer *t)
+{
+    char words[512] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < COUNT_OF(choices) && length < sizeof words; i++)
+        if (!choices[i].applies(used) && choices[i].lacks != NULL)
+            length += (size_t)snprintf(words + length, sizeof words - length, "%s%s (%s)",
+                                       length > 0 ? "; " : "", choices[i].words, choices[i].lacks);
+    if (length > 0)
+        what_if_set_text(t, WHAT_IF_KEY_LEFT_OUT, words);
+}
+
+static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
+{
+    const setting *used = &w->outcomes[0].setting;
+    table_writer t = table_begin(&what_if_schema, err);
+    for (size_t i = 0; i < w->n; i++)
+        put_outcome(w, &w->outcomes[i], &t);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        set_range(w, k, &t);
+    set_left_out(used, &t);
+    if (used->statement[0] != '\0')
+        what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
+    if (!isnan(used->extrapolated_share))
+        what_if_set_value(&t, WHAT_IF_KEY_EXTRAPOLATED_SHARE, used->extrapolated_share, (double)NAN,
+                          (double)NAN);
+    return table_end(&t, table);
+}
+
+/* The choices one by one, for the error budget, and the stage. */
+static void say_cost(const what_if *w, const wt_job *work)
+{
+    cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
+    for (size_t i = 0; i < w->n; i++)
+        cost.error_estimated = fmax(cost.error_estimated, w->outcomes[i].error);
+    for (size_t i = 0; i < COUNT_OF(choices); i++) {
+        double seconds = 0;
+        for (size_t k = 1; k < w->n; k++)
+            seconds += w->outcomes[k].choice == &choices[i] ? w->outcomes[k].seconds : 0;
+        cost_set_part(work->cost, choices[i].words, seconds);
+    }
+    cost_say(work, cost);
+}
+
+wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                          const wt_layer_known *known, const wt_job *work, wt_table **table,
+                          wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no what-if job");
+    setting used;
+    wt_status status = setting_make(sliding, layer, known, work, &used, err);
+    if (status != WT_OK)
+        return status;
+    what_if w = {.work = *work};
+    w.work.threads = 1; /* the settings take the threads */
+    w.work.replicates = 0;
+    w.work.drawn = NULL; /* of another material */
+    w.work.log = NULL;   /* what is to be said of the values as used has been said */
+    w.work.progress = (wt_progress){0};
+    w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
+    if (w.outcomes == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    add_outcome(&w, NULL, &used);
+    for (size_t i = 0; i < COUNT_OF(choices); i++)
+        if (choices[i].applies(&used))
+            add_choice(&w, &choices[i], &used);
+    w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
+    status = compute(&w.outcomes[0], &w.work, err);
+    w.work.left_out = WT_EXTRAS;
+    if (status == WT_OK) {
+        status =
+            wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+        if (status != WT_OK)
+            wt_fail(err, status, "the choices of the model could not be tried");
+    }
+    if (status == WT_OK)
+        status = make_table(&w, table, err);
+    if (status == WT_OK)
+        say_cost(&w, work);
+    free(w.outcomes);
+    return status;
+}

@@ -1,0 +1,53 @@
+/* What all curves of a group share and its scatter does not show: spring constant, deflection
+ * sensitivity, half-angle and radius of the tip. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_INDENTATION_COMMON_ERRORS_H
+#define WEARTRACK_FLOW_INDENTATION_COMMON_ERRORS_H
+
+#include "data/tables/tables.h"
+#include "weartrack/flow.h"
+
+/* Most curves of a group that are fitted anew. */
+enum { COMMON_CURVES = 8 };
+
+/* A branch as it was measured. */
+typedef struct common_branch {
+    double *height, *force, *time; /* [n], of one allocation, that of the height; time: or NULL */
+    size_t n;
+} common_branch;
+
+typedef struct common_curve {
+    common_branch branch[2]; /* approach, retract */
+    double spring_constant;
+} common_curve;
+
+/* What an error does to the modulus, by curves that are fitted anew with the source moved. */
+typedef struct common_errors {
+    bool stated;                     /* else nothing is done */
+    double error[WT_COMMON_SOURCES]; /* relative; NaN: not stated */
+    double step[WT_COMMON_SOURCES];  /* of the logarithm of the source; 0: the tip has none */
+    wt_contact_table *tip[WT_COMMON_SOURCES][2]; /* of moved tips, down and up */
+    common_curve curve[COMMON_CURVES];
+    double gain[COMMON_CURVES][WT_COMMON_SOURCES];
+    size_t n, seen, stride;
+} common_errors;
+
+wt_status common_errors_begin(const wt_indent_job *job, common_errors *to,
+                              wt_error *err) WT_NODISCARD;
+/* Keeps a copy of an accepted curve: of every so many of them. */
+wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
+                             wt_error *err) WT_NODISCARD;
+/* Fits what is kept. workspaces: one for each of the threads. */
+wt_status common_errors_fit(common_errors *to, const wt_contact_table *contact,
+                            const wt_indent_options *options, unsigned threads,
+                            wt_indent_workspace *const *workspaces, wt_error *err) WT_NODISCARD;
+void common_errors_set_keys(const common_errors *of, table_writer *rows);
+void common_errors_clear(common_errors *errors);
+
+const char *common_source_words(wt_common_source source);
+
+/* NULL if no group states a common error. names: [n]; a group without curves has no row. */
+wt_status modulus_budget_make(const wt_group_data *groups, const char *const *names, size_t n,
+                              wt_table **table, wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,241 @@
+/* Curves as rows of tables: what was found of each; of the representative one the whole curve for
+ * force against displacement, the contact part with its fit for force against indentation.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/indentation/curve_tables.h"
+
+#include "data/force_curve.h"
+#include "data/tables/tables.h"
+#include "fit/indentation/curve.h"
+#include "model/hereditary.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A new block of a table that is made with the first one; a failure stays in the writer. */
+static table_writer next_block(wt_table **table, const table_schema *schema, const char *group,
+                               wt_error *err)
+{
+    table_writer t = {0};
+    if (*table == NULL) {
+        t = table_begin(schema, err);
+        if (table_end(&t, table) != WT_OK)
+            return t;
+    }
+    t = table_continue(*table, schema, group, err);
+    table_block(&t);
+    return t;
+}
+
+static void set_keys(table_writer *t, const char *file, const wt_force_curve *curve,
+                     const wt_indent_fit *fit)
+{
+    force_displacement_set_print(t, FORCE_DISPLACEMENT_KEY_CURVE, "%s curve %zu", file,
+                                 curve->index);
+    force_displacement_set_value(t, FORCE_DISPLACEMENT_KEY_CONTACT_POINT, 0,
+                                 fit->contact_point.standard_error, 0);
+    force_displacement_set_value(t, FORCE_DISPLACEMENT_KEY_CONTACT_FORCE, 0,
+                                 fit->baseline_offset.standard_error, 0);
+}
+
+static void add_segment(table_writer *t, const wt_segment *segment, const wt_indent_fit *fit,
+                        const double *force)
+{
+    const double *height = segment_height(segment);
+    for (size_t i = 0; height != NULL && i < segment->n_points; i++) {
+        if (!isfinite(height[i]) || !isfinite(force[i]))
+            continue;
+        table_row(t);
+        force_displacement_put_text(t, FORCE_DISPLACEMENT_GROUP, t->suffix);
+        force_displacement_put_text(t, FORCE_DISPLACEMENT_SEGMENT,
+                                    wt_segment_kind_name(segment->kind));
+        force_displacement_put(t, FORCE_DISPLACEMENT_DISPLACEMENT,
+                               fit->direction * height[i] - fit->contact_point.value);
+        force_displacement_put(t, FORCE_DISPLACEMENT_FORCE, force[i] - fit->baseline_offset.value);
+    }
+}
+
+/* Turns elastic forces over modulus into those of rubber with memory. */
+static wt_status remember(const wt_prony *spectrum, const double *time, size_t n, double *force,
+                          wt_error *err)
+{
+    hereditary law = {0};
+    double before = 0, shortest = (double)INFINITY;
+    wt_status status = hereditary_reserve(&law, spectrum->n, err);
+    for (size_t i = 1; i < n; i++)
+        shortest = fmin(shortest, time[i] - time[i - 1]);
+    if (status == WT_OK && n > 1 && shortest > 0) {
+        hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
+        for (size_t i = 0; i < n; i++) {
+            const double f = force[i];
+            hereditary_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
+            force[i] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
+            hereditary_add(&law, law.memory[0], f - before);
+            before = f;
+        }
+    }
+    hereditary_clear(&law);
+    return status;
+}
+
+/* Fitted forces of the n samples in contact, whose indentations are `delta`. */
+static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                               const wt_contact_table *contact, const wt_segment *approach,
+                               const double *delta, size_t n, double *time, double *model,
+                               wt_error *err)
+{
+    const double *height = segment_height(approach), *all = segment_time(approach, time);
+    const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
+    const bool known = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
+                       !isnan(fit->spectrum_factor.value);
+    curve_power power;
+    double modulus = fit->modulus.value;
+    wt_status status = WT_OK;
+    wt_contact_table_eval(contact, delta, n, model, NULL);
+    if (all != NULL && (known || fit->loss_power > 0)) {
+        size_t m = 0; /* those that wt_indent_curve takes */
+        for (size_t i = 0; i < approach->n_points && m < n; i++)
+            if (fit->direction * height[i] >= fit->contact_point.value)
+                time[m++] = all[i];
+        if (known) {
+            modulus = fit->spectrum_factor.value;
+        } else {
+            curve_power_make(&power, fit->loss_power, fit->load_time);
+            modulus /=
+                (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
+        }
+        status = remember(known ? options->spectrum : &power.series, time, m, model, err);
+    }
+    for (size_t i = 0; i < n; i++)
+        model[i] *= modulus / reduced;
+    return status;
+}
+
+wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
+                                const wt_force_curve *curve, const wt_indent_fit *fit,
+                                const wt_contact_table *contact, const wt_indent_options *options,
+                                wt_error *err)
+{
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+    const double *height = approach == NULL ? NULL : segment_height(approach);
+    if (height == NULL || approach->n_points < 2)
+        return WT_OK;
+    double k = curve->cantilever.spring_constant;
+    size_t longest = approach->n_points;
+    if (retract != NULL && retract->n_points > longest)
+        longest = retract->n_points;
+    double *scratch = malloc(5 * longest * sizeof *scratch);
+    if (scratch == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *delta = scratch + longest, *shown = scratch + 2 * longest,
+           *model = scratch + 3 * longest, *time = scratch + 4 * longest;
+    const double *force = segment_force(approach, &curve->cantilever, scratch);
+
+    wt_status status = WT_OK;
+    if (force == NULL)
+        goto done;
+    table_writer whole =
+        next_block(&tables->force_displacement, &force_displacement_schema, group, err);
+    set_keys(&whole, file, curve, fit);
+    add_segment(&whole, approach, fit, force);
+
+    size_t n = wt_indent_curve(fit, height, force, approach->n_points, k, delta, shown);
+    status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
+    if (status != WT_OK)
+        goto done;
+    table_writer branch =
+        next_block(&tables->force_indentation, &force_indentation_schema, group, err);
+    for (size_t i = 0; i < n; i++) {
+        table_row(&branch);
+        force_indentation_put_text(&branch, FORCE_INDENTATION_GROUP, group);
+        force_indentation_put(&branch, FORCE_INDENTATION_INDENTATION, delta[i]);
+        force_indentation_put(&branch, FORCE_INDENTATION_FORCE, shown[i]);
+        force_indentation_put(&branch, FORCE_INDENTATION_FITTED_FORCE, model[i]);
+    }
+    if (retract != NULL)
+        force = segment_force(retract, &curve->cantilever, scratch);
+    if (retract != NULL && force != NULL)
+        add_segment(&whole, retract, fit, force);
+    status = table_end(&whole, NULL);
+    if (status == WT_OK)
+        status = table_end(&branch, NULL);
+done:
+    free(scratch);
+    return status;
+}
+
+/* ---- rows of indentation -------------------------------------------------------------------- */
+
+/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
+ * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
+static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
+{
+    const wt_tip *tip = &job->tip;
+    double g = (double)NAN, slope = (double)NAN;
+    if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
+        return (double)NAN;
+    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value) ||
+        fit->loss_power > 0)
+        return 1.0 / fit->load_time;
+    wt_contact_function(tip, fit->max_indentation, &g, &slope);
+    return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
+}
+
+static const indentation_column contact_columns[WT_CONTACT_ESTIMATORS] = {
+    [WT_CONTACT_THRESHOLD] = INDENTATION_CONTACT_THRESHOLD,
+    [WT_CONTACT_VARIANCES] = INDENTATION_CONTACT_VARIANCES,
+    [WT_CONTACT_LINES] = INDENTATION_CONTACT_LINES,
+    [WT_CONTACT_DIRECT_PATH] = INDENTATION_CONTACT_DIRECT_PATH,
+    [WT_CONTACT_GOODNESS_OF_FIT] = INDENTATION_CONTACT_GOODNESS_OF_FIT};
+
+void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
+                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)
+{
+    const bool rates = job->rates;
+    const double unknown = (double)NAN;
+    const double frequency = rates ? equivalent_frequency(job, fit) : unknown;
+    table_row(t);
+    indentation_put_text(t, INDENTATION_FILE, file);
+    indentation_put(t, INDENTATION_CURVE, (double)curve->index);
+    indentation_put_text(t, INDENTATION_SPOT, spot);
+    indentation_put(t, INDENTATION_X, curve->x);
+    indentation_put(t, INDENTATION_Y, curve->y);
+    indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
+    indentation_put_text(t, INDENTATION_REASON, fit->reason);
+    indentation_put(t, INDENTATION_MODULUS, fit->modulus.value);
+    indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
+    indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
+    indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
+    for (int i = 0; i < WT_CONTACT_ESTIMATORS; i++)
+        indentation_put(t, contact_columns[i], fit->contact_by[i]);
+    indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
+    indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
+    indentation_put(t, INDENTATION_NOISE, fit->noise);
+    indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
+    indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
+    indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
+    indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
+    indentation_put(t, INDENTATION_INTERFERENCE_AMPLITUDE, fit->interference_amplitude);
+    indentation_put(t, INDENTATION_INTERFERENCE_PERIOD, fit->interference_period);
+    indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
+    indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
+    indentation_put(t, INDENTATION_FITTED_FROM, fit->fitted_from);
+    indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,
+                    fit->work_of_adhesion.standard_error);
+    indentation_put(t, INDENTATION_PULL_OFF_FORCE, fit->pull_off_force);
+    indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
+    indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
+    indentation_put(t, INDENTATION_LOSS, fit->loss);
+    indentation_put(t, INDENTATION_LOSS_BIAS, fit->loss_bias);
+    indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
+    indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
+    indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
+    indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
+    indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
+    indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR, fit->spectrum_factor.value);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR,
+                    fit->spectrum_factor.standard_error);
+}

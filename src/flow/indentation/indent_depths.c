@@ -1,0 +1,63 @@
+/* What the curves of a group say of the modulus against depth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/array.h"
+#include "fit/indentation/curve.h"
+#include "flow/indentation/curve_tables.h"
+#include "flow/indentation/indent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool indent_loss_is_unknown(const wt_indent_fit *fit)
+{
+    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0; /* loses work, too */
+    return fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
+           isnan(fit->spectrum_factor.value) && !pull;
+}
+
+wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
+                            const wt_force_curve *curve, const char *spot, wt_error *err)
+{
+    if (fit->fitted_from > 0) /* what a law misses at small depths is not in it */
+        return WT_OK;
+    if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
+        !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
+        return WT_OK;
+    wt_depth_curve *deep = array_grow(to->curve, to->n, sizeof *deep);
+    if (deep == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    to->curve = deep;
+    deep += to->n++;
+    if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
+        to->n_spots++;
+    to->last_spot = spot;
+    *deep =
+        (wt_depth_curve){.modulus = fit->fitted_modulus,
+                         .depth = fit->max_indentation,
+                         .spring_constant = curve->cantilever.spring_constant,
+                         .baseline = fit->baseline_length,
+                         .window = fit->misfit_length,
+                         .curvature = fit->baseline_curvature,
+                         .loss_error = indent_loss_is_unknown(fit) ? (double)NAN : fit->loss_error,
+                         .spot = to->n_spots};
+    memcpy(deep->misfit, fit->misfit, sizeof deep->misfit);
+    return WT_OK;
+}
+
+wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
+                              const wt_contact_table *contact, wt_indent_tables *tables,
+                              wt_error *err)
+{
+    wt_curve_depth depth;
+    if (job->options.plain_least_squares || depths->n == 0)
+        return WT_OK;
+    const wt_status status = wt_curve_depth_make(contact, job->options.poisson_ratio, depths->curve,
+                                                 depths->n, &depth, err);
+    return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
+}
+
+void indent_depths_clear(indent_depths *depths)
+{
+    free(depths->curve);
+}

@@ -1,0 +1,400 @@
+/* The layer job: energy density with depth, formation against wear, thickness at balance and in
+ * time, with standard errors from replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/replicates.h"
+#include "flow/sliding/sliding_contact.h"
+#include "flow/strain/softness.h"
+#include "flow/work/cost.h"
+#include "flow/work/draws.h"
+#include "kernel/params.h"
+
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The balance at one set of values. */
+typedef struct layer_run {
+    wt_energy_source source;
+    wt_layer_parameters parameters;
+    wt_layer_balance balance;
+    wt_estimate critical_energy, time_to_90_percent;
+    wt_layer_point *points; /* [n of the task] */
+    char statement[512];
+} layer_run;
+
+/* Single numbers of a run with their keys; the thicknesses in time follow them. */
+#define NUMBERS(X)                                                                                 \
+    X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
+    X(FORMATION_WEAR_RATIO, of_power(run, run->balance.ratio))                                     \
+    X(INCUBATION_TIME, run->balance.incubation_time)                                               \
+    X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
+    X(CRITICAL_WEAR_RATE, of_power(run, run->balance.critical_specific_wear_rate))                 \
+    X(REMOVAL_TIME, run->balance.removal_time)                                                     \
+    X(CRITICAL_ENERGY, run->critical_energy)                                                       \
+    X(SURFACE_POWER, of_power(run, run->balance.surface_power))                                    \
+    X(TIME_TO_90_PERCENT, run->time_to_90_percent)
+#define NUMBER_ID(key, value) NUMBER_##key,
+enum { NUMBERS(NUMBER_ID) N_NUMBERS };
+
+typedef struct layer_task {
+    const wt_sliding *sliding;
+    const wt_layer_job *job;
+    const wt_job *work;
+    double velocity;
+    double *time; /* [n] */
+    size_t n;
+    replicates replicates;
+} layer_task;
+
+wt_layer_job wt_layer_job_defaults(void)
+{
+    return (wt_layer_job){
+        .critical_energy = {(double)NAN, 0, 0, "J/m^3"},
+        .observed_thickness = {(double)NAN, 0, 0, "m"},
+        .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
+        .damage = wt_layer_defaults().damage,
+        .duty = wt_layer_defaults().duty,
+        .incubation = true,
+        .profile = WT_PROFILE_PERSSON,
+        .velocity = (double)NAN,
+    };
+}
+
+static const wt_param rows[] = {
+    {PARAM("critical-energy", wt_layer_job, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .unset = "",
+     .help = "U_c, the energy per volume that modifies the rubber, such "
+             "as 2e10J/m^3"},
+    {PARAM("observed-thickness", wt_layer_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
+     .value = "D", .unset = "",
+     .help = "of a layer, instead of the critical energy: this is to be "
+             "the balance"},
+    LAYER_ROWS(wt_layer_job, PARAM_REQUIRED),
+    ENERGY_PROFILE(wt_layer_job),
+    ENERGY_LOCAL_FRICTION(wt_layer_job),
+    {PARAM_LIST_OF("times", wt_layer_job, time, n_time, WT_Q_TIME, AT_LEAST(0)), .value = "T",
+     .unset = "around the time scales", .help = "such as 1:1e4s:log:40"},
+    {PARAM("layer-velocity", wt_layer_job, velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .unset = "the reference velocity", .flags = PARAM_NO_OPTION,
+     .help = "at which the track was worn"},
+};
+PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
+
+void wt_layer_tables_clear(wt_layer_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->layer);
+    *tables = (wt_layer_tables){0};
+}
+
+wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
+{
+    const bool energy = !isnan(job->critical_energy.value);
+    const bool observed = !isnan(job->observed_thickness.value);
+    wt_status status = param_check(wt_layer_job_params(), job, err);
+    if (status != WT_OK)
+        return status;
+    if (energy == observed) {
+        status = wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
+                         "a layer has either a critical energy or an observed thickness");
+        wt_error_expected(err, "one of critical-energy, observed-thickness");
+        wt_error_found(err, energy ? "both" : "neither");
+        wt_error_advice(err, "from an observed thickness the critical energy is calculated");
+        return status;
+    }
+    if (observed && !(job->specific_wear_rate.value > 0)) {
+        wt_fail(err, WT_E_RANGE, "an observed thickness is calibrated against wear");
+        wt_error_place(err, "specific-wear-rate");
+        wt_error_expected(err, "above 0");
+        wt_error_found(err, "%g m^2/N", job->specific_wear_rate.value);
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
+
+/* What goes with the power of all wavenumbers has its relative numerical error. */
+static wt_estimate of_power(const layer_run *run, double value)
+{
+    return (wt_estimate){.value = value,
+                         .numerical_error = fabs(value) * run->source.numerical_error};
+}
+
+static void put_numbers(const layer_run *run, wt_estimate *out)
+{
+#define PUT_NUMBER(key, number) out[NUMBER_##key] = number;
+    NUMBERS(PUT_NUMBER)
+}
+
+/* ---- one run --------------------------------------------------------------------------------- */
+
+static wt_status find_balance(const layer_task *task, size_t replicate, layer_run *run,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_layer_job *job = task->job;
+    const uint64_t seed = task->work->seed;
+    sliding_contact c = {0};
+    wt_job work = *task->work;
+    const bool with_times = (work.left_out & WT_EXTRA_TIMES) == 0;
+    work.left_out |= WT_EXTRA_SHARE;
+    wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
+                                            none, &c, err);
+    if (status == WT_OK)
+        status =
+            wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &run->source, err);
+    if (status == WT_OK) {
+        run->source.profile = job->profile;
+        run->source.local_friction = job->local_friction;
+        memcpy(run->statement, c.statement, sizeof c.statement);
+        wt_layer_parameters *p = &run->parameters;
+        *p = wt_layer_defaults();
+        p->damage = job->damage;
+        p->duty = job->duty;
+        p->start_thickness = job->start_thickness;
+        p->incubation = job->incubation;
+        p->without_errors = replicate != WT_NO_REPLICATE;
+        p->balance_only = !with_times;
+        p->pressure = c.pressure;
+        p->velocity = task->velocity;
+        p->specific_wear_rate =
+            flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
+        p->critical_energy =
+            flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
+        const bool calibrated = isnan(p->critical_energy);
+        if (calibrated)
+            p->critical_energy = wt_layer_calibrate(
+                &run->source, p,
+                flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
+        run->critical_energy = calibrated ? of_power(run, p->critical_energy)
+                                          : (wt_estimate){.value = p->critical_energy};
+        status = wt_layer_balance_compute(&run->source, p, &run->balance, err);
+    }
+    wt_estimate most = run->balance.thickness;
+    most.value *= 0.9;
+    most.numerical_error *= 0.9;
+    run->time_to_90_percent = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "s"};
+    if (status == WT_OK && with_times)
+        status = wt_layer_time(&run->source, &run->parameters, most, &run->time_to_90_percent, err);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status follow(const layer_task *task, layer_run *run, wt_error *err)
+{
+    run->points = malloc((task->n + 1) * sizeof *run->points);
+    if (run->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_layer_history(&run->source, &run->parameters, task->time, task->n, run->points, err);
+}
+
+static void run_clear(layer_run *run)
+{
+    wt_energy_source_clear(&run->source);
+    free(run->points);
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const layer_task *task = user;
+    layer_run run = {.points = NULL};
+    wt_status status = find_balance(task, i, &run, err);
+    if (status == WT_OK)
+        status = follow(task, &run, err);
+    if (status == WT_OK) {
+        wt_estimate number[N_NUMBERS];
+        put_numbers(&run, number);
+        for (size_t k = 0; k < N_NUMBERS; k++)
+            out[k] = number[k].value;
+        for (size_t k = 0; k < task->n; k++)
+            out[N_NUMBERS + k] = run.points[k].thickness.value;
+    }
+    run_clear(&run);
+    return status;
+}
+
+/* ---- times ----------------------------------------------------------------------------------- */
+
+/* The times that are chosen: so many, from half the first scale to the span of the last. A scale
+ * that is not there is so far from the other one. */
+#define TIMES 61
+#define TIME_SPAN 100
+#define SHORT_OF_LAST 1e-3
+#define PAST_FIRST 1e6
+
+/* From well before the first change to well after the last one. */
+static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_error *err)
+{
+    task->n = task->job->time != NULL ? task->job->n_time : TIMES;
+    task->time = malloc((task->n > 0 ? task->n : 1) * sizeof *task->time);
+    if (task->time == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (task->job->time != NULL) {
+        memcpy(task->time, task->job->time, task->n * sizeof *task->time);
+        return WT_OK;
+    }
+    double first = b->incubation_time.value, last = b->relaxation_time.value;
+    if (!(first > 0) || !isfinite(first))
+        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
+    if (!(last > 0) || !isfinite(last))
+        last = PAST_FIRST * first;
+    first /= 2;
+    last = TIME_SPAN * fmax(last, first);
+    for (size_t i = 0; i < task->n; i++)
+        task->time[i] = first * pow(last / first, (double)i / (double)(task->n - 1));
+    return WT_OK;
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+static wt_status draw_replicates(layer_task *task, wt_error *err)
+{
+    const wt_layer_job *job = task->job;
+    replicates *r = &task->replicates;
+    replicates_add(r, job->specific_wear_rate.standard_error, "specific wear rate");
+    const bool calibrated = isnan(job->critical_energy.value);
+    const double given =
+        (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
+    replicates_add(r, given, calibrated ? "observed thickness" : "critical energy");
+    wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
+    if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
+        r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
+    size_t without = 0, solved = 0;
+    for (size_t i = 0; status == WT_OK && i < r->n; i++) {
+        const double thickness = r->value[i * r->stride + NUMBER_BALANCE_THICKNESS];
+        solved += isnan(thickness) == 0;
+        without += thickness <= 0;
+    }
+    if (without > 0 && without < solved)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "within the stated errors the layer may be there or not: %zu of %zu "
+                        "replicates have none",
+                        without, solved);
+    return status;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static const char *regime_name(wt_layer_regime regime)
+{
+    static const char *const names[] = {"none", "thin", "thick"};
+    return names[regime];
+}
+
+static void set_numbers(const layer_task *task, const layer_run *run, table_writer *t)
+{
+#define NUMBER_KEY(key, value) LAYER_KEY_##key,
+    static const layer_key keys[] = {NUMBERS(NUMBER_KEY)};
+    const wt_layer_balance *b = &run->balance;
+    wt_estimate number[N_NUMBERS];
+    put_numbers(run, number);
+    for (size_t i = 0; i < N_NUMBERS; i++) {
+        if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
+            continue; /* nothing is removed */
+        layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
+                        number[i].numerical_error);
+        /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+        const double sensitivity = -b->wear_rate * b->relaxation_time.value / b->thickness.value;
+        if (keys[i] == LAYER_KEY_BALANCE_THICKNESS && isfinite(sensitivity))
+            layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
+    }
+}
+
+static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
+{
+    const wt_layer_job *job = task->job;
+    const bool calibrated = isnan(job->critical_energy.value);
+    set_numbers(task, run, t);
+    layer_set_text(t, LAYER_KEY_REGIME, regime_name(run->balance.regime));
+    layer_set_value(t, LAYER_KEY_VELOCITY, task->velocity, 0, 0);
+    layer_set(t, LAYER_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
+    layer_set(t, LAYER_KEY_WEAR_RATE, flow_as_stated(job->specific_wear_rate));
+    if (calibrated)
+        layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, flow_as_stated(job->observed_thickness));
+    layer_set_text(t, LAYER_KEY_CRITICAL_ENERGY_FROM,
+                   calibrated ? "calibrated: makes the observed thickness the balance" : "given");
+    layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);
+    layer_set_print(t, LAYER_KEY_DUTY, "%g", job->duty);
+    layer_set_text(t, LAYER_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
+    if (task->replicates.lacks[0] != '\0')
+        layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->replicates.lacks);
+    if (run->statement[0] != '\0')
+        layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, run->statement);
+    if (task->sliding->softness != NULL) {
+        char words[256];
+        softness_describe(task->sliding->softness, words, sizeof words);
+        layer_set_text(t, LAYER_KEY_SOFTENING, words);
+    }
+    if (run->source.numerical_error > task->work->tolerance)
+        layer_set_print(t, LAYER_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
+                        task->work->tolerance, run->source.numerical_error);
+}
+
+static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,
+                             wt_error *err)
+{
+    table_writer t = table_begin(&layer_schema, err);
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_layer_point *p = &run->points[i];
+        table_row(&t);
+        layer_put(&t, LAYER_TIME, p->time);
+        layer_put(&t, LAYER_THICKNESS, p->thickness.value);
+        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, task->replicates.error[N_NUMBERS + i]);
+        layer_put(&t, LAYER_THICKNESS_NUMERICAL_ERROR, p->thickness.numerical_error);
+        layer_put(&t, LAYER_FORMATION_RATE, p->formation_rate);
+        layer_put(&t, LAYER_WEAR_RATE, p->wear_rate);
+    }
+    set_keys(task, run, &t);
+    return table_end(&t, out);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
+                        wt_layer_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no layer job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = wt_layer_job_check(job, err);
+    if (status != WT_OK)
+        return status;
+    layer_task task = {.sliding = sliding,
+                       .job = job,
+                       .work = work,
+                       .velocity = flow_layer_velocity(sliding, job),
+                       .replicates = replicates_of(sliding, work, "layer")};
+    task.replicates.velocity = task.velocity;
+    layer_run centre = {.points = NULL};
+    wt_layer_tables t = {0};
+    status = find_balance(&task, WT_NO_REPLICATE, &centre, err);
+    if (status == WT_OK)
+        status = choose_times(&task, &centre.balance, err);
+    if (status == WT_OK)
+        status = follow(&task, &centre, err);
+    if (status == WT_OK)
+        status = draw_replicates(&task, err);
+    if (status == WT_OK)
+        status = layer_table(&task, &centre, &t.layer, err);
+    if (status == WT_OK) {
+        t.balance = centre.balance;
+        t.thickness = centre.balance.thickness;
+        t.thickness.standard_error = task.replicates.error[NUMBER_BALANCE_THICKNESS];
+        t.balance.thickness = t.thickness;
+        const double thickness = t.thickness.value > 0 ? t.thickness.value : (double)NAN;
+        cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.replicates.n)),
+                                      .tolerance_asked = work->tolerance,
+                                      .error_estimated = t.thickness.numerical_error / thickness,
+                                      .number = t.thickness});
+        *tables = t;
+        t = (wt_layer_tables){0};
+    }
+    run_clear(&centre);
+    wt_layer_tables_clear(&t);
+    free(task.time);
+    replicates_clear(&task.replicates);
+    return status;
+}

@@ -1,0 +1,462 @@
+/* The material for programs of finite elements: the reduced series, the law of its shifts and how
+ * its moduli go with temperature, as their manuals ask for them. Abaqus: *ELASTIC or *HYPERELASTIC
+ * with MODULI=INSTANTANEOUS, *VISCOELASTIC TIME=PRONY, *TRS. Ansys: MP or TB,HYPER, TB,PRONY,
+ * TB,SHIFT. Both move time, not frequency. Abaqus (Analysis User's Guide, time domain
+ * viscoelasticity): reduced time is the integral of dt/A, log10 A = -C1 (T - T0) / (C2 + T - T0),
+ * so A is aT. Ansys (Material Reference, time-temperature superposition): reduced time is A t,
+ * log10 A = C1 (T - T0) / (C2 + T - T0), so A is 1/aT; the constants are the same. Code_Aster has
+ * no series of its own: a behaviour of MFront with its numbers in DEFI_MATERIAU.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sweeps/master.h"
+#include "flow/sweeps/sweep_input.h"
+
+#include "base/array.h"
+#include "base/clocale.h"
+#include "data/tables/tables.h"
+#include "model/material.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct system {
+    const char *words;
+    double stress, time; /* Pa, s of the unit */
+} systems[] = {
+    [WT_SOLID_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1},
+    [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1},
+    [WT_SOLID_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3}};
+
+wt_solid_options wt_solid_options_defaults(void)
+{
+    return (wt_solid_options){.poisson_ratio = 0.5};
+}
+
+static const wt_param rows[] = {
+    {PARAM_CHOICE_OF("export-units", wt_solid_options, units, "m-kg-s|mm-t-s|mm-kg-ms"),
+     .flags = PARAM_NO_CASE,
+     .help = "of the files of --export: Pa and s, MPa and s, or GPa and ms"},
+    {PARAM_CHOICE_OF("export-temperature", wt_solid_options, temperature, "degC|K"),
+     .flags = PARAM_NO_CASE, .help = "unit of the temperatures in the files of --export"},
+    POISSON_RATIO(wt_solid_options),
+};
+PARAM_TABLE(wt_solid_options_params, wt_solid_options, rows, wt_solid_options_defaults, NO_PARTS)
+
+/* What is written, in the units of the file. */
+typedef struct solid {
+    FILE *out;
+    const char *comment; /* begins a line of comment */
+    wt_rubber rubber;
+    table_view series;
+    const struct system *system;
+    bool incompressible;
+    double nu, zero;           /* of the unit of temperature [K] */
+    double reference;          /* temperature */
+    double instant, long_term; /* Young's moduli */
+    bool shifts;               /* c1 and c2 are there */
+    double c1, c2;
+    size_t n_levels;        /* of temperature; 1: alike at all */
+    double *level, *factor; /* temperature, and what the moduli are multiplied by there */
+} solid;
+
+static void say(solid *s, const char *format, ...) WT_PRINTF(2, 3);
+static void say(solid *s, const char *format, ...)
+{
+    va_list list;
+    const locale_t before = clocale_enter();
+    va_start(list, format);
+    (void)vfprintf(s->out, format, list);
+    va_end(list);
+    clocale_leave(before);
+}
+
+/* ---- what the tables say --------------------------------------------------------------------- */
+
+static double shear_of(const solid *s, double young)
+{
+    return young / (2 * (1 + s->nu));
+}
+
+static double bulk_of(const solid *s, double young)
+{
+    return young / (3 * (1 - 2 * s->nu));
+}
+
+/* Arrhenius is WLF whose pole is at absolute zero; of a joined law that which holds at the
+ * reference. */
+static void take_law(solid *s)
+{
+    const wt_shift_law *law = &s->rubber.law;
+    const double reference = s->rubber.prony.reference_temperature;
+    s->shifts = law->kind != WT_LAW_NONE;
+    if (law->kind == WT_LAW_ARRHENIUS || (law->kind == WT_LAW_JOINED && reference < law->joint)) {
+        s->c1 = -2 * wt_arrhenius_log_shift(law->activation_energy, reference, 2 * reference);
+        s->c2 = reference;
+    } else {
+        s->c1 = law->wlf.c1;
+        s->c2 = law->wlf.c2;
+    }
+}
+
+/* The vertical shift, whose factor is 1 at the reference where that lies beyond the isotherms. */
+static wt_status take_levels(solid *s, wt_error *err)
+{
+    const wt_rubber *r = &s->rubber;
+    const double reference = r->prony.reference_temperature;
+    s->level = calloc(2 * (r->n_vertical + 2), sizeof *s->level);
+    if (s->level == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    s->factor = s->level + r->n_vertical + 2;
+    if (r->n_vertical > 0 && reference < r->vertical_temperature[0]) {
+        s->level[0] = reference;
+        s->factor[s->n_levels++] = 1;
+    }
+    for (size_t i = 0; i < r->n_vertical; i++) {
+        if (s->n_levels > 0 && !(r->vertical_temperature[i] > s->level[s->n_levels - 1]))
+            continue; /* a second isotherm there */
+        s->level[s->n_levels] = r->vertical_temperature[i];
+        s->factor[s->n_levels++] = pow(10, -r->vertical_log_b[i]);
+    }
+    if (s->n_levels == 0 || reference > s->level[s->n_levels - 1]) {
+        s->level[s->n_levels] = reference;
+        s->factor[s->n_levels++] = 1;
+    }
+    for (size_t i = 0; i < s->n_levels; i++)
+        s->level[i] -= s->zero;
+    return WT_OK;
+}
+
+/* Young's moduli, in the units of the file. */
+static wt_status take_series(solid *s, wt_error *err)
+{
+    wt_prony *p = &s->rubber.prony;
+    const double to_young = p->deformation == WT_SHEAR ? 2 * (1 + s->nu) : 1;
+    const double scale = to_young / s->system->stress;
+    if (isnan(p->reference_temperature))
+        return wt_fail(err, WT_E_MISSING, "the reference temperature of the series is not known");
+    s->reference = p->reference_temperature - s->zero;
+    s->instant = s->long_term = scale * p->equilibrium_modulus;
+    for (size_t i = 0; i < p->n; i++) {
+        p->modulus[i] *= scale;
+        p->relaxation_time[i] /= s->system->time;
+        s->instant += p->modulus[i];
+    }
+    return s->instant > 0 ? WT_OK : wt_fail(err, WT_E_RANGE, "the series has no modulus");
+}
+
+/* ---- what is said above the numbers ---------------------------------------------------------- */
+
+static void say_law(solid *s)
+{
+    const wt_shift_law *law = &s->rubber.law;
+    const double zero = s->zero;
+    if (!s->shifts) {
+        say(s, "%sNo law of the shifts: for the reference temperature alone.\n", s->comment);
+        return;
+    }
+    say(s,
+        "%sShift: log10 aT = -C1 (T - T0)/(C2 + T - T0), relaxation times are multiplied by aT.\n",
+        s->comment);
+    if (law->kind == WT_LAW_ARRHENIUS)
+        say(s, "%sThis is the Arrhenius law, %.6g kJ/mol, to which C2 = T0 in kelvin makes it.\n",
+            s->comment, law->activation_energy / 1000);
+    if (law->kind == WT_LAW_JOINED)
+        say(s, "%sOnly %s %.6g: on the other side the law that was found is another.\n", s->comment,
+            s->reference + zero < law->joint ? "below" : "above", law->joint - zero);
+    say(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
+        s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
+}
+
+static double percent(const table_view *series, prony_reduced_key key)
+{
+    const char *words = prony_reduced_words(series, key);
+    double share = (double)NAN;
+    if (words == NULL || !wt_number_parse(words, strlen(words), '.', &share))
+        return (double)NAN;
+    return 100 * share;
+}
+
+static void say_series(solid *s)
+{
+    const table_view *v = &s->series;
+    const wt_prony *p = &s->rubber.prony;
+    say(s, "%sProny series of %zu terms from a dynamic mechanical analysis in %s, weartrack %s\n",
+        s->comment, p->n, flow_deformation_name(p->deformation), wt_version());
+    say(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->system->words,
+        s->zero > 0 ? "degrees Celsius" : "kelvin");
+    say(s,
+        "%sReference temperature %.10g. Young's modulus %.6g at once, %.6g in the end; shear "
+        "modulus %.6g, %.6g.\n",
+        s->comment, s->reference, s->instant, s->long_term, shear_of(s, s->instant),
+        shear_of(s, s->long_term));
+    if (s->incompressible)
+        say(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
+    else
+        say(s,
+            "%sPoisson's ratio %.6g at all times, so that bulk and shear modulus relax alike; "
+            "bulk modulus %.6g, %.6g.\n",
+            s->comment, s->nu, bulk_of(s, s->instant), bulk_of(s, s->long_term));
+    say(s,
+        "%sHolds for times from %.3g to %.3g at the reference temperature; what is faster or "
+        "slower was not measured.\n",
+        s->comment, 1 / p->frequency_max / s->system->time, 1 / p->frequency_min / s->system->time);
+    say(s,
+        "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "
+        "fitted; "
+        "half of\n%stheir own 95 %% intervals where they are widest: %.2g %% and %.2g %%.\n",
+        s->comment, percent(v, PRONY_REDUCED_KEY_DEVIATION_STORAGE),
+        percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
+        percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
+        percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
+    say_law(s);
+    if (s->n_levels > 1)
+        say(s, "%sThe moduli at each isotherm have its vertical shift in them.\n", s->comment);
+    if (!(s->long_term > 0))
+        say(s, "%sNo long-term modulus: the material flows, and the shares add up to 1.\n",
+            s->comment);
+}
+
+/* ---- the programs ---------------------------------------------------------------------------- */
+
+static double share(const solid *s, size_t i)
+{
+    return s->rubber.prony.modulus[i] / s->instant;
+}
+
+static void write_abaqus(solid *s)
+{
+    const wt_prony *p = &s->rubber.prony;
+    say(s, "*MATERIAL, NAME=RUBBER\n");
+    if (s->incompressible) {
+        say(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
+        say(s, "*HYPERELASTIC, NEO HOOKE, MODULI=INSTANTANEOUS\n");
+    } else {
+        say(s, "*ELASTIC, MODULI=INSTANTANEOUS\n");
+    }
+    for (size_t i = 0; i < s->n_levels; i++) {
+        const double young = s->instant * s->factor[i];
+        if (s->incompressible)
+            say(s, "%.12g, 0.", shear_of(s, young) / 2);
+        else
+            say(s, "%.12g, %.12g", young, s->nu);
+        if (s->n_levels > 1)
+            say(s, ", %.10g", s->level[i]);
+        say(s, "\n");
+    }
+    say(s, "*VISCOELASTIC, TIME=PRONY\n");
+    for (size_t i = 0; i < p->n; i++)
+        say(s, "%.12g, %.12g, %.12g\n", share(s, i), s->incompressible ? 0 : share(s, i),
+            p->relaxation_time[i]);
+    if (s->shifts)
+        say(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
+}
+
+enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 };
+
+static void ansys_prony(solid *s, const char *what)
+{
+    const wt_prony *p = &s->rubber.prony;
+    say(s, "TB,PRONY,RUBBER,1,%zu,%s\n", p->n, what);
+    for (size_t i = 0; i < p->n; i++) {
+        if (i % ANSYS_PAIRS == 0)
+            say(s, "TBDATA,%zu", 2 * i + 1);
+        say(s, ",%.12g,%.12g", share(s, i), p->relaxation_time[i]);
+        if ((i + 1) % ANSYS_PAIRS == 0 || i + 1 == p->n)
+            say(s, "\n");
+    }
+}
+
+/* Values in rows of six from the first place on. */
+static void ansys_row(solid *s, const char *command, const double *value, double scale, size_t i)
+{
+    const size_t last = s->n_levels - i < ANSYS_TEMPERATURES ? s->n_levels : i + ANSYS_TEMPERATURES;
+    say(s, "%s%zu", command, i + 1);
+    for (size_t k = i; k < last; k++)
+        say(s, ",%.10g", scale * value[k]);
+    say(s, "\n");
+}
+
+static void write_ansys(solid *s)
+{
+    say(s, "RUBBER=1 ! number of the material\n");
+    if (s->incompressible) {
+        say(s, "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
+        say(s, "TB,HYPER,RUBBER,%zu,2,NEO\n", s->n_levels);
+        for (size_t i = 0; i < s->n_levels; i++) {
+            if (s->n_levels > 1)
+                say(s, "TBTEMP,%.10g\n", s->level[i]);
+            say(s, "TBDATA,1,%.12g,0\n", shear_of(s, s->instant * s->factor[i]));
+        }
+    } else if (s->n_levels == 1) {
+        say(s, "MP,EX,RUBBER,%.12g\nMP,PRXY,RUBBER,%.12g\n", s->instant, s->nu);
+    } else {
+        say(s, "MPTEMP\n");
+        for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
+            ansys_row(s, "MPTEMP,", s->level, 1, i);
+        for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
+            ansys_row(s, "MPDATA,EX,RUBBER,", s->factor, s->instant, i);
+        say(s, "MP,PRXY,RUBBER,%.12g\n", s->nu);
+    }
+    ansys_prony(s, "SHEAR");
+    if (!s->incompressible)
+        ansys_prony(s, "BULK");
+    if (!s->shifts)
+        return;
+    say(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
+    say(s, "TB,SHIFT,RUBBER,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->reference, s->c1, s->c2);
+}
+
+/* The stress of a term relaxes by its own Hooke's law: exact for strain at a constant rate within a
+ * step. Names of the properties in the order of LISTE_COEF. */
+static const char mfront_integrator[] =
+    "@Integrator {\n"
+    "  const real Tm = T + dT;\n"
+    "  real lb = Lb[0];\n"
+    "  for (unsigned short k = 1; k < nb; ++k) {\n"
+    "    const real h = Tb[k] - Tb[k - 1];\n"
+    "    lb += (Lb[k] - Lb[k - 1]) * std::min(std::max((Tm - Tb[k - 1]) / h, real(0)), real(1));\n"
+    "  }\n"
+    "  const real f = std::pow(real(10), lb);\n"
+    "  const real a = std::pow(real(10), -C1 * (Tm - T0) / (C2 + Tm - T0));\n"
+    "  const real l = Nu / ((1 + Nu) * (1 - 2 * Nu)), m = 1 / (1 + Nu);\n"
+    "  const StrainStensor e = eto + deto;\n"
+    "  const StressStensor h = l * trace(deto) * Stensor::Id() + m * deto;\n"
+    "  real young = f * El;\n"
+    "  sig = f * El * (l * trace(e) * Stensor::Id() + m * e);\n"
+    "  for (unsigned short i = 0; i < nt; ++i) {\n"
+    "    const real x = dt / (a * Tau[i]);\n"
+    "    const real w = x > 1e-12 ? -std::expm1(-x) / x : real(1);\n"
+    "    Si[i] = std::exp(-x) * Si[i] + f * Ei[i] * w * h;\n"
+    "    young += f * Ei[i] * w;\n"
+    "    sig += Si[i];\n"
+    "  }\n"
+    "  if (computeTangentOperator_)\n"
+    "    Dt = young * (l * Stensor4::IxI() + m * Stensor4::Id());\n"
+    "}\n";
+
+static void write_code_aster(solid *s)
+{
+    const wt_prony *p = &s->rubber.prony;
+    say(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
+    say(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n, s->n_levels);
+    say(s,
+        "@MaterialProperty real Nu;\n@MaterialProperty stress El;\n"
+        "@MaterialProperty stress Ei[%zu];\n@MaterialProperty real Tau[%zu];\n"
+        "@MaterialProperty real T0;\n@MaterialProperty real C1;\n@MaterialProperty real C2;\n"
+        "@MaterialProperty real Tb[%zu];\n@MaterialProperty real Lb[%zu];\n"
+        "@AuxiliaryStateVariable StressStensor Si[%zu];\n"
+        "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n",
+        p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator);
+    say(s, "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
+    say(s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
+    say(s,
+        "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
+    say(s,
+        "RUBBER = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g),\n    MFRONT=_F(\n"
+        "        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
+        s->instant, s->nu, s->nu, s->long_term);
+    for (size_t i = 0; i < p->n; i++)
+        say(s, "            %.12g,\n", p->modulus[i]);
+    for (size_t i = 0; i < p->n; i++)
+        say(s, "            %.12g,\n", p->relaxation_time[i]);
+    say(s, "            %.12g,\n            %.12g,\n            %.12g,\n", s->reference,
+        s->shifts ? s->c1 : 0, s->shifts ? s->c2 : 1e9);
+    for (size_t i = 0; i < s->n_levels; i++)
+        say(s, "            %.10g,\n", s->level[i]);
+    for (size_t i = 0; i < s->n_levels; i++)
+        say(s, "            %.12g,\n", log10(s->factor[i]));
+    say(s, "        )\n    ),\n)\n");
+}
+
+static void write_table(solid *s)
+{
+    const wt_prony *p = &s->rubber.prony;
+    say(s, "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
+        s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
+    say(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
+    if (s->shifts)
+        say(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment, s->c2);
+    for (size_t i = 0; s->n_levels > 1 && i < s->n_levels; i++)
+        say(s, "%sfactor of the moduli at %.10g: %.12g\n", s->comment, s->level[i], s->factor[i]);
+    say(s, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus\n");
+    for (size_t i = 0; i < p->n; i++) {
+        const double e = p->modulus[i], k = s->incompressible ? 0 : share(s, i);
+        say(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i], share(s, i), k,
+            e, shear_of(s, e), bulk_of(s, e));
+    }
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
+static const struct program {
+    const char *name, *comment;
+    void (*write)(solid *s);
+} programs[] = {[WT_SOLID_ABAQUS] = {"abaqus", "** ", write_abaqus},
+                [WT_SOLID_ANSYS] = {"ansys", "! ", write_ansys},
+                [WT_SOLID_CODE_ASTER] = {"code_aster", "# ", write_code_aster},
+                [WT_SOLID_TABLE] = {"table", "# ", write_table}};
+
+bool wt_solid_program_find(const char *name, size_t length, wt_solid_program *program)
+{
+    for (size_t i = 0; i < COUNT_OF(programs); i++)
+        if (strlen(programs[i].name) == length && strncmp(programs[i].name, name, length) == 0) {
+            *program = (wt_solid_program)i;
+            return true;
+        }
+    return false;
+}
+
+wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *options, wt_error *err)
+{
+    const wt_status status = param_check(wt_solid_options_params(), options, err);
+    if (status != WT_OK || program != WT_SOLID_CODE_ASTER || options->poisson_ratio < 0.5)
+        return status;
+    wt_fail(err, WT_E_RANGE, "Code_Aster needs a Poisson's ratio below 0.5");
+    wt_error_place(err, "poisson-ratio");
+    wt_error_found(err, "%g", options->poisson_ratio);
+    wt_error_advice(err, "give one, such as 0.499");
+    return WT_E_RANGE;
+}
+
+wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *prony_reduced,
+                         const wt_table *shift_factors, const wt_solid_options *options,
+                         wt_error *err)
+{
+    if (out == NULL || (size_t)program >= COUNT_OF(programs))
+        return wt_fail(err, WT_E_ARG, "nothing to export to");
+    if (prony_reduced == NULL)
+        return wt_fail(err, WT_E_MISSING,
+                       "there is no series to export: the loss modulus or the "
+                       "loss factor alone tells no level of the moduli");
+    const wt_solid_options o = options != NULL ? *options : wt_solid_options_defaults();
+    solid s = {.out = out,
+               .comment = programs[program].comment,
+               .nu = o.poisson_ratio,
+               .incompressible = o.poisson_ratio >= 0.5,
+               .zero = o.temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0};
+    wt_status status = wt_solid_check(program, &o, err);
+    if (status == WT_OK)
+        status = table_bind(prony_reduced, &prony_reduced_schema, "", &s.series, err);
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(
+            &(wt_rubber_tables){.prony = prony_reduced, .shift_factors = shift_factors}, s.nu,
+            &s.rubber, err);
+    if (status == WT_OK) {
+        s.system = &systems[o.units];
+        take_law(&s);
+        status = take_series(&s, err);
+    }
+    if (status == WT_OK)
+        status = take_levels(&s, err);
+    if (status == WT_OK) {
+        say_series(&s);
+        programs[program].write(&s);
+        if (ferror(out) != 0)
+            status = wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));
+    }
+    free(s.level);
+    wt_rubber_clear(&s.rubber);
+    return status;
+}

@@ -1,0 +1,24 @@
+/* The rubber as the stages after the DMA know it: its laws and tables.
+ * Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_MATERIALS_RUBBER_H
+#define WEARTRACK_FLOW_MATERIALS_RUBBER_H
+
+#include "flow/work/inputs.h"
+
+/* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */
+wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
+                               char statement[256], wt_error *err) WT_NODISCARD;
+
+void flow_rubber_drop_draws(wt_rubber *rubber);
+/* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
+bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
+/* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
+wt_zener flow_zener_defaults(void);
+const wt_params *flow_zener_params(void);
+wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubber *rubber,
+                            wt_error *err) WT_NODISCARD;
+/* A table of moduli as a rubber; its points are checked. */
+wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, double poisson_ratio,
+                           const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,378 @@
+/* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
+ * at each frequency, moduli at temperatures. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sweeps/master.h"
+#include "flow/sweeps/sweep_input.h"
+#include "flow/work/cost.h"
+#include "flow/work/inputs.h"
+
+#include "base/array.h"
+#include "base/pool.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Frequencies that differ by less are one that was set at each temperature; temperatures that make
+ * a temperature sweep. */
+static const double same_frequency = 1e-3;
+enum { FEWEST = 5 };
+
+wt_ramp_job wt_ramp_job_defaults(void)
+{
+    return (wt_ramp_job){.n_temperatures = 0};
+}
+
+static wt_status check_points(const void *member, wt_error *err)
+{
+    const size_t points = *(const size_t *)member;
+    if (points == 0 || points >= FEWEST)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "a parabola through so few points has no error");
+    wt_error_expected(err, "%d or more, or 0", FEWEST);
+    return WT_E_RANGE;
+}
+
+static const wt_param rows[] = {
+    {PARAM_LIST_OF("at", wt_ramp_job, temperature, n_temperatures, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "",
+     .help = "temperatures at which the moduli are told, such as 0degC,25degC,60degC"},
+    {PARAM("peak-points", wt_ramp_job, peak_points, WT_Q_NONE, FROM_TO(0, 10000)), .value = "N",
+     .check = check_points,
+     .help = "place peaks by a plain parabola through so many points; 0: by a smooth curve through "
+             "all that are higher than 60 % of the peak"},
+};
+PARAM_TABLE(wt_ramp_job_params, wt_ramp_job, rows, wt_ramp_job_defaults, NO_PARTS)
+
+void wt_ramp_tables_clear(wt_ramp_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->ramp);
+    wt_table_free(tables->glass_transition);
+    wt_table_free(tables->moduli_at);
+    *tables = (wt_ramp_tables){0};
+}
+
+/* ---- isotherms by frequency ------------------------------------------------------------------ */
+
+typedef struct point {
+    double frequency, temperature, storage, loss, factor, strain;
+} point;
+
+static int by_frequency(const void *a, const void *b)
+{
+    const point *p = a, *q = b;
+    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
+}
+
+static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_error *err)
+{
+    wt_ramp *ramp =
+        n >= FEWEST ? wt_sweep_add_ramp(sweep, n, WT_WITH_LOSS_FACTOR | WT_WITH_STRAIN) : NULL;
+    if (n < FEWEST)
+        return WT_OK;
+    if (ramp == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        ramp->temperature[i] = points[i].temperature;
+        ramp->storage_modulus[i] = points[i].storage;
+        ramp->loss_modulus[i] = points[i].loss;
+        ramp->loss_factor[i] = points[i].factor;
+        ramp->strain[i] = points[i].strain;
+        sum += points[i].frequency;
+    }
+    ramp->angular_frequency = sum / (double)n;
+    snprintf(ramp->source, sizeof ramp->source, "%zu isotherms", n);
+    return WT_OK;
+}
+
+/* Adds the isotherms of a sweep as temperature sweeps, one for each frequency that they share. */
+static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
+{
+    size_t n = 0, all = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        all += sweep->isotherms[i].n;
+    point *points = malloc((all + 1) * sizeof *points);
+    if (points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        for (size_t k = 0; k < t->n; k++)
+            points[n++] = (point){t->angular_frequency[k],
+                                  t->temperature,
+                                  t->storage_modulus[k],
+                                  t->loss_modulus[k],
+                                  t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
+                                  t->strain != NULL ? t->strain[k] : (double)NAN};
+    }
+    qsort(points, n, sizeof *points, by_frequency);
+    wt_status status = WT_OK;
+    for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
+        for (end = first + 1;
+             end < n && points[end].frequency < points[first].frequency * (1 + same_frequency);)
+            end++;
+        status = add_ramp(sweep, points + first, end - first, err);
+    }
+    free(points);
+    wt_sweep_sort(sweep);
+    return status;
+}
+
+/* ---- one temperature sweep ------------------------------------------------------------------- */
+
+typedef enum quantity { STORAGE, LOSS, FACTOR, QUANTITIES } quantity;
+
+/* The points of a ramp that have logarithms. */
+typedef struct usable {
+    size_t n;
+    double *temperature, *value[QUANTITIES];
+    bool has[QUANTITIES]; /* it was measured */
+} usable;
+
+/* Ratio of the moduli, or what was measured without them. */
+static double loss_factor(const wt_ramp *ramp, size_t i)
+{
+    const double storage = ramp->storage_modulus[i];
+    if (storage > 0)
+        return ramp->loss_modulus[i] / storage;
+    return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
+}
+
+static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log, usable *u,
+                             wt_error *err)
+{
+    *u = (usable){.temperature = pool_numbers(memory, ramp->n)};
+    for (int q = 0; q < QUANTITIES; q++)
+        u->value[q] = pool_numbers(memory, ramp->n);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < ramp->n; i++) {
+        u->has[STORAGE] = u->has[STORAGE] || !isnan(ramp->storage_modulus[i]);
+        u->has[LOSS] = u->has[LOSS] || !isnan(ramp->loss_modulus[i]);
+        u->has[FACTOR] = u->has[FACTOR] || !isnan(loss_factor(ramp, i));
+    }
+    for (size_t i = 0; i < ramp->n; i++) {
+        const double values[QUANTITIES] = {ramp->storage_modulus[i], ramp->loss_modulus[i],
+                                           loss_factor(ramp, i)};
+        bool good = true;
+        for (int q = 0; q < QUANTITIES; q++)
+            good = good && (!u->has[q] || (values[q] > 0 && isfinite(values[q])));
+        if (!good)
+            continue;
+        u->temperature[u->n] = ramp->temperature[i];
+        for (int q = 0; q < QUANTITIES; q++)
+            u->value[q][u->n] = values[q];
+        u->n++;
+    }
+    if (u->n < ramp->n)
+        wt_parselog_add(log, WT_WARNING, ramp->source, NULL,
+                        "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                        "modulus",
+                        ramp->angular_frequency, ramp->n - u->n, ramp->n);
+    return WT_OK;
+}
+
+static void put_points(table_writer *t, const wt_ramp *ramp)
+{
+    table_block(t);
+    for (size_t i = 0; i < ramp->n; i++) {
+        table_row(t);
+        ramp_put(t, RAMP_TEMPERATURE, ramp->temperature[i]);
+        ramp_put(t, RAMP_ANGULAR_FREQUENCY, ramp->angular_frequency);
+        ramp_put(t, RAMP_STORAGE_MODULUS, ramp->storage_modulus[i]);
+        ramp_put(t, RAMP_LOSS_MODULUS, ramp->loss_modulus[i]);
+        ramp_put(t, RAMP_LOSS_FACTOR, loss_factor(ramp, i));
+        if (ramp->strain != NULL)
+            ramp_put(t, RAMP_STRAIN, ramp->strain[i]);
+        ramp_put_text(t, RAMP_SOURCE, ramp->source);
+    }
+}
+
+/* The columns of a number, its error and the ends of its interval stand behind one another. */
+static void put_peak(table_writer *t, glass_transition_column first, const wt_peak *peak)
+{
+    const wt_interval *at = &peak->at;
+    glass_transition_put_text(
+        t, first + GLASS_TRANSITION_FACTOR_NOTE - GLASS_TRANSITION_FACTOR_PEAK, peak->why_not);
+    if (!peak->found)
+        return;
+    const double values[] = {at->value,          at->standard_error, at->low,     at->high,
+                             peak->height.value, (double)peak->n,    peak->misfit};
+    for (size_t i = 0; i < COUNT_OF(values); i++)
+        glass_transition_put(t, first + (unsigned)i, values[i]);
+}
+
+typedef struct peaks {
+    wt_peak factor, loss;
+} peaks;
+
+static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, wt_peak *peak,
+                           wt_error *err)
+{
+    if (u->has[q])
+        return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
+    *peak = (wt_peak){.found = false, .why_not = "not measured"};
+    return WT_OK;
+}
+
+static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                                const usable *u, peaks *found, wt_error *err)
+{
+    wt_status status = find_peak(job, u, FACTOR, &found->factor, err);
+    if (status == WT_OK)
+        status = find_peak(job, u, LOSS, &found->loss, err);
+    if (status != WT_OK)
+        return status;
+    table_row(t);
+    glass_transition_put(t, GLASS_TRANSITION_ANGULAR_FREQUENCY, ramp->angular_frequency);
+    put_peak(t, GLASS_TRANSITION_FACTOR_PEAK, &found->factor);
+    put_peak(t, GLASS_TRANSITION_LOSS_PEAK, &found->loss);
+    glass_transition_put(t, GLASS_TRANSITION_TEMPERATURE_MIN, ramp->temperature[0]);
+    glass_transition_put(t, GLASS_TRANSITION_TEMPERATURE_MAX, ramp->temperature[ramp->n - 1]);
+    glass_transition_put_text(t, GLASS_TRANSITION_SOURCE, ramp->source);
+    return WT_OK;
+}
+
+static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                            const usable *u, wt_error *err)
+{
+    static const moduli_at_column columns[QUANTITIES] = {MODULI_AT_STORAGE, MODULI_AT_LOSS,
+                                                         MODULI_AT_FACTOR};
+    for (size_t k = 0; k < job->n_temperatures; k++) {
+        const double at = job->temperature[k];
+        const bool within =
+            u->n >= FEWEST && at >= u->temperature[0] && at <= u->temperature[u->n - 1];
+        table_row(t);
+        moduli_at_put(t, MODULI_AT_TEMPERATURE, at);
+        moduli_at_put(t, MODULI_AT_ANGULAR_FREQUENCY, ramp->angular_frequency);
+        moduli_at_put_text(t, MODULI_AT_NOTE,
+                           within           ? ""
+                           : u->n >= FEWEST ? "outside of the temperatures measured"
+                                            : "too few points");
+        moduli_at_put_text(t, MODULI_AT_SOURCE, ramp->source);
+        for (int q = 0; within && q < QUANTITIES; q++) {
+            wt_interval value;
+            if (!u->has[q])
+                continue;
+            const wt_status status =
+                wt_value_between(u->temperature, u->value[q], u->n, at, &value, err);
+            if (status != WT_OK)
+                return status;
+            moduli_at_put(t, columns[q], value.value);
+            moduli_at_put(t, columns[q] + 1, value.standard_error);
+            moduli_at_put(t, columns[q] + 2, value.low);
+            moduli_at_put(t, columns[q] + 3, value.high);
+        }
+    }
+    return WT_OK;
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+typedef struct writers {
+    table_writer ramp, transition, moduli;
+} writers;
+
+/* Keys of the frequency nearest to 1 Hz that has a peak. */
+static void set_keys(table_writer *t, double frequency, const peaks *best)
+{
+    const wt_interval *factor = &best->factor.at, *loss = &best->loss.at;
+    if (isnan(frequency))
+        return;
+    if (best->factor.found)
+        glass_transition_set_value(t, GLASS_TRANSITION_KEY_FACTOR_PEAK, factor->value,
+                                   factor->standard_error, 0);
+    if (best->loss.found)
+        glass_transition_set_value(t, GLASS_TRANSITION_KEY_LOSS_PEAK, loss->value,
+                                   loss->standard_error, 0);
+    glass_transition_set_value(t, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, frequency, 0, 0);
+}
+
+static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
+                         writers *w, wt_error *err)
+{
+    double frequency = (double)NAN, away = HUGE_VAL;
+    peaks best = {0};
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
+        const wt_ramp *ramp = &sweep->ramps[i];
+        pool memory = {0};
+        usable u;
+        peaks found = {0};
+        put_points(&w->ramp, ramp);
+        status = take_usable(ramp, &memory, work->log, &u, err);
+        if (status == WT_OK && (work->left_out & WT_EXTRA_TRANSITION) == 0)
+            status = put_transition(&w->transition, job, ramp, &u, &found, err);
+        if (status == WT_OK)
+            status = put_moduli(&w->moduli, job, ramp, &u, err);
+        pool_free(&memory);
+        const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
+        if (status == WT_OK && (found.factor.found || found.loss.found) && off < away) {
+            away = off;
+            frequency = ramp->angular_frequency;
+            best = found;
+        }
+    }
+    set_keys(&w->transition, frequency, &best);
+    return status;
+}
+
+static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
+                             wt_ramp_tables *t, wt_error *err)
+{
+    const char *deformation = flow_deformation_name(sweep->deformation);
+    writers w = {table_begin(&ramp_schema, err), table_begin(&glass_transition_schema, err),
+                 table_begin(&moduli_at_schema, err)};
+    wt_status status = put_all(job, work, sweep, &w, err);
+    ramp_set_text(&w.ramp, RAMP_KEY_DEFORMATION, deformation);
+    glass_transition_set_text(&w.transition, GLASS_TRANSITION_KEY_DEFORMATION, deformation);
+    moduli_at_set_text(&w.moduli, MODULI_AT_KEY_DEFORMATION, deformation);
+    const wt_status ended[] = {table_end(&w.ramp, &t->ramp),
+                               table_end(&w.transition, &t->glass_transition),
+                               table_end(&w.moduli, &t->moduli_at)};
+    for (size_t i = 0; i < COUNT_OF(ended) && status == WT_OK; i++)
+        status = ended[i];
+    if (job->n_temperatures == 0) {
+        wt_table_free(t->moduli_at);
+        t->moduli_at = NULL;
+    }
+    return status;
+}
+
+wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
+                       wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of temperature sweeps");
+    wt_sweep sweep = {0};
+    wt_ramp_tables t = {0};
+    wt_status status = param_check(wt_ramp_job_params(), job, err);
+    if (status == WT_OK)
+        status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
+        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+    const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
+    if (status == WT_OK)
+        status = add_isotherms(&sweep, err);
+    if (status == WT_OK && sweep.n_ramps == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");
+        wt_error_expected(err, "moduli at one frequency at %d temperatures or more", FEWEST);
+        wt_error_found(err, "isotherms: %zu, strain sweeps: %zu", isotherms, strain_sweeps);
+        if (strain_sweeps > 0)
+            wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+    }
+    if (status == WT_OK)
+        status = make_tables(job, work, &sweep, &t, err);
+    if (status == WT_OK) {
+        cost_say(work, (cost_summary){.items = (double)sweep.n_ramps});
+        *tables = t;
+        t = (wt_ramp_tables){0};
+    }
+    wt_ramp_tables_clear(&t);
+    wt_sweep_clear(&sweep);
+    return status;
+}

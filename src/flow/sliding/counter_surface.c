@@ -1,0 +1,225 @@
+/* The counter surface: a self-affine law or a measured spectrum, with its stated error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/counter_surface.h"
+#include "flow/work/cost.h"
+#include "flow/work/draws.h"
+#include "flow/work/inputs.h"
+#include "flow/work/law_text.h"
+
+#include "base/array.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void wt_surface_clear(wt_surface *surface)
+{
+    if (surface == NULL)
+        return;
+    wt_power_spectrum_clear(&surface->spectrum);
+    *surface = (wt_surface){0};
+}
+
+/* ---- from text ------------------------------------------------------------------------------- */
+
+wt_surface flow_surface_defaults(void)
+{
+    return (wt_surface){.q0 = (double)NAN,
+                        .qr = (double)NAN,
+                        .q1 = (double)NAN,
+                        .hurst = (double)NAN,
+                        .c0 = {(double)NAN, 0, 0, "m^4"}};
+}
+
+static const wt_param law_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "smallest wavenumber"},
+    {PARAM("qr", wt_surface, qr, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "q0",
+     .flags = PARAM_NO_OPTION, .help = "roll-off"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "largest wavenumber"},
+    {PARAM("hurst", wt_surface, hurst, WT_Q_NONE, ABOVE_TO(-1, 3)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "Hurst exponent"},
+    {PARAM("c0", wt_surface, c0, WT_Q_POWER_SPECTRUM_2D, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "two-dimensional power spectrum from q0 to qr, with h_rms^2 = 2 pi int q C dq"},
+};
+PARAM_TABLE(flow_self_affine_params, wt_surface, law_rows, flow_surface_defaults, NO_PARTS)
+
+static const wt_param spectrum_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .flags = PARAM_NO_OPTION, .help = "cut-off at small wavenumbers"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .flags = PARAM_NO_OPTION, .help = "cut-off at large wavenumbers"},
+    {PARAM("error", wt_surface, c0.standard_error, WT_Q_NONE, AT_LEAST(0)),
+     .flags = PARAM_NO_OPTION, .help = "relative error of the densities"},
+};
+PARAM_TABLE(flow_spectrum_params, wt_surface, spectrum_rows, flow_surface_defaults, NO_PARTS)
+
+wt_status flow_surface_check(wt_surface *surface, wt_error *err)
+{
+    wt_roughness *law = NULL;
+    if (isnan(surface->qr))
+        surface->qr = surface->q0; /* no roll-off */
+    wt_status status = wt_surface_roughness(surface, 1, &law, err);
+    wt_roughness_free(law);
+    return status;
+}
+
+static const flow_law_text self_affine = {
+    .prefix = "self-affine:",
+    .name = "self-affine law",
+    .what = "roughness",
+    .example = "q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4",
+    .params = flow_self_affine_params,
+};
+
+static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_error *err)
+{
+    *surface = flow_surface_defaults();
+    surface->self_affine = true;
+    return flow_law_parse(&self_affine, text, surface, err);
+}
+
+wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_status status = flow_open(work, file, "roughness", WT_KIND_SPECTRUM, &input, err);
+    const wt_read_options read = flow_read_options(file);
+    if (status == WT_OK)
+        status =
+            wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
+    wt_input_close(input);
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
+        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
+        wt_error_file(err, file->name);
+        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
+    }
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    return status;
+}
+
+static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
+                               wt_surface *surface, wt_error *err)
+{
+    const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
+    flow_file file = {.path = path, .name = path, .set = &set};
+    return flow_surface_read(&file, work, surface, err);
+}
+
+void flow_surface_cost(const wt_surface *surface, const wt_job *work)
+{
+    const size_t items = surface->self_affine ? COUNT_OF(law_rows) : surface->spectrum.n;
+    cost_say(work, (cost_summary){.items = (double)items});
+}
+
+wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
+                          wt_surface *surface, wt_error *err)
+{
+    if (text == NULL || surface == NULL || work == NULL)
+        return wt_fail(err, WT_E_ARG, "no roughness");
+    wt_surface s = {0};
+    wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
+                                                       : read_spectrum(text, read, work, &s, err);
+    if (status == WT_OK)
+        status = flow_surface_check(&s, err);
+    if (status != WT_OK) {
+        wt_surface_clear(&s);
+        return status;
+    }
+    *surface = s;
+    flow_surface_cost(&s, work);
+    return WT_OK;
+}
+
+/* ---- the law --------------------------------------------------------------------------------- */
+
+/* The measured densities from q0 to q1, the ends interpolated in log-log. */
+static wt_status spectrum_roughness(const wt_surface *surface, double factor,
+                                    wt_roughness **roughness, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    if (s->n < 2)
+        return wt_fail(err, WT_E_EMPTY, "a spectrum needs two points or more");
+    double q0 = isnan(surface->q0) ? s->wavenumber[0] : surface->q0;
+    double q1 = isnan(surface->q1) ? s->wavenumber[s->n - 1] : surface->q1;
+    if (!(q0 >= s->wavenumber[0]) || !(q1 <= s->wavenumber[s->n - 1]) || !(q0 < q1)) {
+        wt_fail(err, WT_E_RANGE, "the cut-offs lie outside the spectrum");
+        wt_error_expected(err, "%g <= q0 < q1 <= %g rad/m", s->wavenumber[0],
+                          s->wavenumber[s->n - 1]);
+        wt_error_found(err, "q0 = %g, q1 = %g rad/m", q0, q1);
+        return WT_E_RANGE;
+    }
+    double *q = malloc(2 * (s->n + 2) * sizeof *q);
+    if (q == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *c = q + s->n + 2;
+    size_t n = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        double ends[2] = {q0, q1};
+        for (int e = 0; e < 2; e++) {
+            if (i == 0 || !(ends[e] > s->wavenumber[i - 1]) || !(ends[e] < s->wavenumber[i]))
+                continue;
+            double t =
+                log(ends[e] / s->wavenumber[i - 1]) / log(s->wavenumber[i] / s->wavenumber[i - 1]);
+            q[n] = ends[e];
+            c[n++] = factor * exp((1 - t) * log(s->density[i - 1]) + t * log(s->density[i]));
+        }
+        if (s->wavenumber[i] < q0 || s->wavenumber[i] > q1)
+            continue;
+        q[n] = s->wavenumber[i];
+        c[n++] = factor * s->density[i];
+    }
+    wt_status status = wt_roughness_table(q, c, n, roughness, err);
+    free(q);
+    return status;
+}
+
+wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roughness **roughness,
+                               wt_error *err)
+{
+    if (surface == NULL || roughness == NULL || !(factor > 0) || !isfinite(factor))
+        return wt_fail(err, WT_E_ARG, "no surface, or a factor that is not positive");
+    if (surface->self_affine)
+        return wt_roughness_self_affine(surface->q0, surface->qr, surface->q1, surface->hurst,
+                                        factor * surface->c0.value, roughness, err);
+    return spectrum_roughness(surface, factor, roughness, err);
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+#define POINTS_PER_DECADE 20
+
+wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error *err)
+{
+    wt_roughness *roughness = NULL;
+    wt_status status = wt_surface_roughness(surface, 1, &roughness, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&roughness_schema, err);
+    double decades = log10(roughness->q1 / roughness->q0);
+    size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    for (size_t i = 0; i < n; i++) {
+        double density = (double)NAN;
+        double q = i + 1 == n ? roughness->q1
+                              : roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+        roughness->law->density(roughness, &q, 1, &density);
+        table_row(&t);
+        roughness_put(&t, ROUGHNESS_WAVENUMBER, q);
+        roughness_put(&t, ROUGHNESS_DENSITY, density);
+    }
+    /* rms height goes with the square root of C, so its relative error is half */
+    const wt_estimate c0 = flow_as_stated(surface->c0);
+    double share = c0.standard_error / c0.value / 2;
+    double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_HEIGHT, height, share * height, 0);
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_SLOPE, slope, share * slope, 0);
+    if (surface->self_affine) {
+        roughness_set_print(&t, ROUGHNESS_KEY_HURST, "%g", surface->hurst);
+        roughness_set(&t, ROUGHNESS_KEY_C0, c0);
+        roughness_set_value(&t, ROUGHNESS_KEY_ROLL_OFF, surface->qr, 0, 0);
+    }
+    wt_roughness_free(roughness);
+    return table_end(&t, table);
+}

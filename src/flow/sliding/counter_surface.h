@@ -1,0 +1,20 @@
+/* The counter surface: its parameters, their check, a measured spectrum.
+ * Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SLIDING_COUNTER_SURFACE_H
+#define WEARTRACK_FLOW_SLIDING_COUNTER_SURFACE_H
+
+#include "flow/work/inputs.h"
+
+wt_surface flow_surface_defaults(void); /* nothing is given */
+/* The parameters of a self-affine law, and of a measured spectrum, in a wt_surface. */
+const wt_params *flow_self_affine_params(void);
+const wt_params *flow_spectrum_params(void);
+/* Says to the cost how much it is of: the points of a spectrum, or the constants of a law. */
+void flow_surface_cost(const wt_surface *surface, const wt_job *work);
+/* Whether they make a law; a roll-off that is not given is q0. */
+wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
+/* A measured spectrum as a surface, uncut; the densities are not checked. */
+wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
+                            wt_error *err) WT_NODISCARD;
+
+#endif

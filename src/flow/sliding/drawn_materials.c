@@ -1,0 +1,126 @@
+/* The materials of the replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/drawn_materials.h"
+#include "flow/work/draws.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* The first so many are kept: a series of moduli takes a kilobyte, a table some hundred. */
+enum { MOST_KEPT = 1024 };
+
+typedef struct drawn_item {
+    drawn_material of;
+    pool memory; /* of the series */
+} drawn_item;
+
+struct wt_drawn {
+    const wt_rubber *rubber; /* whose materials they are; NULL: none yet */
+    wt_estimate temperature;
+    uint64_t seed;
+    bool one; /* nothing of the material is drawn: the first is that of all */
+    size_t n;
+    drawn_item *items;      /* [n] */
+    double lowest, highest; /* angular frequencies */
+};
+
+static void drop(wt_drawn *d)
+{
+    for (size_t i = 0; i < d->n; i++) {
+        angular_clear(d->items[i].of.series);
+        pool_free(&d->items[i].memory);
+        wt_material_free(d->items[i].of.material);
+    }
+    free(d->items);
+    *d = (wt_drawn){0};
+}
+
+wt_drawn *drawn_new(void)
+{
+    return calloc(1, sizeof(wt_drawn));
+}
+
+void drawn_free(wt_drawn *drawn)
+{
+    if (drawn != NULL)
+        drop(drawn);
+    free(drawn);
+}
+
+static bool is_that(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+static bool is_of(const wt_drawn *d, const wt_sliding *s, const wt_job *work)
+{
+    return d->rubber == s->rubber && d->seed == work->seed &&
+           is_that(d->temperature.value, s->temperature.value) &&
+           is_that(d->temperature.standard_error, s->temperature.standard_error) &&
+           (d->one || d->n == MOST_KEPT || d->n >= work->replicates);
+}
+
+static wt_status start(wt_drawn *d, const wt_sliding *sliding, const wt_job *work, wt_error *err)
+{
+    const wt_rubber *rubber = sliding->rubber;
+    const bool one = rubber->n_draws == 0 && !(rubber->c1_error > 0) && !(rubber->c2_error > 0) &&
+                     !(sliding->temperature.standard_error > 0);
+    const size_t n = work->replicates < MOST_KEPT ? work->replicates : MOST_KEPT;
+    drop(d);
+    *d = (wt_drawn){.rubber = rubber,
+                    .temperature = sliding->temperature,
+                    .seed = work->seed,
+                    .one = one,
+                    .items = calloc(one ? 1 : n + 1, sizeof *d->items)};
+    if (d->items == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the materials of the replicates");
+    d->n = one ? 1 : n;
+    return WT_OK;
+}
+
+wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work, double slowest,
+                      double fastest, wt_error *err)
+{
+    wt_roughness *road = NULL;
+    wt_status status = is_of(d, sliding, work) ? WT_OK : start(d, sliding, work, err);
+    if (status == WT_OK)
+        status = wt_surface_roughness(sliding->surface, 1, &road, err);
+    if (status != WT_OK)
+        return status;
+    d->lowest = slowest * road->q0;
+    d->highest = fastest * road->q1;
+    wt_roughness_free(road);
+    /* from now on the threads only read it */
+    drawn_material all;
+    return d->one ? drawn_get(d, 0, &all, err) : WT_OK;
+}
+
+static wt_status make(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
+{
+    drawn_material *of = &item->of;
+    wt_status status = wt_rubber_at(
+        d->rubber, flow_draw_value(d->temperature, d->seed, replicate, FLOW_DRAW_TEMPERATURE),
+        d->seed, replicate, &of->material, NULL, err);
+    if (status == WT_OK)
+        status = angular_new(of->material, REPLICATE_TOLERANCE, &item->memory, &of->series, err);
+    if (status != WT_OK) { /* the next contact says so again */
+        wt_material_free(of->material);
+        pool_free(&item->memory);
+        *item = (drawn_item){0};
+    }
+    return status;
+}
+
+wt_status drawn_get(wt_drawn *d, size_t replicate, drawn_material *material, wt_error *err)
+{
+    *material = (drawn_material){0};
+    if (!d->one && replicate >= d->n)
+        return WT_OK;
+    drawn_item *item = &d->items[d->one ? 0 : replicate];
+    wt_status status = item->of.material == NULL ? make(d, replicate, item, err) : WT_OK;
+    if (status == WT_OK)
+        status = angular_cover(item->of.series, d->lowest, d->highest, err);
+    if (status == WT_OK)
+        *material = item->of;
+    return status;
+}

@@ -1,0 +1,423 @@
+/* The friction job: hysteresis, contact area and total friction at every velocity, with and without
+ * the modified layer, with standard errors from replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/replicates.h"
+#include "flow/sliding/sliding_contact.h"
+#include "flow/strain/softness.h"
+#include "flow/work/cost.h"
+#include "flow/work/draws.h"
+#include "kernel/params.h"
+
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What one replicate gives at the velocities. */
+enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
+
+typedef struct friction_task {
+    const wt_sliding *sliding;
+    const wt_layer_known *layer; /* NULL = none */
+    const wt_job *work;
+    size_t n;                  /* velocities, and the reference if it is not the only one */
+    double *velocity;          /* [n] the reference is the last */
+    double *centre;            /* [N_KINDS * n] */
+    double worst;              /* relative numerical error where the tolerance is not reached */
+    double strain;             /* the largest, of a softening */
+    double numerical[2];       /* of the total friction at the reference: without, with the layer */
+    wt_friction_point *points; /* [n] at the values themselves, without a layer */
+    replicates replicates;
+} friction_task;
+
+static double *slot(double *values, size_t n, int kind)
+{
+    return values + (size_t)kind * n;
+}
+
+static wt_layer_state layer_of(const friction_task *task, size_t replicate)
+{
+    wt_layer_state state = {.modulus_ratio = 1};
+    if (task->layer == NULL)
+        return state;
+    uint64_t seed = task->work->seed;
+    double thickness =
+        flow_draw_value(task->layer->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+    state.thickness = thickness > 0 ? thickness : 0;
+    if (state.thickness > 0)
+        state.modulus_ratio =
+            flow_draw_positive_t(task->layer->modulus_ratio, task->layer->modulus_ratio_df, seed,
+                                 replicate, FLOW_DRAW_RATIO);
+    return state;
+}
+
+/* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
+static double shear_factor(const friction_task *task, wt_layer_state layer)
+{
+    return task->layer->bulk_shear ? 1 : layer.modulus_ratio;
+}
+
+static wt_status compute(const friction_task *task, size_t replicate, wt_friction_point *points,
+                         double *out, sliding_contact *c, wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, none, c, err);
+    if (status == WT_OK)
+        status =
+            wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
+        slot(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        slot(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        slot(out, task->n, TOTAL)[i] =
+            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
+        slot(out, task->n, LAYERED)[i] = (double)NAN;
+        slot(out, task->n, CHANGE)[i] = (double)NAN;
+        slot(out, task->n, RELATIVE)[i] = (double)NAN;
+    }
+    return status;
+}
+
+static wt_status compute_layered(const friction_task *task, size_t replicate,
+                                 wt_friction_point *points, double *out, wt_error *err)
+{
+    wt_layer_state layer = layer_of(task, replicate);
+    sliding_contact c = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, layer, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
+        double with = points[i].hysteresis.value + shear_factor(task, layer) * c.shear_stress *
+                                                       points[i].area_ratio.value / c.pressure;
+        double without = slot(out, task->n, TOTAL)[i];
+        slot(out, task->n, LAYERED)[i] = with;
+        slot(out, task->n, CHANGE)[i] = with - without;
+        slot(out, task->n, RELATIVE)[i] = with / without - 1;
+    }
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const friction_task *task = user;
+    sliding_contact c = {0};
+    wt_friction_point *points = malloc(task->n * sizeof *points);
+    if (points == NULL)
+        return WT_E_MEMORY;
+    wt_status status = compute(task, i, points, out, &c, err);
+    if (status == WT_OK && task->layer != NULL)
+        status = compute_layered(task, i, points, out, err);
+    sliding_contact_clear(&c);
+    free(points);
+    return status;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* Not known where the measured range is not. */
+static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
+{
+    const wt_prony *prony = &rubber->prony;
+    return isnan(prony->frequency_min) || isnan(prony->frequency_max) ? (double)NAN
+                                                                      : p->extrapolated_share;
+}
+
+static void add_rows(friction_task *task, table_writer *t)
+{
+    const wt_sliding *s = task->sliding;
+    const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
+    for (size_t i = 0; i < s->n_velocity; i++) {
+        const wt_friction_point *p = &task->points[i];
+        wt_estimate hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"};
+        wt_estimate area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"};
+        wt_estimate total = wt_friction_total(hysteresis, area, shear, s->pressure.value);
+        table_row(t);
+        friction_put(t, FRICTION_VELOCITY, p->velocity);
+        friction_put(t, FRICTION_TOTAL, total.value);
+        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, TOTAL)[i]);
+        friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
+        friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
+        friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, HYSTERESIS)[i]);
+        friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
+        friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
+        friction_put(t, FRICTION_AREA_RATIO, area.value);
+        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, AREA)[i]);
+        friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
+        friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, LAYERED)[i]);
+        friction_put(t, FRICTION_EXTRAPOLATED_SHARE, extrapolated_share(s->rubber, p));
+    }
+}
+
+/* A number of the reference velocity, the last one. */
+static void set_at_reference(friction_task *task, table_writer *t, friction_key key, int kind,
+                             double numerical_error)
+{
+    const size_t last = task->n - 1;
+    friction_set_value(t, key, slot(task->centre, task->n, kind)[last],
+                       slot(task->replicates.error, task->n, kind)[last], numerical_error);
+}
+
+static void set_layer_keys(friction_task *task, table_writer *t)
+{
+    const size_t last = task->n - 1;
+    const double *relative = slot(task->centre, task->n, RELATIVE);
+    double low = relative[0], high = relative[0], both = task->numerical[0] + task->numerical[1];
+    for (size_t i = 1; i < last; i++) {
+        low = fmin(low, relative[i]);
+        high = fmax(high, relative[i]);
+    }
+    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, flow_as_stated(task->layer->thickness));
+    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, flow_as_stated(task->layer->modulus_ratio));
+    set_at_reference(task, t, FRICTION_KEY_WITH_LAYER, LAYERED, task->numerical[1]);
+    set_at_reference(task, t, FRICTION_KEY_CHANGE, CHANGE, both);
+    set_at_reference(task, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
+                     both / slot(task->centre, task->n, TOTAL)[last]);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, (double)NAN);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, (double)NAN);
+}
+
+static void set_keys(friction_task *task, table_writer *t, const char *statement)
+{
+    const wt_sliding *s = task->sliding;
+    const wt_friction_point *reference = &task->points[task->n - 1];
+    wt_estimate temperature = s->temperature;
+    if (isnan(temperature.value))
+        temperature.value = s->rubber->prony.reference_temperature;
+    friction_set(t, FRICTION_KEY_PRESSURE, flow_as_stated(s->pressure));
+    friction_set(t, FRICTION_KEY_TEMPERATURE, flow_as_stated(temperature));
+    if (isnan(s->shear_stress.value))
+        friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
+                          "not given: only the hysteresis part is known");
+    else
+        friction_set(t, FRICTION_KEY_SHEAR_STRESS, flow_as_stated(s->shear_stress));
+    friction_set_print(t, FRICTION_KEY_GAMMA, "%g", s->gamma);
+    friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, task->velocity[task->n - 1], 0, 0);
+    set_at_reference(task, t, FRICTION_KEY_FRICTION, TOTAL, task->numerical[0]);
+    set_at_reference(task, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
+                     reference->hysteresis.numerical_error);
+    set_at_reference(task, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
+    friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
+    if (task->replicates.lacks[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->replicates.lacks);
+    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->replicates.n);
+    char material[512];
+    if (wt_rubber_describe(s->rubber, material, sizeof material) > 0)
+        friction_set_text(t, FRICTION_KEY_MATERIAL, material);
+    if (statement[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
+    if (s->softness != NULL) {
+        softness_describe(s->softness, material, sizeof material);
+        friction_set_text(t, FRICTION_KEY_SOFTENING, material);
+        friction_set_value(t, FRICTION_KEY_STRAIN, task->strain, (double)NAN, (double)NAN);
+    }
+    if (task->worst > 0)
+        friction_set_print(t, FRICTION_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
+                           task->work->tolerance, task->worst);
+    if (task->layer != NULL)
+        set_layer_keys(task, t);
+}
+
+static wt_status friction_table(friction_task *task, const char *statement, wt_table **out,
+                                wt_error *err)
+{
+    table_writer t = table_begin(&friction_schema, err);
+    add_rows(task, &t);
+    set_keys(task, &t, statement);
+    return table_end(&t, out);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+static bool is_reference_alone(const wt_sliding *sliding)
+{
+    return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
+}
+
+static wt_status allocate(friction_task *task, wt_error *err)
+{
+    task->velocity = malloc(task->n * sizeof *task->velocity);
+    task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
+    task->points = malloc(task->n * sizeof *task->points);
+    if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    memcpy(task->velocity, task->sliding->velocity,
+           task->sliding->n_velocity * sizeof *task->velocity);
+    task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
+    return WT_OK;
+}
+
+static void release(friction_task *task)
+{
+    free(task->velocity);
+    free(task->centre);
+    free(task->points);
+    replicates_clear(&task->replicates);
+}
+
+static wt_layer_known no_layer(void)
+{
+    return (wt_layer_known){.thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}};
+}
+
+static const wt_param rows[] = {
+    LAYER_STATE_ROWS(wt_layer_known, ),
+    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
+     .value = "N",
+     .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
+             "them; 0: a normal error"},
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
+     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
+};
+PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, no_layer, NO_PARTS)
+
+static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
+{
+    if (layer == NULL)
+        return WT_OK;
+    if (isinf(layer->thickness.value)) {
+        wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
+        wt_error_found(err, "%g m", layer->thickness.value);
+        wt_error_advice(err, "without wear the layer grows without end: give a specific wear rate "
+                             "or an observed thickness");
+        return WT_E_RANGE;
+    }
+    return param_check(wt_layer_known_params(), layer, err);
+}
+
+/* Numerical error of hysteresis + shear x area. */
+static double total_error(const wt_friction_point *point, double shear)
+{
+    return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
+}
+
+static double relative_error(wt_estimate e)
+{
+    return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
+}
+
+static void summarise(const friction_task *task, wt_friction_tables *t)
+{
+    const bool total = !isnan(task->sliding->shear_stress.value);
+    const int kind = total ? TOTAL : HYSTERESIS;
+    const size_t contacts = (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
+    cost_summary cost = {
+        .items = (double)(task->n * contacts),
+        .tolerance_asked = task->work->tolerance,
+        .number = {.value = slot(task->centre, task->n, kind)[task->n - 1],
+                   .standard_error = slot(task->replicates.error, task->n, kind)[task->n - 1]}};
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &task->points[i];
+        cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
+        if (p->extrapolated_share > t->extrapolated_share)
+            t->extrapolated_share = p->extrapolated_share;
+    }
+    cost_say(task->work, cost);
+}
+
+static void note_not_reached(friction_task *task, const wt_friction_point *points)
+{
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &points[i];
+        if (!p->reached)
+            task->worst =
+                fmax(task->worst,
+                     fmax(relative_error(p->hysteresis),
+                          fmax(relative_error(p->area_ratio), relative_error(p->stress_variance))));
+    }
+}
+
+/* The values themselves; `c` is their contact without a layer. */
+static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
+{
+    const double shear = task->sliding->shear_stress.value / task->sliding->pressure.value;
+    const size_t last = task->n - 1;
+    wt_status status = compute(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    if (status != WT_OK)
+        return status;
+    task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
+    task->numerical[0] = total_error(&task->points[last], shear);
+    note_not_reached(task, task->points);
+    if (task->layer == NULL)
+        return WT_OK;
+    wt_friction_point *layered = malloc(task->n * sizeof *layered);
+    if (layered == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
+    if (status == WT_OK) {
+        task->numerical[1] = total_error(
+            &layered[last], shear * shear_factor(task, layer_of(task, WT_NO_REPLICATE)));
+        note_not_reached(task, layered);
+    }
+    free(layered);
+    return status;
+}
+
+/* What varies with the layer alone leaves no error of what is without it. */
+static wt_status draw_replicates(friction_task *task, wt_error *err)
+{
+    replicates *r = &task->replicates;
+    const wt_layer_known *layer = task->layer;
+    if (!isnan(task->sliding->shear_stress.value))
+        replicates_add(r, task->sliding->shear_stress.standard_error, "shear stress");
+    const bool bulk_varies = r->varies;
+    if (layer != NULL) {
+        replicates_add(r, layer->thickness.standard_error, "thickness of the layer");
+        replicates_add(r, layer->modulus_ratio.standard_error, "modulus ratio of the layer");
+    }
+    wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+    for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
+        slot(r->error, task->n, HYSTERESIS)[i] = slot(r->error, task->n, AREA)[i] =
+            slot(r->error, task->n, TOTAL)[i] = (double)NAN;
+    return status;
+}
+
+wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
+                           const wt_job *work, wt_friction_tables *tables, wt_error *err)
+{
+    if (work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no friction job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = check_layer(layer, err);
+    if (status != WT_OK)
+        return status;
+    friction_task task = {.sliding = sliding,
+                          .layer = layer,
+                          .work = work,
+                          .n = sliding->n_velocity + !is_reference_alone(sliding),
+                          .replicates = replicates_of(sliding, work, "friction")};
+    wt_friction_tables t = {0};
+    sliding_contact c = {0};
+    status = allocate(&task, err);
+    if (status == WT_OK)
+        status = compute_centre(&task, &c, err);
+    if (status == WT_OK)
+        status = draw_replicates(&task, err);
+    if (status == WT_OK)
+        status = friction_table(&task, c.statement, &t.friction, err);
+    if (status == WT_OK) {
+        summarise(&task, &t);
+        *tables = t;
+        t = (wt_friction_tables){0};
+    }
+    sliding_contact_clear(&c);
+    wt_friction_tables_clear(&t);
+    release(&task);
+    return status;
+}
+
+void wt_friction_tables_clear(wt_friction_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->friction);
+    *tables = (wt_friction_tables){0};
+}

@@ -1,0 +1,138 @@
+/* What one contact is inside: its area against magnification, its energy against depth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/sliding_contact.h"
+#include "flow/work/cost.h"
+
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The values themselves, without a layer; what is asked for has no extrapolated share. */
+static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_job own = *work;
+    own.left_out = WT_EXTRAS;
+    return sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, c, err);
+}
+
+/* ---- contact area ---------------------------------------------------------------------------- */
+
+#define POINTS_PER_DECADE 20
+
+static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
+                           wt_friction_node *nodes, table_writer *t, cost_summary *cost)
+{
+    if (t->status == WT_OK)
+        t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
+    table_block(t);
+    for (size_t i = 0; t->status == WT_OK && i < n; i++) {
+        table_row(t);
+        contact_area_put(t, CONTACT_AREA_VELOCITY, velocity);
+        contact_area_put(t, CONTACT_AREA_MAGNIFICATION, q[i] / c->roughness->q0);
+        contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
+        contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
+        contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
+        cost->items++;
+        cost->error_estimated =
+            fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
+    }
+}
+
+static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
+                      cost_summary *cost)
+{
+    const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
+                 middle = flow_reference_velocity(sliding);
+    const double decades = log10(c->roughness->q1 / c->roughness->q0);
+    const size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    double *q = malloc(n * sizeof *q);
+    wt_friction_node *nodes = malloc(n * sizeof *nodes);
+    if (q == NULL || nodes == NULL) {
+        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++)
+        q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+    q[n - 1] = c->roughness->q1;
+    add_area_block(c, first, q, n, nodes, t, cost);
+    if (middle > first && middle < last)
+        add_area_block(c, middle, q, n, nodes, t, cost);
+    if (last > first)
+        add_area_block(c, last, q, n, nodes, t, cost);
+done:
+    free(q);
+    free(nodes);
+}
+
+wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no contact area to make");
+    sliding_contact c = {0};
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = make_contact(sliding, work, &c, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&contact_area_schema, err);
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    add_areas(sliding, &c, &t, &cost);
+    cost_say(work, cost);
+    sliding_contact_clear(&c);
+    return table_end(&t, table);
+}
+
+/* ---- energy density -------------------------------------------------------------------------- */
+
+#define DEPTHS 121
+
+static void add_depths(const wt_energy_source *source, table_writer *t)
+{
+    double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
+    for (size_t i = 1; i < source->n; i++) {
+        q_min = fmin(q_min, source->wavenumber[i]);
+        q_max = fmax(q_max, source->wavenumber[i]);
+    }
+    /* from a tenth of the shortest wave to where the longest one has died out */
+    const double first = 0.1 / q_max, last = 3 / q_min;
+    for (size_t i = 0; i < DEPTHS; i++) {
+        const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
+        table_row(t);
+        energy_density_put(t, ENERGY_DENSITY_DEPTH, depth);
+        energy_density_put(t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
+    }
+}
+
+wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,
+                                  const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no energy density to make");
+    sliding_contact c = {0};
+    wt_energy_source source = {.n = 0};
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = wt_layer_job_check(job, err);
+    if (status == WT_OK)
+        status = make_contact(sliding, work, &c, err);
+    const double velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
+    if (status == WT_OK)
+        status = wt_energy_source_friction(c.workspace, c.pressure, velocity, &source, err);
+    sliding_contact_clear(&c);
+    if (status != WT_OK)
+        return status;
+    source.profile = job->profile;
+    source.local_friction = job->local_friction;
+    table_writer t = table_begin(&energy_density_schema, err);
+    add_depths(&source, &t);
+    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, velocity, 0, 0);
+    cost_say(work, (cost_summary){.items = DEPTHS,
+                                  .tolerance_asked = work->tolerance,
+                                  .error_estimated = source.numerical_error});
+    wt_energy_source_clear(&source);
+    return table_end(&t, table);
+}

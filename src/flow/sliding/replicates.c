@@ -1,0 +1,146 @@
+/* Standard errors from replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/replicates.h"
+#include "flow/sliding/sliding_contact.h"
+#include "flow/strain/softness.h"
+#include "flow/work/draws.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cut where there is no room. */
+static void add_words(char *list, size_t size, const char *words)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", words);
+}
+
+static void add_drawn(replicates *r, const char *words)
+{
+    if (r->work->replicates < 2) {
+        add_words(r->lacks, sizeof r->lacks, words);
+        return;
+    }
+    r->varies = true;
+    r->n = r->work->replicates;
+    add_words(r->includes, sizeof r->includes, words);
+}
+
+void replicates_add(replicates *r, double standard_error, const char *words)
+{
+    if (standard_error > 0)
+        add_drawn(r, words);
+    else
+        add_words(r->lacks, sizeof r->lacks, words);
+}
+
+replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
+{
+    const wt_rubber *rubber = sliding->rubber;
+    replicates r = {.sliding = sliding, .work = work, .what = what};
+    if (rubber->n_draws > 0) {
+        add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
+    } else {
+        add_words(r.lacks, sizeof r.lacks, "material");
+        if (rubber->c1_error > 0 || rubber->c2_error > 0)
+            add_drawn(&r, "shift law");
+    }
+    replicates_add(&r, sliding->pressure.standard_error, "pressure");
+    replicates_add(&r, sliding->temperature.standard_error, "temperature");
+    replicates_add(&r, sliding->surface->c0.standard_error, "roughness");
+    if (sliding->softness != NULL)
+        replicates_add(&r, softness_has_errors(sliding->softness), "softening with strain");
+    return r;
+}
+
+const char *replicates_include(const replicates *r)
+{
+    return r->varies                 ? r->includes
+           : r->work->replicates < 2 ? "nothing, for no replicates were asked for"
+                                     : "nothing, for no error was measured or stated";
+}
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+typedef struct drawing {
+    replicates *r;
+    replicate_fn one;
+    const void *user;
+} drawing;
+
+static wt_status draw_one(void *user, size_t i, unsigned worker)
+{
+    (void)worker;
+    const drawing *d = user;
+    double *out = d->r->value + i * d->r->stride;
+    wt_error ignored = WT_ERROR_INIT;
+    wt_status status = d->one(d->user, i, out, &ignored);
+    for (size_t k = 0; status != WT_OK && k < d->r->stride; k++)
+        out[k] = (double)NAN;
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+/* For its velocities; where jobs share the material, for all of the contact, so that it does not
+ * matter which comes first. */
+static wt_status begin(replicates *r, wt_error *err)
+{
+    const wt_sliding *s = r->sliding;
+    const double *v = s->velocity, reference = flow_reference_velocity(s);
+    const bool shared = r->work->drawn != NULL, alone = r->velocity > 0;
+    const double own = alone ? r->velocity : reference;
+    double slowest = own, fastest = own;
+    if (shared || !alone) {
+        slowest = fmin(slowest, fmin(v[0], reference));
+        fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
+    }
+    r->drawn = shared ? r->work->drawn : drawn_new();
+    return r->drawn != NULL ? drawn_begin(r->drawn, s, r->work, slowest, fastest, err)
+                            : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static void end(replicates *r)
+{
+    if (r->drawn != r->work->drawn)
+        drawn_free(r->drawn);
+    r->drawn = NULL;
+}
+
+wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
+                          wt_error *err)
+{
+    r->stride = stride;
+    r->error = malloc(stride * sizeof *r->error);
+    r->value = calloc(r->n + 1, stride * sizeof *r->value);
+    if (r->error == NULL || r->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    drawing d = {r, one, user};
+    char words[64];
+    snprintf(words, sizeof words, "%s replicates", r->what);
+    wt_status status = r->n > 0 ? begin(r, err) : WT_OK;
+    if (status != WT_OK) {
+        end(r);
+        return status;
+    }
+    status = wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
+    end(r);
+    if (status != WT_OK)
+        return wt_fail(err, status, "the replicates of the %s failed", r->what);
+    size_t lost = 0;
+    for (size_t i = 0; i < r->n; i++)
+        lost += isnan(r->value[i * stride]) != 0;
+    if (lost > 0)
+        wt_parselog_add(r->work->log, WT_WARNING, NULL, NULL,
+                        "%zu of %zu replicates of the %s have no solution and are left out of the "
+                        "standard errors",
+                        lost, r->n, r->what);
+    for (size_t k = 0; k < stride; k++)
+        r->error[k] = flow_spread(r->value + k, r->n, stride);
+    return WT_OK;
+}
+
+void replicates_clear(replicates *r)
+{
+    free(r->error);
+    free(r->value);
+    r->error = r->value = NULL;
+}

@@ -1,0 +1,36 @@
+/* Standard errors from replicates: which errors are drawn, drawing them, the scatter. Internal to
+ * flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SLIDING_REPLICATES_H
+#define WEARTRACK_FLOW_SLIDING_REPLICATES_H
+
+#include "flow/sliding/drawn_materials.h"
+
+typedef struct replicates {
+    const wt_sliding *sliding;
+    const wt_job *work;
+    double velocity;                /* the only one [m/s]; 0: those of the list and the reference */
+    wt_drawn *drawn;                /* while they are drawn */
+    const char *what;               /* "friction", for messages */
+    bool varies;                    /* an error is stated or measured: there are replicates */
+    char includes[256], lacks[256]; /* in words: what is drawn, what has no stated error */
+    double *error;                  /* [stride] standard errors, NaN without replicates */
+    double *value;                  /* [n * stride] */
+    size_t n, stride;
+} replicates;
+
+/* With the errors of a sliding contact but for that of the shear stress, which only the total
+ * friction knows. */
+replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what);
+/* Something else that is drawn (standard_error > 0), or would be if its error were stated. */
+void replicates_add(replicates *r, double standard_error, const char *words);
+/* What is drawn, as said in a table. */
+const char *replicates_include(const replicates *r);
+
+/* One replicate: `stride` numbers, the first of them not NaN. */
+typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *out, wt_error *err);
+/* Draws all and finds `error`. A replicate that has no solution is left out and counted. */
+wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
+                          wt_error *err) WT_NODISCARD;
+void replicates_clear(replicates *r);
+
+#endif

@@ -1,0 +1,35 @@
+/* Material, roughness and load of one replicate of a sliding contact, ready for the kernel.
+ * Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SLIDING_SLIDING_CONTACT_H
+#define WEARTRACK_FLOW_SLIDING_SLIDING_CONTACT_H
+
+#include "flow/sliding/drawn_materials.h"
+
+typedef struct sliding_contact {
+    double pressure, shear_stress;
+    wt_material *material;
+    bool shared; /* it is that of `drawn` */
+    wt_roughness *roughness;
+    wt_friction_workspace *workspace;
+    wt_cost *cost;       /* of its nodes */
+    char statement[512]; /* what must be said of the material, "" if nothing */
+} sliding_contact;
+
+/* Checks the numbers of a sliding contact and of the job. */
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work,
+                             wt_error *err) WT_NODISCARD;
+/* The velocity of the answer: as given, or the middle of the list. */
+double flow_reference_velocity(const wt_sliding *sliding);
+/* The velocity at which the track was worn. */
+double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
+/* Draws replicate `replicate` (WT_NO_REPLICATE = the values themselves, with drawn NULL) and
+ * prepares the kernel. A replicate takes one thread and asks for a small numerical error, as many
+ * are made at a time. */
+wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                               wt_drawn *drawn, wt_layer_state layer, sliding_contact *contact,
+                               wt_error *err) WT_NODISCARD;
+/* What must be said of numbers whose relative error is not below the tolerance. */
+#define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
+void sliding_contact_clear(sliding_contact *contact);
+
+#endif

@@ -1,0 +1,573 @@
+/* The DMA job: sweeps to one spectrum with shift factors, their law, master curve and series.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sweeps/master.h"
+#include "flow/sweeps/ramp_windows.h"
+#include "flow/sweeps/sweep_input.h"
+#include "flow/work/cost.h"
+#include "flow/work/inputs.h"
+
+#include "data/tables/tables.h"
+#include "model/material.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+wt_master_job wt_master_job_defaults(void)
+{
+    return (wt_master_job){.fit = wt_master_options_defaults(),
+                           .poisson_ratio = 0.5,
+                           .reduction = wt_reduction_defaults()};
+}
+
+static wt_status check_law(const void *member, wt_error *err)
+{
+    wt_shift_law law;
+    return flow_shift_law(*(const char *const *)member, &law, err);
+}
+
+static wt_status check_cuts(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_master_job *job = (const void *)(at - offsetof(wt_master_job, leave_out));
+    return flow_cuts_check(job->leave_out, job->n_leave_out, err);
+}
+
+static const wt_param rows[] = {
+    POISSON_RATIO(wt_master_job),
+    {PARAM_TEXTS_OF("leave-out", wt_master_job, leave_out, n_leave_out), .value = "WHAT",
+     .unset = "",
+     .help = "leave out isotherms and points of the DMA: temperature:LOW..HIGH or "
+             "frequency:LOW..HIGH, such as temperature:..-20degC, or one value, such as "
+             "frequency:50Hz; repeatable",
+     .check = check_cuts},
+    {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
+     .help = "law that gives all horizontal shifts of the DMA: "
+             "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
+             "arrhenius:activation-energy=80e3 (J/mol); its errors are in no interval",
+     .check = check_law},
+};
+PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
+            PARAM_PART(wt_master_options_params, wt_master_job, fit))
+
+void wt_master_tables_clear(wt_master_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->shift_factors);
+    wt_table_free(tables->master_curve);
+    wt_table_free(tables->prony);
+    wt_table_free(tables->prony_reduced);
+    wt_table_free(tables->relaxation_spectrum);
+    wt_table_free(tables->material_draws);
+    wt_table_free(tables->series_draws);
+    wt_master_clear(tables->fit);
+    free(tables->fit);
+    *tables = (wt_master_tables){0};
+}
+
+static const char *vertical_name(wt_vertical_shift vertical)
+{
+    static const char *const names[] = {"none", "physical", "free", "tied"};
+    return names[vertical];
+}
+
+static const char *shifted_by_name(wt_shift_by by)
+{
+    static const char *const names[] = {"both moduli", "storage modulus alone",
+                                        "loss modulus alone", "loss factor alone"};
+    return names[by];
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static void put_shift(table_writer *t, const wt_master *m, size_t i)
+{
+    const wt_master_shift *s = &m->shifts[i];
+    table_row(t);
+    shift_factors_put(t, SHIFT_FACTORS_TEMPERATURE, s->temperature);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A, s->log_a.value);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A_STANDARD_ERROR, s->log_a.standard_error);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A_LOW, s->log_a.low);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A_HIGH, s->log_a.high);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B, s->log_b.value);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B_STANDARD_ERROR, s->log_b.standard_error);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B_PHYSICAL, s->log_b_physical);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B_MATERIAL, s->log_b_material);
+    shift_factors_put(t, SHIFT_FACTORS_OVERLAP, s->overlap);
+    shift_factors_put(t, SHIFT_FACTORS_NOISE_FACTOR, s->noise_factor);
+    shift_factors_put(t, SHIFT_FACTORS_OUTLIERS, (double)s->n_outliers);
+    shift_factors_put(t, SHIFT_FACTORS_DETERMINED, s->determined);
+    shift_factors_put_text(t, SHIFT_FACTORS_NOTE, s->note);
+    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A, s->law.value);
+    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_LOW, s->law.low);
+    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_HIGH, s->law.high);
+    shift_factors_put(t, SHIFT_FACTORS_CLOSED_FORM, wt_master_closed_form(m, i));
+}
+
+static void set_interval(table_writer *t, shift_factors_key key, wt_interval x)
+{
+    shift_factors_set_value(t, key, x.value, x.standard_error, 0);
+}
+
+static void set_law(table_writer *t, const wt_master *m)
+{
+    static const char *const names[] = {[WT_LAW_NONE] = "none",
+                                        [WT_LAW_WLF] = "WLF",
+                                        [WT_LAW_ARRHENIUS] = "Arrhenius",
+                                        [WT_LAW_JOINED] = "joined"};
+    const bool none = m->law.kind == WT_LAW_NONE;
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_LAW, "%s%s%s", names[m->law.kind],
+                            none ? ": " : "", none ? m->no_law : "");
+    if (none)
+        return;
+    if (m->law.kind != WT_LAW_ARRHENIUS) {
+        set_interval(t, SHIFT_FACTORS_KEY_WLF_C1, m->c1);
+        set_interval(t, SHIFT_FACTORS_KEY_WLF_C2, m->c2);
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_WLF_CORRELATION, "%.6g", m->c_correlation);
+        set_interval(t, SHIFT_FACTORS_KEY_POLE, m->pole);
+    }
+    if (m->law.kind != WT_LAW_WLF)
+        set_interval(t, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, m->activation_energy);
+    if (m->law.kind == WT_LAW_JOINED)
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_JOINT, m->law.joint, (double)NAN, 0);
+    set_interval(t, SHIFT_FACTORS_KEY_LAW_SLOPE, m->slope);
+    set_interval(t, SHIFT_FACTORS_KEY_OFFSET, m->offset);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_LAW_RMS, m->law_rms, 0, 0);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_TEMPERATURE_SPREAD, m->temperature_spread,
+                            (double)NAN, 0);
+}
+
+static void set_verdict(table_writer *t, const wt_master *m)
+{
+    static const char *const words[] = {"holds", "fails", "cannot say"};
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s: %s", words[m->superposition],
+                            m->because);
+    if (isnan(m->lack_of_fit_p))
+        return;
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_LOW, "%.3g", m->misfit_low);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_HIGH, "%.3g", m->misfit_high);
+    const double factor = exp(m->loss_factor);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_LOSS_FACTOR, factor, factor * m->loss_factor_error,
+                            0);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "%.3g", m->kramers_kronig_p);
+}
+
+static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&shift_factors_schema, err);
+    for (size_t i = 0; i < m->n_shifts; i++)
+        put_shift(&t, m, i);
+    set_law(&t, m);
+    shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
+                            0, 0);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(m->vertical));
+    if (wt_master_shifted_by(m) != WT_BY_MODULI)
+        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY,
+                               shifted_by_name(wt_master_shifted_by(m)));
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
+                           flow_deformation_name(m->deformation));
+    set_verdict(&t, m);
+    return table_end(&t, table);
+}
+
+static void put_point(table_writer *t, const wt_master *m, size_t i)
+{
+    const wt_interval *storage = &m->fitted_storage[i], *loss = &m->fitted_loss[i],
+                      *factor = &m->fitted_loss_factor[i];
+    const wt_master_shift *shift = &m->shifts[m->isotherm[i]];
+    table_row(t);
+    master_curve_put(t, MASTER_CURVE_ANGULAR_FREQUENCY, pow(10, m->log_frequency[i]));
+    master_curve_put(t, MASTER_CURVE_STORAGE_MODULUS, pow(10, m->log_storage[i]));
+    master_curve_put(t, MASTER_CURVE_LOSS_MODULUS, pow(10, m->log_loss[i]));
+    master_curve_put(t, MASTER_CURVE_TEMPERATURE, shift->temperature);
+    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE, pow(10, storage->value));
+    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_LOW, pow(10, storage->low));
+    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_HIGH, pow(10, storage->high));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS, pow(10, loss->value));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_LOW, pow(10, loss->low));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_HIGH, pow(10, loss->high));
+    master_curve_put(t, MASTER_CURVE_LEFT_OUT, m->left_out[i]);
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR, pow(10, factor->value));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_LOW, pow(10, factor->low));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH, pow(10, factor->high));
+    master_curve_put(t, MASTER_CURVE_OWN_FREQUENCY,
+                     pow(10, m->log_frequency[i] - shift->log_a.value + m->offset.value));
+    master_curve_put(t, MASTER_CURVE_OWN_STORAGE, pow(10, m->log_storage[i] - shift->log_b.value));
+    master_curve_put(t, MASTER_CURVE_OWN_LOSS, pow(10, m->log_loss[i] - shift->log_b.value));
+    master_curve_put(t, MASTER_CURVE_LOSS_FACTOR, wt_master_loss_factor(m, i));
+}
+
+static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&master_curve_schema, err);
+    for (size_t k = 0; k < m->n_shifts; k++) {
+        table_block(&t);
+        for (size_t i = 0; i < m->n; i++)
+            if (m->isotherm[i] == k)
+                put_point(&t, m, i);
+    }
+    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_STORAGE, "%.6g", m->noise_storage);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_LOSS, "%.6g", m->noise_loss);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_CORRELATION, "%.6g", m->correlation);
+    master_curve_set_value(&t, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, m->reference_temperature, 0,
+                           0);
+    master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, flow_deformation_name(m->deformation));
+    return table_end(&t, table);
+}
+
+static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err)
+{
+    const wt_prony *p = &m->prony;
+    table_writer t = table_begin(&prony_schema, err);
+    for (size_t i = 0; i < p->n; i++) {
+        table_row(&t);
+        prony_put(&t, PRONY_RELAXATION_TIME, p->relaxation_time[i]);
+        prony_put(&t, PRONY_MODULUS, p->modulus[i]);
+    }
+    prony_set_value(&t, PRONY_KEY_EQUILIBRIUM_MODULUS, p->equilibrium_modulus,
+                    m->equilibrium.standard_error, 0);
+    if (m->equilibrium_limit)
+        prony_set_value(&t, PRONY_KEY_EQUILIBRIUM_LIMIT, m->equilibrium.high, 0, 0);
+    prony_set_value(&t, PRONY_KEY_REFERENCE_TEMPERATURE, p->reference_temperature, 0, 0);
+    prony_set_value(&t, PRONY_KEY_FREQUENCY_MIN, p->frequency_min, 0, 0);
+    prony_set_value(&t, PRONY_KEY_FREQUENCY_MAX, p->frequency_max, 0, 0);
+    prony_set_text(&t, PRONY_KEY_DEFORMATION, flow_deformation_name(p->deformation));
+    prony_set_print(&t, PRONY_KEY_RMS_STORAGE, "%.6g", m->noise_storage);
+    prony_set_print(&t, PRONY_KEY_RMS_LOSS, "%.6g", m->noise_loss);
+    return table_end(&t, table);
+}
+
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+/* So many that a standard error from them is known to 5 %. Their seed is not that of a job, so that
+ * what is stored is what a job has that goes from the isotherms on. */
+enum { DRAWS = 200, DRAWS_SEED = 1 };
+
+/* To seven digits, far below the scatter of the draws: short where it is written. */
+static double rounded(double x)
+{
+    if (!(fabs(x) > 0) || !isfinite(x))
+        return x;
+    const double scale = pow(10, 6 - floor(log10(fabs(x))));
+    return scale > 1 ? round(x * scale) / scale : round(x * scale) * (1 / scale);
+}
+
+/* A row for each isotherm with a vertical shift, or one row; the first has the rest of the draw. */
+static void put_material(table_writer *t, const wt_master *m, size_t draw, const wt_prony *prony,
+                         const wt_shift_law *law, const double *log_b)
+{
+    const bool vertical = m->vertical != WT_VERTICAL_NONE && m->n_shifts > 1;
+    bool first = true;
+    table_block(t);
+    for (size_t i = 0; vertical ? i < m->n_shifts : first; i++) {
+        if (vertical && !m->shifts[i].determined)
+            continue;
+        table_row(t);
+        material_draws_put(t, MATERIAL_DRAWS_DRAW, (double)draw + 1);
+        if (first) {
+            material_draws_put(t, MATERIAL_DRAWS_EQUILIBRIUM_MODULUS,
+                               rounded(prony->equilibrium_modulus));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C1, rounded(law->wlf.c1));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C2, rounded(law->wlf.c2));
+            material_draws_put(t, MATERIAL_DRAWS_ACTIVATION_ENERGY,
+                               rounded(law->activation_energy));
+        }
+        if (vertical) {
+            material_draws_put(t, MATERIAL_DRAWS_TEMPERATURE, m->shifts[i].temperature);
+            material_draws_put(t, MATERIAL_DRAWS_LOG_B, rounded(log_b[i]));
+        }
+        first = false;
+    }
+}
+
+static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
+{
+    table_block(t);
+    for (size_t k = 0; k < prony->n; k++) {
+        table_row(t);
+        series_draws_put(t, SERIES_DRAWS_DRAW, (double)draw + 1);
+        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME, rounded(prony->relaxation_time[k]));
+        series_draws_put(t, SERIES_DRAWS_MODULUS, rounded(prony->modulus[k]));
+    }
+}
+
+static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_error *err)
+{
+    double *log_b = malloc((m->n_shifts + 1) * sizeof *log_b);
+    if (log_b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    table_writer material = table_begin(&material_draws_schema, err),
+                 series = table_begin(&series_draws_schema, err);
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < DRAWS; i++) {
+        wt_prony prony = {0};
+        wt_shift_law law;
+        status = wt_master_draw(m, DRAWS_SEED, i, &prony, &law, log_b, err);
+        if (status == WT_OK) {
+            put_material(&material, m, i, &prony, &law, log_b);
+            put_series(&series, i, &prony);
+        }
+        wt_prony_clear(&prony);
+    }
+    material_draws_set_value(&material, MATERIAL_DRAWS_KEY_REFERENCE_TEMPERATURE,
+                             m->reference_temperature, 0, 0);
+    const wt_status first = table_end(&material, &tables->material_draws),
+                    second = table_end(&series, &tables->series_draws);
+    free(log_b);
+    return status != WT_OK ? status : first != WT_OK ? first : second;
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* Strain sweeps say nothing of the spectrum. */
+static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_error *err)
+{
+    const size_t n = sweep->n_strain_sweeps;
+    if (n > 0 && sweep->n_isotherms + sweep->n_ramps > 0)
+        wt_parselog_add(work->log, WT_WARNING, sweep->strain_sweeps[0].source, NULL,
+                        "%zu strain sweep%s left out of the master curve: see `weartrack payne`", n,
+                        n > 1 ? "s are" : " is");
+    if (n == 0 || sweep->n_isotherms + sweep->n_ramps > 0)
+        return WT_OK;
+    wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
+    wt_error_found(err, "strain sweeps: %zu", n);
+    wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+    return WT_E_EMPTY;
+}
+
+/* What is left of the sweeps, with the shifts that are given. */
+static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
+                         wt_sweep *sweep, wt_error *err)
+{
+    wt_status status = flow_sweep_cut(job->leave_out, job->n_leave_out, sweep, work->log, err);
+    if (status == WT_OK)
+        status = flow_shift_law(job->shift_law, law, err);
+    if (status == WT_OK && law->kind != WT_LAW_NONE && job->shifts != NULL)
+        status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
+    if (status == WT_OK)
+        status = flow_shifts_give(law, job->shifts, job->fit.vertical, sweep, work->log, err);
+    if (status == WT_OK && law->kind != WT_LAW_NONE)
+        wt_parselog_add(work->log, WT_NOTE, NULL, NULL,
+                        "the shifts are those of the law that is given: its errors are in no "
+                        "interval");
+    return status;
+}
+
+/* Temperature sweeps become isotherms of `sweep`. */
+static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
+                     wt_master *master, wt_error *err)
+{
+    wt_shift_law law;
+    wt_status status = prepare(job, work, &law, sweep, err);
+    if (status != WT_OK)
+        return status;
+    status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &job->fit, &law, work->log, master, err)
+                                : wt_master_fit(sweep, &job->fit, work->log, master, err);
+    if (status == WT_OK)
+        return WT_OK;
+    /* the fit sees isotherms, not files */
+    const size_t n = sweep->n_isotherms;
+    if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
+        wt_error_file(err, job->sets[0].patterns[0]);
+    if (err != NULL && err->place[0] == '\0' && n > 0)
+        wt_error_place(err, "%zu isotherm%s from %s", n, n == 1 ? "" : "s",
+                       sweep->isotherms[0].source);
+    return status;
+}
+
+/* Without it there is no series. */
+static bool tells_level(const wt_master *m)
+{
+    const wt_shift_by by = wt_master_shifted_by(m);
+    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+}
+
+static wt_status no_level(const wt_master *m, wt_error *err)
+{
+    wt_fail(err, WT_E_MISSING, "the %s alone tells no level of the moduli, and friction needs both",
+            wt_master_shifted_by(m) == WT_BY_LOSS ? "loss modulus" : "loss factor");
+    wt_error_expected(err, "isotherms with storage and loss modulus");
+    return WT_E_MISSING;
+}
+
+/* Of sweeps that all name the same one, or NULL. */
+static const char *sample_of(const wt_sweep *sweep)
+{
+    const char *name = sweep->n_isotherms > 0 ? sweep->isotherms[0].sample
+                       : sweep->n_ramps > 0   ? sweep->ramps[0].sample
+                                              : NULL;
+    bool same = name != NULL;
+    for (size_t i = 0; i < sweep->n_isotherms && same; i++)
+        same = sweep->isotherms[i].sample != NULL && strcmp(sweep->isotherms[i].sample, name) == 0;
+    for (size_t i = 0; i < sweep->n_ramps && same; i++)
+        same = sweep->ramps[i].sample != NULL && strcmp(sweep->ramps[i].sample, name) == 0;
+    return same ? name : NULL;
+}
+
+static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_error *err)
+{
+    const char *const sample = sample_of(sweep);
+    if (sample == NULL)
+        return WT_OK;
+    table_writer t = table_continue(shift_factors, &shift_factors_schema, "", err);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SAMPLE, sample);
+    return table_end(&t, NULL);
+}
+
+/* All but the master curve. */
+static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
+                             wt_error *err)
+{
+    t->n_isotherms = m->n_shifts;
+    wt_status status = shift_table(m, &t->shift_factors, err);
+    if (status != WT_OK || !tells_level(m))
+        return status;
+    if (status == WT_OK)
+        status = prony_table(m, &t->prony, err);
+    return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0 ? draw_tables(m, t, err)
+                                                                     : status;
+}
+
+wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
+                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          wt_rubber *rubber, wt_error *err)
+{
+    wt_master_tables t = {0};
+    wt_master_options own = *options;
+    own.series_only = true;
+    wt_status status = wt_master_fit(sweep, &own, NULL, fit, err);
+    if (status == WT_OK)
+        status = make_tables(fit, work, &t, err);
+    const wt_rubber_tables of = {.prony = t.prony,
+                                 .shift_factors = t.shift_factors,
+                                 .material_draws = t.material_draws,
+                                 .series_draws = t.series_draws};
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
+    wt_master_tables_clear(&t);
+    return status;
+}
+
+wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, wt_rubber *refitted,
+                          wt_error *err)
+{
+    if (rubber == NULL || refitted == NULL)
+        return wt_fail(err, WT_E_ARG, "no rubber");
+    if (rubber->sweep.n_isotherms == 0)
+        return wt_fail(err, WT_E_MISSING, "there are no isotherms to be fitted again");
+    const wt_job work = {.left_out = WT_EXTRAS};
+    wt_master_options options = rubber->fit;
+    wt_master fit = {0};
+    options.vertical = vertical;
+    const wt_status status = flow_rubber_fit(&rubber->sweep, &options, rubber->poisson_ratio, &work,
+                                             &fit, refitted, err);
+    if (status == WT_OK) {
+        refitted->is_transverse = rubber->is_transverse;
+        refitted->transverse = rubber->transverse;
+    }
+    wt_master_clear(&fit);
+    return status;
+}
+
+/* More of a standard error than this is seen in an interval. */
+static const double seen = 0.1;
+
+static void say_unfinished(const wt_master *m, const wt_job *work)
+{
+    if (m->step_left > seen)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the fit ended before it was settled: a further step would move a number "
+                        "by up to %.2g of its standard error",
+                        m->step_left);
+}
+
+/* In decades, of E' if it is told. */
+static double shown_error(const wt_master *m, size_t i)
+{
+    return !isnan(m->fitted_storage[i].value) ? m->fitted_storage[i].standard_error
+           : !isnan(m->fitted_loss[i].value)  ? m->fitted_loss[i].standard_error
+                                              : m->fitted_loss_factor[i].standard_error;
+}
+
+/* The main number is E', known everywhere: the mean of its relative standard error. */
+static void say_cost(const wt_master *m, const wt_job *work)
+{
+    double error = 0;
+    for (size_t i = 0; i < m->n; i++)
+        error += M_LN10 * shown_error(m, i) / (double)m->n;
+    cost_add_nodes(work->cost, m->evaluations);
+    cost_say(work, (cost_summary){.items = (double)m->n_shifts,
+                                  .tolerance_asked = m->step_allowed * error,
+                                  .error_estimated = m->step_left * error,
+                                  .number = {1, error, 0, "1"}});
+}
+
+wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
+                         wt_rubber *rubber, wt_error *err)
+{
+    if (job == NULL || work == NULL)
+        return wt_fail(err, WT_E_ARG, "no DMA job");
+    wt_sweep sweep = {0};
+    wt_master master = {0};
+    wt_master_tables t = {0};
+    wt_status status = param_check(wt_master_job_params(), job, err);
+    if (status == WT_OK)
+        status = param_check(wt_job_params(), work, err);
+    if (status == WT_OK)
+        status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = check_strain(&sweep, work, err);
+    if (status == WT_OK)
+        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
+        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
+        status = fit(job, work, &sweep, &master, err);
+    if (status == WT_OK)
+        status = make_tables(&master, work, &t, err);
+    if (status == WT_OK)
+        status = say_sample(&sweep, t.shift_factors, err);
+    if (status == WT_OK)
+        status = master_table(&master, &t.master_curve, err);
+    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)
+        status = flow_spectrum_table(&master, &t.relaxation_spectrum, err);
+    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_REDUCED) == 0)
+        status = flow_reduced_table(&master, job, work, &t.prony_reduced, err);
+    if (status == WT_OK && rubber != NULL && !tells_level(&master))
+        status = no_level(&master, err);
+    if (status == WT_OK && rubber != NULL) {
+        const wt_rubber_tables of = {.prony = t.prony,
+                                     .shift_factors = t.shift_factors,
+                                     .material_draws = t.material_draws,
+                                     .series_draws = t.series_draws};
+        status = wt_rubber_from_tables(&of, job->poisson_ratio, rubber, err);
+    }
+    if (status == WT_OK && rubber != NULL) {
+        rubber->sweep = sweep;
+        rubber->fit = job->fit;
+        rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
+        sweep = (wt_sweep){0};
+    }
+    if (status == WT_OK && tables != NULL && (t.fit = malloc(sizeof *t.fit)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK) {
+        say_unfinished(&master, work);
+        say_cost(&master, work);
+    }
+    if (status == WT_OK && tables != NULL) {
+        *t.fit = master;
+        master = (wt_master){0};
+        *tables = t;
+        t = (wt_master_tables){0};
+    }
+    if (status != WT_OK) { /* it is not filled */
+        free(t.fit);
+        t.fit = NULL;
+    }
+    wt_sweep_clear(&sweep);
+    wt_master_clear(&master);
+    wt_master_tables_clear(&t);
+    return status;
+}

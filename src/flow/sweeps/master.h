@@ -1,0 +1,18 @@
+/* Tables of the DMA job that are made of the spectrum. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SWEEPS_MASTER_H
+#define WEARTRACK_FLOW_SWEEPS_MASTER_H
+
+#include "weartrack/flow.h"
+
+wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,
+                             wt_table **table, wt_error *err) WT_NODISCARD;
+
+/* Isotherms fitted, and the rubber that comes of it, with draws unless they are left out. Both
+ * cleared by the caller, also on failure. */
+wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
+                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,150 @@
+/* The sweeps of a job: every file is read once in a run, and each stage has a copy of its own.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sweeps/sweep_input.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *flow_deformation_name(wt_deformation deformation)
+{
+    return deformation == WT_SHEAR ? "shear" : "tension";
+}
+
+static void copy_numbers(double *to, const double *from, size_t n)
+{
+    if (to != NULL)
+        memcpy(to, from, n * sizeof *to);
+}
+
+static unsigned arrays_of(const double *strain, const double *loss_factor)
+{
+    return (strain != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
+           (loss_factor != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
+}
+
+static bool copy_name(char **to, const char *from)
+{
+    *to = from != NULL ? strdup(from) : NULL;
+    return from == NULL || *to != NULL;
+}
+
+static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
+{
+    wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(s->strain, s->loss_factor));
+    if (t == NULL)
+        return false;
+    t->temperature = s->temperature;
+    t->temperature_spread = s->temperature_spread;
+    memcpy(t->source, s->source, sizeof t->source);
+    copy_numbers(t->angular_frequency, s->angular_frequency, s->n);
+    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
+    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
+    copy_numbers(t->strain, s->strain, s->n);
+    copy_numbers(t->loss_factor, s->loss_factor, s->n);
+    return copy_name(&t->sample, s->sample);
+}
+
+static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
+{
+    wt_ramp *t = wt_sweep_add_ramp(to, s->n, arrays_of(s->strain, s->loss_factor));
+    if (t == NULL)
+        return false;
+    t->angular_frequency = s->angular_frequency;
+    memcpy(t->source, s->source, sizeof t->source);
+    copy_numbers(t->temperature, s->temperature, s->n);
+    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
+    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
+    copy_numbers(t->strain, s->strain, s->n);
+    copy_numbers(t->loss_factor, s->loss_factor, s->n);
+    return copy_name(&t->sample, s->sample);
+}
+
+static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
+{
+    wt_strain_sweep *t = wt_sweep_add_strain_sweep(to, s->n);
+    if (t == NULL)
+        return false;
+    t->angular_frequency = s->angular_frequency;
+    t->temperature = s->temperature;
+    memcpy(t->source, s->source, sizeof t->source);
+    copy_numbers(t->strain, s->strain, s->n);
+    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
+    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
+    return copy_name(&t->sample, s->sample);
+}
+
+/* `to` is empty. */
+static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
+{
+    bool good = true;
+    to->deformation = from->deformation;
+    for (size_t i = 0; i < from->n_isotherms && good; i++)
+        good = copy_isotherm(to, &from->isotherms[i]);
+    for (size_t i = 0; i < from->n_ramps && good; i++)
+        good = copy_ramp(to, &from->ramps[i]);
+    for (size_t i = 0; i < from->n_strain_sweeps && good; i++)
+        good = copy_strain_sweep(to, &from->strain_sweeps[i]);
+    return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static size_t n_sweeps(const wt_sweep *sweep)
+{
+    return sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps;
+}
+
+static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                             wt_sweep *sweep, wt_error *err)
+{
+    if (work->dma != NULL && n_sweeps(work->dma) > 0)
+        return copy_sweep(sweep, work->dma, err);
+    flow_files files = {NULL, 0, NULL};
+    wt_status status = flow_files_list(sets, n_sets, work, &files, err);
+    for (size_t i = 0; status == WT_OK && i < files.n; i++) {
+        wt_input *input = NULL;
+        wt_error failure = WT_ERROR_INIT;
+        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
+        if (status == WT_OK) {
+            const wt_read_options options = flow_read_options(&files.file[i]);
+            status = wt_sweep_read(work->formats, input, &options, work->log, sweep, &failure);
+        }
+        wt_input_close(input);
+        if (status != WT_OK)
+            status = flow_leave_out(work, &files.file[i], &failure)
+                         ? WT_OK
+                         : wt_job_failed(work, files.file[i].name, status, &failure, err);
+    }
+    if (status == WT_OK && n_sweeps(sweep) == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
+        flow_tell_files(&files, 0, err);
+    }
+    if (status == WT_OK) {
+        wt_sweep_sort(sweep);
+        wt_sweep_drop_copies(sweep, work->log);
+        if (work->dma != NULL)
+            status = copy_sweep(work->dma, sweep, err);
+    }
+    flow_files_clear(&files);
+    return status;
+}
+
+wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                           wt_sweep *sweep, wt_error *err)
+{
+    const wt_status status = read_sweeps(sets, n_sets, work, sweep, err);
+    return status == WT_OK && n_sets > 0 ? flow_sample_take(sweep, sets[0].read.sample, err)
+                                         : status;
+}
+
+wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                          wt_samples *samples, wt_error *err)
+{
+    wt_sweep sweep = {0};
+    *samples = (wt_samples){0, NULL};
+    wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_samples_find(&sweep, samples, err);
+    if (status != WT_OK)
+        wt_samples_clear(samples);
+    wt_sweep_clear(&sweep);
+    return status;
+}

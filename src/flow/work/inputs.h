@@ -1,0 +1,62 @@
+/* The files of a job: listing, opening with provenance, recording what failed. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_WORK_INPUTS_H
+#define WEARTRACK_FLOW_WORK_INPUTS_H
+
+#include "kernel/params.h"
+#include "weartrack/flow.h"
+
+/* The records that a run has too. */
+#define JOB_ROWS(type)                                                                             \
+    FRICTION_TOLERANCE(type),                                                                      \
+        {PARAM("replicates", type, replicates, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",       \
+         .flags = PARAM_NO_CASE, .help = "draws behind the standard errors; 0 for none"},          \
+        {PARAM("seed", type, seed, WT_Q_NONE, AT_LEAST(0)), .value = "N", .flags = PARAM_NO_CASE,  \
+         .help = "seed of the draws behind the standard errors"},                                  \
+        PARAM_THREADS(type)
+
+/* One file of the sets of a job. */
+typedef struct flow_file {
+    const char *path;       /* to open; owned by the list */
+    const char *name;       /* to show: `path` without the folder of the set; borrowed from it */
+    const wt_file_set *set; /* whose options hold */
+    bool of_folder;         /* not named itself, but found in a folder that was */
+    /* by flow_open: */
+    const wt_format_info *format;
+} flow_file;
+
+typedef struct flow_files {
+    flow_file *file;
+    size_t n;
+    void *paths; /* the same for tsearch */
+} flow_files;
+
+/* All files of the sets in their order. A file that is named twice is taken once, with a warning. A
+ * pattern without a match is recorded as a failure (or ends the job, see wt_job.failures). */
+wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                          flow_files *files, wt_error *err) WT_NODISCARD;
+void flow_files_clear(flow_files *files);
+
+/* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
+wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+                    wt_input **input, wt_error *err) WT_NODISCARD;
+
+/* How a file is read: by the options of its set, as the format that was found, if any.
+ */
+wt_read_options flow_read_options(const flow_file *file);
+
+/* For an error of files none of which held what is needed: how many, and where to look. */
+void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
+
+/* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
+ * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
+bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);
+
+/* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
+ * internal errors, and when the job keeps no failures. */
+bool flow_goes_on(const wt_job *work, wt_status status);
+/* Adds a row to the failures. */
+wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
+                           wt_error *err) WT_NODISCARD;
+
+#endif

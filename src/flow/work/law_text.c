@@ -1,0 +1,54 @@
+/* A law in one word, as an option has it: "self-affine:q0=1e3rad/m,...".
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/work/law_text.h"
+
+#include "base/param.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool flow_is_law(const flow_law_text *law, const char *text)
+{
+    return strncmp(text, law->prefix, strlen(law->prefix)) == 0;
+}
+
+static wt_status spelling(const flow_law_text *law, wt_error *err)
+{
+    wt_error_expected(err, "%s%s", law->prefix, law->example);
+    return WT_E_ARG;
+}
+
+wt_status flow_law_parse(const flow_law_text *law, const char *text, void *structure, wt_error *err)
+{
+    text += strlen(law->prefix);
+    char *copy = strdup(text), *rest = NULL;
+    if (copy == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    uint64_t given = 0;
+    wt_status status = WT_OK;
+    for (char *item = strtok_r(copy, ",", &rest); status == WT_OK && item != NULL;
+         item = strtok_r(NULL, ",", &rest)) {
+        char *value = strchr(item, '=');
+        if (value == NULL) {
+            wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", item);
+            status = spelling(law, err);
+            break;
+        }
+        *value++ = '\0';
+        status = wt_params_set(law->params(), item, structure, value, &given, err);
+        if (status == WT_E_NOT_FOUND) {
+            wt_fail(err, WT_E_ARG, "%s has no parameter \"%s\"", law->what, item);
+            status = spelling(law, err);
+        } else if (status != WT_OK) {
+            wt_error_place(err, "%s, %s", law->what, item);
+        }
+    }
+    if (status == WT_OK && param_missing(law->params(), given) != NULL) {
+        wt_fail(err, WT_E_MISSING, "the %s is not complete", law->name);
+        wt_error_found(err, "\"%s\"", text);
+        (void)spelling(law, err);
+        status = WT_E_MISSING;
+    }
+    free(copy);
+    return status;
+}
