@@ -45,7 +45,7 @@ typedef struct store_parts {
     store_tail tail;
 } store_parts;
 
-static bool part(const char *bytes, size_t length, store_parts *p)
+static bool part_answer(const char *bytes, size_t length, store_parts *p)
 {
     store_tail *const t = &p->tail;
     if (length < sizeof *t)
@@ -117,7 +117,7 @@ static wt_status take_by_text(const store_parts *p, wt_result *result, wt_error 
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err)
 {
     store_parts p;
-    if (!part(bytes, length, &p))
+    if (!part_answer(bytes, length, &p))
         return corrupt(err, "", "the content is not whole");
     wt_status status = p.tail.text_digest[0] == '\0' ? take_tables(&p, NULL, result, err)
                                                      : take_by_text(&p, result, err);

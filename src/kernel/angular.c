@@ -511,7 +511,7 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
 }
 
 /* From frequencies below a limit. */
-static double below(const angular_law *a, size_t limit, double w, double j1)
+static double part_below(const angular_law *a, size_t limit, double w, double j1)
 {
     double part, j2;
     if (w <= a->limit[limit])
@@ -524,9 +524,9 @@ double angular_outside(const angular_law *angular, double w, double j1)
 {
     double outside = 0;
     if (!isnan(angular->limit[0]))
-        outside += below(angular, 0, w, j1);
+        outside += part_below(angular, 0, w, j1);
     if (!isnan(angular->limit[1]))
-        outside += j1 - below(angular, 1, w, j1);
+        outside += j1 - part_below(angular, 1, w, j1);
     return fmin(fmax(outside, 0), j1);
 }
 

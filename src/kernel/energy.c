@@ -123,7 +123,7 @@ static void batch_fill(const wt_energy_source *source, size_t from, double q_min
 typedef void shape_fn(const wt_energy_source *source, const batch *b, double *value);
 
 /* g(z; q) exp(2 q z) */
-static void shape(const wt_energy_source *source, const batch *b, double *value)
+static void energy_shape(const wt_energy_source *source, const batch *b, double *value)
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
     for (size_t i = 0; i < b->n; i++)
@@ -227,7 +227,7 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
 static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
                          double sum[ENERGY_BOTH])
 {
-    static shape_fn *const of[] = {tail_shape, shape};
+    static shape_fn *const of[] = {tail_shape, energy_shape};
     wt_energy_source as[2] = {*source, *source};
     double value[BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth};
@@ -313,7 +313,7 @@ energy_course energy_course_at(const wt_energy_source *source, double depth, dou
 
 double energy_log_density(const wt_energy_source *source, double depth)
 {
-    return log_sum(source, shape, depth, 0);
+    return log_sum(source, energy_shape, depth, 0);
 }
 
 double energy_log_tail(const wt_energy_source *source, double depth)

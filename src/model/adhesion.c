@@ -41,7 +41,7 @@ adhesive_contact adhesion_at(const adhesion *law, double a)
 }
 
 /* Rises where the branch is stable against the lever: dF/da + k ddelta/da, over k if k > 1. */
-static double restoring(const adhesion *law, double k, double a)
+static double restoring_slope(const adhesion *law, double k, double a)
 {
     const double slope = contact_at_radius(law->tip, a).slope;
     const double q = sqrt(2.0 * M_PI * law->work / law->reduced) / (2.0 * sqrt(a));
@@ -57,7 +57,7 @@ typedef struct release_search {
 static bool comes_off(double a, void *user)
 {
     const release_search *s = user;
-    return !(restoring(s->law, s->k, a) > 0.0);
+    return !(restoring_slope(s->law, s->k, a) > 0.0);
 }
 
 double adhesion_release(const adhesion *law, double k)
@@ -72,15 +72,15 @@ double adhesion_release(const adhesion *law, double k)
     while (contact_at_radius(law->tip, a).slope * sqrt(a) < far)
         a *= 2.0;
     double high = a;
-    for (int i = 0; i < MAX_STEPS && restoring(law, k, a) > 0.0; i++) {
+    for (int i = 0; i < MAX_STEPS && restoring_slope(law, k, a) > 0.0; i++) {
         high = a;
         a *= radius_step;
     }
     double low = a;
     /* The sign changes in a root, or by a jump at the corner of the tip. */
     const double corner = law->tip->shape == WT_TIP_CONE ? 0.0 : law->tip->transition_radius;
-    if (corner >= low && corner < high && !(restoring(law, k, corner) > 0.0) &&
-        restoring(law, k, corner * (1.0 + 1e-12)) > 0.0)
+    if (corner >= low && corner < high && !(restoring_slope(law, k, corner) > 0.0) &&
+        restoring_slope(law, k, corner * (1.0 + 1e-12)) > 0.0)
         return corner;
     release_search search = {law, k};
     root_halve(comes_off, &search, &low, &high, 2.0 * DBL_EPSILON, MAX_ROUNDS);
@@ -108,7 +108,7 @@ double adhesion_radius(const adhesion *law, double k, double position, double re
             high = a;
         else
             low = a;
-        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring(law, k, a);
+        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring_slope(law, k, a);
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
         if (fabs(next - a) <= 4.0 * DBL_EPSILON * a || !(high - low > 2.0 * DBL_EPSILON * high))

@@ -258,6 +258,8 @@ file_reader text_reader(text_description *description);
 void text_peek_free(struct text_peek *peek);
 
 extern const struct force_stream text_force;
+/* Of a reader whose file is a table in disguise: it is read as the text that `made` makes of it. */
+#define READER_OF_CURVE_TEXT(made) .runs = "weartrack-stream", .as_text = made, .force = &text_force
 /* The same without reading to the end first: how many curves there are is not known. Not for a
  * reader that makes a text (as_text). */
 extern const struct force_stream text_force_first;

@@ -348,7 +348,7 @@ wt_status text_describe_made(const file_reader *self, wt_input *input,
     wt_input *text = NULL;
     file_reader of_text = *self;
     of_text.as_text = NULL;
-    wt_status status = self->as_text(input, NULL, &text, facts->err);
+    wt_status status = self->as_text(self, input, NULL, &text, facts->err);
     if (status == WT_OK)
         status = text_describe(&of_text, text, options, log, facts);
     wt_input_close(text);

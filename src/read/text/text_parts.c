@@ -220,7 +220,8 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
 {
     wt_input *text = NULL;
     text_parts *parts = NULL;
-    wt_status status = reader->as_text != NULL ? reader->as_text(input, log, &text, err) : WT_OK;
+    wt_status status =
+        reader->as_text != NULL ? reader->as_text(reader, input, log, &text, err) : WT_OK;
     if (status == WT_OK)
         status = text_parts_begin(reader, text != NULL ? text : input, SIZE_MAX, kinds, options,
                                   log, &parts, err);
