@@ -18,6 +18,8 @@
 /* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
  * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
 enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3 };
+/* A piece is halved down to 1/4096 of its width, or until three cuts in a row gained less than ten:
+ * then it is rounding that is left. */
 enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 /* Room for the coefficients of one degree, in whole registers. */
 enum { FIT_ROOM = 20 };
@@ -28,16 +30,20 @@ static const double law_width = 0.7, closed_width = 1;
 /* At a goal no tighter than the last, pieces twice as wide do with the same degree: 3.4^-8 is 5e-5.
  */
 static const double loose_width = 2, loose_goal = 1e-5;
-/* Two bounds closer than this are one. */
+/* Two bounds in ln w closer than this are one: their difference is rounding. */
 static const double same_bound = 1e-12;
-/* Relative error at which a series is good enough, of the tolerance, and at the best. */
+/* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
+ * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
+ * coefficient.
+ */
 static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6,
                     most_closed_goal = 1e-4;
-/* Of J1 and J2 from a sum of positive terms. */
+/* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
  * 0.29 ms both ways with 7 terms, 0.31 and 0.28 ms with 10), and is good to these. */
 enum { MANY_TERMS = 8 };
+/* Where squares and powers of omega tau are numbers. */
 static const double least_frequency = 1e-250, most_frequency = 1e250;
 
 /* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)

@@ -240,9 +240,9 @@ size_t friction_nodes(const wt_friction_workspace *ws)
     return nodes;
 }
 
-/* So many velocities are worth a series of a closed form. */
+/* So many velocities are worth a series of a closed form. Chosen for time alone. */
 enum { MANY_VELOCITIES = 8 };
-/* The series of a material reach down from there far enough. */
+/* The series of a material reach down from there far enough, and its squares are numbers. */
 #define LEAST_FREQUENCY 1e-250
 
 /* A closed form is taken as it is for a few velocities. */

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Approach, retract, both; curves from which on one can be told to be far from the others. */
 enum { WAYS = 2, ROWS = 3, OUTLIER_LEAST = 8 };
 static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
 
@@ -430,7 +431,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
  * parabola through the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 };
+    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;

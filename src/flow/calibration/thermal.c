@@ -12,13 +12,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double boltzmann = 1.380649e-23; /* [J/K], exact */
-static const double room_temperature = 298.15;
+static const double boltzmann = 1.380649e-23;  /* [J/K], exact */
+static const double room_temperature = 298.15; /* [K]; 10 K more are 3 % of a spring constant */
 /* Of a rectangular lever read at its end: the first mode has 0.971 of the thermal energy, and the
  * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
  * 0.817. Butt and Jaschke 1995. */
 static const double first_mode = 0.971, free_over_pressed = 1.09;
+/* A spectrum departs from its model where chance makes that of one in a thousand. The number of
+ * averages that a file says, over what the scatter shows: segments that overlap can make half
+ * of it. */
 static const double least_chance = 1e-3, averages_agree = 2;
+/* By fewer the scatter between spectra is not known: then it is that of the fits. */
 enum { LEAST_SPECTRA = 3 };
 
 wt_thermal_job wt_thermal_job_defaults(void)

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Below it noise does not make such a misfit. */
+/* Below it noise does not make such a misfit: as in fit/dwell/relaxation.c. */
 static const double least_chance = 0.01;
 
 void wt_dwell_tables_clear(wt_dwell_tables *tables)

@@ -15,7 +15,7 @@
 
 /* ---- choices --------------------------------------------------------------------------------- */
 
-enum { MOST_TRIED = 4, WORDS = 64 };
+enum { MOST_TRIED = 4, WORDS = 64 }; /* as the longest list below; one line of a table */
 
 /* A choice without a measurement. */
 typedef struct choice {
@@ -63,11 +63,12 @@ static double value_q1(const setting *s)
     return s->surface.q1;
 }
 
-/* No surface has waves below the size of a molecule. */
+/* No surface has waves below the size of a molecule [m]. */
 #define SHORTEST_WAVE 1e-9
 
 static bool move_q1(const setting *used, size_t i, setting *s)
 {
+    /* A decade either way, and half of one: nothing measures where a spectrum is to be cut off. */
     static const double factor[] = {0.1, 0.3, 3, 10};
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
@@ -91,6 +92,7 @@ static bool has_q0(const setting *s)
 
 static bool move_q0(const setting *used, size_t i, setting *s)
 {
+    /* Half and twice a cut-off that a scan or a tread sets. */
     static const double factor[] = {0.5, 2};
     const double q0 = used->surface.q0,
                  highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
@@ -107,6 +109,7 @@ static double value_gamma(const setting *s)
 
 static bool move_gamma(const setting *used, size_t i, setting *s)
 {
+    /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
     static const double tried[] = {0.5, 1};
     (void)used;
     if (i >= COUNT_OF(tried))
@@ -127,6 +130,7 @@ static double value_strain(const setting *s)
 
 static bool move_strain(const setting *used, size_t i, setting *s)
 {
+    /* The theory has a factor of order 1. */
     static const double factor[] = {0.5, 2};
     if (i >= COUNT_OF(factor))
         return false;
@@ -149,7 +153,7 @@ static double value_poisson(const setting *s)
 
 static bool move_poisson(const setting *used, size_t i, setting *s)
 {
-    static const double tried[] = {0.4, 0.5};
+    static const double tried[] = {0.4, 0.5}; /* a glass, and rubber that keeps its volume */
     (void)used;
     if (i >= COUNT_OF(tried))
         return false;

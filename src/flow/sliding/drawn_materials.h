@@ -7,7 +7,8 @@
 #include "kernel/angular.h"
 #include "weartrack/flow.h"
 
-/* Relative numerical error asked of replicates: far below the scatter between them. */
+/* Relative numerical error asked of replicates: far below the scatter between them, which is some
+ * per cent. */
 #define REPLICATE_TOLERANCE 1e-5
 
 wt_drawn *drawn_new(void); /* NULL when out of memory */
