@@ -332,27 +332,47 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
     return angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
 }
 
-wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+/* In whole multiples of piece_width: what there is, and with it what is asked for. */
+typedef struct series_range {
+    long first, last, have_first, have_last;
+} series_range;
+
+static series_range range_with(const angular_law *a, double w_min, double w_max)
+{
+    const series_list *have = &a->pieces;
+    series_range r = {(long)floor(log(w_min) / a->piece_width),
+                      (long)ceil(log(w_max) / a->piece_width), 0, 0};
+    if (r.last <= r.first)
+        r.last = r.first + 1;
+    r.have_first = r.have_last = r.last; /* nothing yet */
+    if (have->n > 0) {
+        r.have_first = lround(have->items[0].low / a->piece_width);
+        r.have_last = lround(have->items[have->n - 1].high / a->piece_width);
+        r.first = r.first < r.have_first ? r.first : r.have_first;
+        r.last = r.last > r.have_last ? r.last : r.have_last;
+    }
+    return r;
+}
+
+bool angular_covers(const angular_law *angular, double w_min, double w_max)
 {
     const wt_material_law *law = angular->material->law;
     if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
                             !(w_min >= least_frequency && w_max <= most_frequency)))
+        return true;
+    const series_range r = range_with(angular, w_min, w_max);
+    return r.first == r.have_first && r.last == r.have_last;
+}
+
+wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+{
+    if (angular_covers(angular, w_min, w_max))
         return WT_OK;
     const double piece_width = angular->piece_width;
-    long first = (long)floor(log(w_min) / piece_width);
-    long last = (long)ceil(log(w_max) / piece_width);
-    if (last <= first)
-        last = first + 1;
     const series_list *have = &angular->pieces;
-    long have_first = last, have_last = last; /* nothing yet */
-    if (have->n) {
-        have_first = lround(have->items[0].low / piece_width);
-        have_last = lround(have->items[have->n - 1].high / piece_width);
-        if (first >= have_first && last <= have_last)
-            return WT_OK;
-        first = first < have_first ? first : have_first;
-        last = last > have_last ? last : have_last;
-    }
+    const series_range range = range_with(angular, w_min, w_max);
+    const long first = range.first, last = range.last, have_first = range.have_first,
+               have_last = range.have_last;
     const wt_status status = angular->closed
                                  ? WT_OK
                                  : extend_panels(angular, exp((double)first * piece_width),

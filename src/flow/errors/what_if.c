@@ -158,6 +158,7 @@ static bool move_poisson(const setting *used, size_t i, setting *s)
     if (i >= COUNT_OF(tried))
         return false;
     s->rubber.poisson_ratio = tried[i];
+    s->given = NULL;
     return true;
 }
 
@@ -333,6 +334,7 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     if (o->choice->move == move_vertical) {
         status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
         o->setting.rubber = refitted;
+        o->setting.given = NULL;
     }
     if (status == WT_OK)
         status = compute_outcome(o, &w->work, &why);
@@ -518,6 +520,25 @@ static void say_cost(const what_if *w, const wt_job *work)
     cost_say(work, cost);
 }
 
+/* The series of the material over what any of the settings asks of it, before they are computed at
+ * the same time. */
+static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
+{
+    wt_sliding sliding = used->sliding;
+    wt_surface surface = used->surface;
+    drawn_values ignored;
+    for (size_t i = 0; i < w->n; i++) {
+        surface.q0 = fmin(surface.q0, w->outcomes[i].setting.surface.q0);
+        surface.q1 = fmax(surface.q1, w->outcomes[i].setting.surface.q1);
+    }
+    sliding.surface = &surface;
+    const double velocity = used->velocity, worn = used->has_layer && !isnan(used->layer.velocity)
+                                                       ? used->layer.velocity
+                                                       : velocity;
+    return drawn_values_get(w->work.drawn, &sliding, w->work.tolerance, fmin(velocity, worn),
+                            fmax(velocity, worn), &ignored, err);
+}
+
 wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
                           const wt_layer_known *known, const wt_job *work, wt_table **table,
                           wt_error *err)
@@ -531,8 +552,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     what_if w = {.work = *work};
     w.work.threads = 1; /* the settings take the threads */
     w.work.replicates = 0;
-    w.work.drawn = NULL; /* of another material */
-    w.work.log = NULL;   /* what is to be said of the values as used has been said */
+    w.work.log = NULL; /* what is to be said of the values as used has been said */
     w.work.progress = (wt_progress){0};
     w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
     if (w.outcomes == NULL)
@@ -542,11 +562,15 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
     w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
-    status = compute_outcome(&w.outcomes[0], &w.work, err);
+    status = cover_all(&w, &used, err);
+    if (status == WT_OK)
+        status = compute_outcome(&w.outcomes[0], &w.work, err);
     w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
+        drawn_hold(w.work.drawn, true);
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+        drawn_hold(w.work.drawn, false);
         if (status != WT_OK)
             wt_fail(err, status, "the choices of the model could not be tried");
     }
