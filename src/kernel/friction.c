@@ -240,10 +240,8 @@ size_t friction_nodes(const wt_friction_workspace *ws)
     return nodes;
 }
 
-/* So many velocities are worth a series of a closed form. */
+/* So many velocities are worth a series of a closed form. Chosen for time alone. */
 enum { MANY_VELOCITIES = 8 };
-/* The series of a material reach down from there far enough. */
-#define LEAST_FREQUENCY 1e-250
 
 /* A closed form is taken as it is for a few velocities. */
 static wt_status cover_frequencies(angular_law *angular, const wt_material *material, size_t n,
@@ -251,6 +249,23 @@ static wt_status cover_frequencies(angular_law *angular, const wt_material *mate
 {
     const bool as_it_is = material->law->angular != NULL && n < MANY_VELOCITIES;
     return as_it_is ? WT_OK : angular_cover(angular, lowest, highest, err);
+}
+
+/* A series that is given may be read by others at the same time: where it does not reach, the
+ * workspace makes its own. */
+static wt_status leave_given(wt_friction_workspace *ws, double lowest, double highest,
+                             wt_error *err)
+{
+    angular_law *own = NULL;
+    if (ws->options.series == NULL || angular_covers(ws->angular, lowest, highest))
+        return WT_OK;
+    const wt_status status =
+        angular_new(ws->material, ws->options.tolerance, &ws->memory, &own, err);
+    if (status == WT_OK) {
+        ws->angular = own;
+        ws->options.series = NULL;
+    }
+    return status;
 }
 
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
@@ -272,8 +287,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
-    if (!material->law->angular && !(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
-        (void)range_error("velocity", lowest >= LEAST_FREQUENCY ? fastest : slowest,
+    if (!material->law->angular && !(lowest >= ANGULAR_LEAST && highest <= DBL_MAX)) {
+        (void)range_error("velocity", lowest >= ANGULAR_LEAST ? fastest : slowest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
                         material->law->name);
@@ -281,6 +296,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     }
     if (!material->law->angular && material->law->check != NULL)
         status = material->law->check(material, lowest, highest, NULL, err);
+    if (status == WT_OK)
+        status = leave_given(ws, lowest, highest, err);
     if (status == WT_OK)
         status = cover_frequencies(ws->angular, material, n, lowest, highest, err);
     return status == WT_OK && ws->softening != NULL

@@ -33,7 +33,8 @@ static double steepness(const double *j, size_t n)
     return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
-/* S P falls no faster than G to the power of minus this. */
+/* S P falls no faster than G to the power of minus this: P = erf(1/(2 sqrt G)) as G^(-1/2), and
+ * S = gamma + (1 - gamma) P^2 as 1/G at most. */
 static const double area_power = 1.5;
 
 static double series_error(const wt_friction_workspace *ws, double low, double high,
@@ -336,8 +337,10 @@ static node_view find_core(const wt_friction_workspace *ws, friction_scratch *sc
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
+/* A panel over which G rises by no more is as smooth to the rule as any. */
 static const double steep_rise = 2;
-/* From this G on all of P shows in the hysteresis. */
+/* From this G on all of P shows in the hysteresis: 1 - P is a fifth there, and no small difference
+ * any more. */
 static const double area_begun = 0.3;
 
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.

@@ -12,12 +12,15 @@
 #include <float.h>
 #include <math.h>
 
+/* Rules whose difference is the error: that of the lower one. */
 enum { LOW_NODES = 12, HIGH_NODES = 16 };
 
-/* Panel length as a part of the way to the balance, and in units of the local decay length. */
+/* Panel length as a part of the way to the balance, where the time has a logarithm, and in units of
+ * the local decay length, over which formation is smooth: more panels or fewer, and the same error,
+ * for those that do not reach it are halved. */
 static const double way_part = 0.7;
 static const double decay_part = 2;
-/* A panel whose two rules differ by more is halved. */
+/* A panel whose two rules differ by more is halved: a hundred panels are then good to 1e-10. */
 static const double panel_goal = 1e-12;
 /* Formation is left out where it is a smaller part of wear. */
 static const double log_negligible = -41.5; /* 1e-18 */

@@ -16,12 +16,18 @@
 #include <float.h>
 #include <math.h>
 
-/* Range of atomic forces, and the steps in which the end of the branch is looked for. */
+/* Range of atomic forces [m], an interatomic distance, in Tabor's parameter (J. Colloid Interface
+ * Sci. 58 (1977) 2): it names the regime, which goes over some decades. */
 static const double force_range = 0.3e-9;
+/* The steps in which the end of the branch is looked for, before it is found by halves: the branch
+ * has one end, which no step jumps over twice. 3000 of them are 40 decades. */
 static const double radius_step = 0.97;
-/* Between them a work of adhesion is looked for [J/m^2]. */
+enum { MAX_STEPS = 3000 };
+/* Between them a work of adhesion is looked for [J/m^2]: surfaces have 1e-3 to 1, and welded ones
+ * are no contact; beyond there is none. */
 static const double least_work = 1e-9, most_work = 1e3;
-enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
+/* Halves and false positions to the last digit of a double need some 60 and 10. */
+enum { MAX_ROUNDS = 200 };
 
 bool adhesion_applies(const wt_tip *tip)
 {

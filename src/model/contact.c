@@ -70,7 +70,7 @@ static double sphere_force(double radius, double t)
 
 static contact_point_values sphere(double radius, double delta)
 {
-    enum { MAX_ROUNDS = 60 };
+    enum { MAX_ROUNDS = 60 }; /* a bound of Newton's steps from above */
     const double x = delta / radius;
     double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
     for (int i = 0; i < MAX_ROUNDS; i++) {

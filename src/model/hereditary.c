@@ -16,7 +16,7 @@ static const double quickest = 0.05, slowest = 1e5;
 
 wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
 {
-    enum { N_ARRAYS = 7 };
+    enum { N_ARRAYS = 7 }; /* below */
     if (terms <= m->capacity && m->block != NULL)
         return WT_OK;
     double *block = calloc(N_ARRAYS * (terms + 1), sizeof *block);

@@ -99,7 +99,7 @@ static void loss_parts(double omega, double modulus, double tau, double *root, d
     *height = square ? modulus * (a / *root) : modulus;
 }
 
-enum { LOSS_BLOCK = 64 };
+enum { LOSS_BLOCK = 64 }; /* terms at a time: what a stack holds lightly */
 
 /* sum_j h_j / (R_j + R_k) of the terms k of a block. */
 WIDE_REGISTERS

@@ -13,9 +13,9 @@
 #include <stdlib.h>
 
 /* Most and least blocks of the part, and how many samples each shall have; the fit through their
- * means has three parameters. Samples of a curve at least, and which share of them is its far end;
- * the share of the baseline that is taken for its tilt, which must be as long as the part. The
- * least rise, in standard deviations of the noise. */
+ * means has three parameters: seven degrees of freedom tell the scatter to a quarter, three are the
+ * fewest that tell it. Samples of a curve at least, of which the far end is a tenth, four; curves
+ * that tell a scatter. */
 enum {
     BLOCKS = 10,
     LEAST_BLOCKS = 6,
@@ -26,7 +26,16 @@ enum {
     FAR_SHARE = 10,
     LEAST_UNITS = 3
 };
-static const double baseline_share = 0.6, least_rise = 20, level = 0.975;
+/* The share of the baseline that is taken for its tilt, which must be as long as the part: what is
+ * left keeps long-range forces and the wave of an interference out of it. Chosen; half of it tells
+ * the tilt nearly three times worse. */
+static const double baseline_share = 0.6;
+/* The least rise, in standard deviations of the noise: from there on a slope is told to some per
+ * cent. */
+static const double least_rise = 20;
+/* Intervals of 95 %. */
+static const double level = 0.975;
+/* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)

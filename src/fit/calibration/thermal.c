@@ -18,13 +18,20 @@
 
 /* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
 enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
+/* A bound of time; bins that neighbours share noise over, which is two under the weights of Hann;
+ * points at least, six for each parameter; blocks by which a slow departure is seen, five for each;
+ * bins of a mean that looks for the peak. */
 enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
-/* Qualities to start with; the range: widths of the peak to either side, within these shares of the
- * resonance. */
+/* Qualities to start with, from a lever in water that hardly swings to one in vacuum; the range:
+ * widths of the peak to either side (an oscillator is 1/6400 of its top there, so that the floor is
+ * seen), within these shares of the resonance: noise that rises towards low frequencies is below,
+ * and the second mode of a lever, 6.27 times as high (Butt and Jaschke 1995), above. */
 static const double least_quality = 0.7, most_quality = 1e6, quality_step = 1.5;
 static const double range_widths = 40, range_low = 0.25, range_high = 3;
-static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826,
-                    pi = 3.14159265358979323846;
+/* Intervals of 95 %; residuals are clipped at so many standard deviations, one normal one in 370;
+ * standard deviation of a normal distribution over its median distance from the median. */
+static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
 
 typedef struct noise {
     const double *f, *p; /* [n] within the range */

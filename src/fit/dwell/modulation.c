@@ -20,13 +20,21 @@
 static const double complex unit = (double complex)I;
 
 /* Slow columns: a cubic and the logarithm of the time since the beginning. */
-enum { SLOW = 5, COLUMNS = SLOW + 2, SECTIONS = 60 };
+enum { SLOW = 5, COLUMNS = SLOW + 2 };
+/* Golden sections of two bins: down to 1e-12 of them. */
+enum { SECTIONS = 60 };
+/* A sine of fewer periods is not told from what drifts by a cubic and a logarithm, which bend four
+ * times; nine samples for each column. */
 enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
 /* In whole periods of the segment: beyond what the weights mix with the drive, and so far apart
- * that their noises are independent under the weights. */
+ * that their noises are independent under the weights: those of Hann reach two periods to each
+ * side. Sixteen of them tell the power of the noise to 25 %. */
 enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
-/* Power of the height over that beside it that is no noise. */
-static const double significant = 100, pi = 3.14159265358979323846;
+/* Power of the height over that beside it that is no noise, which would be so strong by a chance of
+ * exp(-100); what is left is that a drive is ten times its own noise, as nothing else tells E'' to
+ * 10 %. */
+static const double significant = 100;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
 
 typedef struct samples {
     const double *time, *of[2]; /* height and force */

@@ -21,15 +21,40 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what the
+ * dwell tells of ln tau; a cosine and a sine of two ripples. */
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
 enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
-enum { SUBSTEPS = 4, MOST_TERMS = 64, TERMS_PER_DECADE = 4, MAX_STEPS = 60, PER_DECADE = 4 };
-/* Standard deviations of slope, bend and bumps; how far the series goes beyond what was measured.
- */
-static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2, beyond = 30;
-/* Of ripples on the spectrum that are looked for, in ln tau. */
+/* Steps of the force within one of the means of the approach, over which the depth is linear. */
+enum { SUBSTEPS = 4 };
+/* Terms of the series: those of four a decade ripple by 1e-7 (fit/sweeps/master_fit.c), and 64 are
+ * sixteen decades, more than a dwell has with both ends. */
+enum { MOST_TERMS = 64, TERMS_PER_DECADE = 4 };
+/* A bound of time for what does not settle. */
+enum { MAX_STEPS = 60 };
+/* Frequencies that are told: as many as there are terms, for they are no more independent. */
+enum { PER_DECADE = 4 };
+/* Standard deviations that are believed of the spectrum, H in the logarithm: of its slope, which is
+ * -1/2 in Rouse's law and above -1 and below 1 in what a modulus shows (fit/sweeps/master_fit.c);
+ * of its bend over an e-fold of time and of bumps, 20 % of H. Beliefs: a dwell tells slope and
+ * level against them, and bend and bumps are what its intervals hold beyond; twice as wide, they
+ * are wider by about as much where the dwell tells neither. */
+static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2;
+/* How far the series goes beyond what was measured: a term that is slower by 30 relaxes by 3 %. */
+static const double beyond = 30;
+/* Of ripples on the spectrum that are looked for, in ln tau: about the width of one relaxation
+ * time, 1.14 decades, as single ones make them. */
 static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
-static const double derivative_step = 1e-5, converged = 1e-8, fell = 0.95, least_chance = 0.01;
+/* Of differences for derivatives: about the root of what rounding leaves, 1e-10 of it. */
+static const double derivative_step = 1e-5;
+/* Relative fall of the sum of squares at which a fit ends: 1e-4 of a standard error. */
+static const double converged = 1e-8;
+/* Of the indentation at the beginning of the dwell what is left at its end, less than which is no
+ * dwell at constant height or force: Ting's law for a contact that shrinks is not in the fit. 5 %
+ * of indentation are 8 to 10 % of a force. */
+static const double fell = 0.95;
+/* The customary level at which a law is said not to describe what was measured. */
+static const double least_chance = 0.01;
 
 typedef struct dwell_task {
     const wt_contact_table *table;

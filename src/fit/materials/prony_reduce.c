@@ -17,18 +17,26 @@
 #include <string.h>
 
 enum { STORAGE, LOSS, MODULI };
-/* Points a decade to fit and to judge, steps of a fit, rounds of weights and steps in each. */
-enum { POINTS = 16, JUDGED = 40, STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
-/* More terms a decade tell nothing more of two moduli. */
+/* Points a decade to fit and to judge: five and thirteen in every term of the densest series. */
+enum { POINTS = 16, JUDGED = 40 };
+/* Steps of a fit, rounds of weights and steps in each, dampings of one step: bounds of time, for
+ * the best that was met is kept. Twice as many make series hardly better; half as many, a term
+ * longer. */
+enum { STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
+/* More terms a decade tell nothing more of two moduli: they ripple by 1e-5 of E''
+ * (fit/sweeps/master_fit.c). */
 static const double most_density = 3;
-/* How far outside the measured range a relaxation time may lie [ln]: a slow term stands for a
- * long-term modulus where that is given as less than there is. */
+/* How far outside the measured range a relaxation time may lie [ln]: a term that is faster by two
+ * decades has 1e-4 of its modulus in E' and is a dashpot; one that is slower by eight lacks 1e-16
+ * of it, and stands for a long-term modulus where that is given as less than there is. */
 static const double faster = 2 * M_LN10, slower = 8 * M_LN10;
-/* Between the points a deviation may be larger by this share. */
+/* Between the points a deviation may be larger by this share: of a curve whose points are 1/16 of
+ * its period apart the top is missed by cos(pi/16), 2 %. */
 static const double between = 0.05;
-/* A term with a lesser share of any modulus is none. */
+/* A term with a lesser share of any modulus is none: no digit of a modulus that is told has it. */
 static const double none = 1e-9;
-static const double least_gain = 1e-3; /* of the sum of squares, relative */
+/* Of the sum of squares, relative: half of it of what is told as the deviation. */
+static const double least_gain = 1e-3;
 
 wt_reduction wt_reduction_defaults(void)
 {

@@ -9,9 +9,11 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* Bounds of time for what does not settle; twelve dampings by ten leave a trillionth of a step. */
 enum { CONSTANTS = 4, STEPS = 200, DAMPINGS = 12 };
-/* A glass modulus so many times what was measured is none that the points tell; a modulus after a
- * long time of such a share of the least storage modulus is nothing. */
+/* A glass modulus so many times what was measured is none that the points tell: less than a tenth
+ * of the transition is seen; a modulus after a long time of such a share of the least storage
+ * modulus is nothing, for no modulus is known to that. */
 static const double beyond = 10, negligible = 1e-3;
 enum { LN_E0, LN_RISE, LN_TAU, LOGIT_ALPHA };
 

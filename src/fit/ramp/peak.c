@@ -8,10 +8,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A peak is looked at down to this share of its height, and over at least so many points. Values
- * between points come from so many neighbours. */
+/* A peak is looked at down to this share of its height: a Gaussian is there one standard deviation
+ * from its top, where it bends the other way, which no parabola follows. */
 static const double share = 0.6;
-enum { LEAST = 9, NEIGHBOURS = 15, FROM_END = 2, GRID = 100, HALVINGS = 40 };
+/* And over at least so many points, three times the constants of a parabola. A largest point that
+ * is one of the outer two may be a rise that goes on. */
+enum { LEAST = 9, FROM_END = 2 };
+/* Values between points come from so many neighbours: chosen, for half of them tell their scatter
+ * to 35 %, and twice as many cover twice the bend. */
+enum { NEIGHBOURS = 15 };
+/* Places where the sign of the slope is looked for, far more than a curve of so few points has
+ * maxima; halves of one such step end at its 1e-12. */
+enum { GRID = 100, HALVINGS = 40 };
 
 static void tell_no_peak(wt_peak *peak, const char *why)
 {

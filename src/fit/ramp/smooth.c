@@ -15,12 +15,17 @@
 #include <string.h>
 
 enum { PARABOLA = SMOOTH_PARABOLA };
-/* Lengths over which the departure changes, of half the range; its variance over that of the
- * scatter of a point. */
+/* Lengths over which the departure changes, of half the range: from a quarter, below which a
+ * parabola and its departure have as many bends as fifteen points, to more than all of it; its
+ * variance over that of the scatter of a point: from what is seen of ten points to exact data.
+ * Steps of a factor 1.6 and 10, of which the weights change by little from one to the next. */
 static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
 static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
-enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios), HALVINGS = 40 };
-/* What weighs less than this share of the best changes no digit that is shown. */
+enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios) };
+/* Halves of a standard error or some: 1e-12 of it. */
+enum { HALVINGS = 40 };
+/* What weighs less than this share of the best changes no digit that is shown: all 48 ways together
+ * are then less than a twentieth, and each by less than its distance. */
 static const double counts_for_nothing = 1e-3;
 
 /* One smoothness and size of the departure. */

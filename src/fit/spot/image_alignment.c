@@ -8,8 +8,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Pixels along an image where the search begins; parts along an axis; fewest of all parts. */
-enum { COARSE = 64, SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6, MOST_STEPS = 20, NEAR = 3 };
+/* Pixels along an image where the search over all shifts begins: time goes with their fourth power.
+ * From there on pixels are halved, by which the best shift is off by one or two: so far beside it
+ * is looked. */
+enum { COARSE = 64, NEAR = 3 };
+/* Parts along an axis, each with its own shift; fewest of all parts, twice the constants of a
+ * drift.
+ */
+enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
+/* A bound of time. */
+enum { MOST_STEPS = 20 };
 
 /* A part of the first image, pixels from..to, without a disc. */
 typedef struct region {

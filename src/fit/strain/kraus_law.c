@@ -6,11 +6,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points of an end; points that a fit needs; a largest point that is one of the outer two is no
- * maximum. How far apart in strain the points of the start may be. */
+/* Points of an end, whose mean is told; points that a fit of four constants needs, so that three
+ * degrees of freedom tell its scatter; a largest point that is one of the outer two is no maximum.
+ */
 enum { END = 3, FEWEST_FIT = 7, FROM_END = 2 };
+/* How far apart in strain the points of the start may be: half a decade. Kraus's law falls there by
+ * (start_ratio gamma / gamma_c)^(2 m), the less the smaller the first amplitude is. */
 static const double start_ratio = 3;
+/* What is told of a fall: where it begins to show, and its half. */
 static const double tenth = 0.9, half = 0.5;
+/* Intervals of 95 %; a fall that scatter makes by a chance of more than 5 % is none. */
 static const double level = 0.975, chance = 0.05;
 
 double wt_kraus_storage(const wt_kraus *law, double strain)

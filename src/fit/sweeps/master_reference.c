@@ -7,9 +7,14 @@
 
 #include <math.h>
 
-/* Where the peak of tan delta is looked for [decade], and how far beyond the isotherms its
- * temperature [K]. */
-static const double step = 0.05, beyond = 20.0, close = 1e-6;
+/* Steps in which the peak of tan delta is looked for [decade], before a parabola through three: no
+ * peak of E'' is narrower than that of one relaxation time, 1.14 decades at half its height. */
+static const double step = 0.05;
+/* How far beyond the isotherms its temperature may be [K]; farther a law is not told by what was
+ * measured. Chosen; beyond it the reference has to be given. */
+static const double beyond = 20.0;
+/* [K], far below what a thermometer knows */
+static const double close = 1e-6;
 
 static double factor_at(const wt_posterior *p, double log_frequency)
 {

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An equilibrium modulus below this share of the lowest storage modulus is a limit only: how the
- * spectrum goes on beyond the measured frequencies decides it. */
+/* An equilibrium modulus whose interval goes below this share of the lowest storage modulus is a
+ * limit only: most of the modulus there is then left to relax, and how the spectrum goes on beyond
+ * the measured frequencies decides it. */
 static const double known_equilibrium = 0.5;
 /* Quantile for a one-sided limit of 95 %, squared. */
 static const double one_sided = 2.705543454095404;

@@ -5,9 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A shift with a larger error is not determined [decade]. */
+/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
+ * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
 static const double largest_sigma = 0.2;
-/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %. */
+/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %:
+ * the cross section to 2 %, and the free length between the clamps. */
 static const double clamping = 0.02;
 
 static size_t count_outliers(const spectrum *s, size_t curve)
@@ -95,7 +97,8 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
 
 /* ---- whether they do ------------------------------------------------------------------------- */
 
-/* Another isotherm that changes by so many times more shows that not all are flat. */
+/* Another isotherm that changes by so many times more shows that not all are flat: its shift has
+ * half the error of that of this one. */
 static const double much_steeper = 2.0;
 
 /* An isotherm is shifted onto the reference, or there is nothing to hand out. */

@@ -15,16 +15,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
- * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
- * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
-static const double believed = 0.3, steady = 0.15;
-/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
+/* Temperatures are believed to so many kelvin, the tolerance of a platinum thermometer of class B
+ * at 0 degC (IEC 60751), as the half width of a Cauchy prior. */
+static const double believed = 0.3;
+/* A programme may be so steady that nothing is seen of it: so much weight has the smallest spread
+ * beyond its own, which makes it a fifth of all. A belief, which data overrule: without it a law of
+ * steady temperatures has errors that are too wide, and twice as much would take scatter as large
+ * as the noise for none more often. */
+static const double steady = 0.15;
+/* Of n isotherms a law leaves n - 3 degrees of freedom: scatter as large as the noise looks like
+ * none, chi^2 below half of its mean, by a chance of 0.39 with five, of 0.26 with seven. */
+enum { LEAST_STEADY = 7 };
+/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd: chi^2 of one degree
+ * of freedom is above 20 by a chance of 8e-6, in none of a hundred isotherms. */
 static const double odd_gain = 20.0;
-enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6, LEAST_STEADY = 7 };
-/* Joints that are tried all over the isotherms; between the two beside the best of them all are. */
+/* By the offset, two constants, the scatter and its own shift: the fewest isotherms that leave one
+ * over. */
+enum { LEAST_ODD = 6 };
+/* Places of a pole between the nearest and the farthest, a factor 1.24 apart, before halves. */
+enum { POLE_GRID = 40 };
+/* From so many isotherms on Akaike's term for few data is 40 or less: of six it is 40 for WLF and
+ * 12 for Arrhenius, and no bend that rubber has would be worth 28. Fewer are told by the mean
+ * likelihood over the spreads. */
+enum { LEAST_CORRECTED = 7 };
+/* The criterion is finite for more isotherms than the six constants of the joined law and one. */
+enum { LEAST_JOINED = 8 };
+/* Joints that are tried all over the isotherms; between the two beside the best of them all are. A
+ * matter of time alone, as long as the best is not between two that are both bad: isotherms 24
+ * times as many as are usual would ask for more. */
 enum { JOINTS = 24 };
-/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law. */
+/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law, which
+ * sees less of a gain than there is. A matter of time: half of it tries more in vain. */
 static const double odd_tried = 0.25;
 
 double law_spread(size_t i)
@@ -41,7 +62,8 @@ static bool has_wlf(const law_shape *shape)
 
 size_t law_unknowns(const law_shape *shape)
 {
-    static const size_t count[] = {[WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4};
+    static const size_t count[] = {
+        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* of unknowns */
     return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
 }
 

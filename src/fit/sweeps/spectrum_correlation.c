@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Correlations of neighbours along an isotherm, of which the criterion takes one: steps of about
+ * one standard error of a correlation of 30 points. */
 static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
 enum { RHOS = sizeof rhos / sizeof *rhos };
 
@@ -31,17 +33,23 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
 
 /* A polynomial of its own through the residuals of an isotherm in a modulus, of as many
  * coefficients as its points allow: what a second process leaves bends more than a parabola, and
- * would be taken for noise that goes together over decades. */
+ * would be taken for noise that goes together over decades. Two points a coefficient are left. */
 enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICIENTS + 1 };
-/* Points beyond the coefficients below which an isotherm says nothing. */
+/* Points beyond the coefficients below which an isotherm says nothing: a correlation is of two
+ * neighbours at least, and their mean. */
 enum { LEAST_LEFT = 3 };
-/* atanh of the correlation is looked for in such steps. Few points, of which a polynomial takes the
- * slow part, do not tell it from 0: it is believed to be about so much (half width of a Cauchy
- * prior). */
+/* atanh of the correlation is looked for in such steps, the standard error of 30 points,
+ * 1/sqrt(n - 3) (R. A. Fisher 1921), up to a correlation of 0.97. Few points, of which a polynomial
+ * takes the slow part, do not tell it from 0: it is believed to be about so much (half width of a
+ * Cauchy prior). Chosen: many points overrule it; with half of it a correlation of few points
+ * counts for chance, and with twice as much few points make noise of what a second process leaves.
+ */
 enum { CORRELATIONS = 15 };
 static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
 /* Noise that changes along all isotherms alike: ln of its size by their place from -1 to 1, a line
- * and a parabola, each believed to be below so much. */
+ * and a parabola, each believed to be below so much: a factor 2.2 from one end to the other.
+ * Chosen: the standard error of such a slope is 0.2 with 30 values, so that a whole sweep overrules
+ * it. Rounds: each shape moves the other little. */
 enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
 static const double shape_believed = 0.4;
 

@@ -10,13 +10,16 @@
 #include <math.h>
 #include <string.h>
 
+/* Bounds of time for what does not settle. Twelve dampings by ten leave a trillionth of a step. */
 enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
 /* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
  * smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
-/* The same where that is good enough, and where only the objective is wanted. */
+/* The same where that is good enough: a third of a standard error, and noise to 2 %, while points
+ * that are five standard deviations off are looked for; and where only the objective is wanted, by
+ * differences of which weights are made, exp(-0.01). */
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
-/* Where a trial only asks whether much less is left: share of the objective. */
+/* Where a trial only asks whether much less is left, 30 % of the noise: share of the objective. */
 static const double trial_gain = 0.005;
 
 static gsl_matrix_view leading_block(gsl_matrix *m, size_t n)

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+/* Isotherms to one side that one is tried on before it counts as unplaced: a bad one, and another.
+ */
 enum { NEIGHBOURS = 3 };
 
 /* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if

@@ -26,7 +26,8 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
-/* Processor time of one call: so many calls that the clock tells it. */
+/* Processor time of one call: so many calls that a clock of microseconds tells it to half a per
+ * cent. */
 #define LEAST_SECONDS 2e-4
 
 typedef struct timing {

@@ -13,7 +13,7 @@ typedef struct accuracy_errors {
     double true_error, stated_error;
 } accuracy_errors;
 
-enum { ACCURACY_METHODS = 3, ACCURACY_VALUES = 8 };
+enum { ACCURACY_METHODS = 3, ACCURACY_VALUES = 8 }; /* room in the lists below */
 
 typedef struct accuracy_method {
     const char *name, *setting;

@@ -9,7 +9,7 @@ static const char tip_words[] = "pyramid:half-angle=20deg,radius=20nm";
 
 /* ---- force of a blunted pyramid -------------------------------------------------------------- */
 
-enum { DEPTHS = 1000 };
+enum { DEPTHS = 1000 }; /* of the problem */
 
 typedef struct force_problem {
     wt_tip tip;
@@ -65,7 +65,7 @@ static long double bisect_radius(const wt_tip *tip, double depth, int steps)
 
 static wt_status begin_force(void *problem, double *reference_error, wt_error *err)
 {
-    enum { STEPS = 80 };
+    enum { STEPS = 80 }; /* to the last bit of a long double */
     force_problem *p = problem;
     wt_status status = wt_tip_parse(tip_words, &p->tip, err);
     if (status == WT_OK)
@@ -133,8 +133,9 @@ static accuracy_errors judge_force(const void *problem)
 
 /* ---- fit of a curve -------------------------------------------------------------------------- */
 
-enum { CURVES = 4, MOST_SAMPLES = 4000 };
+enum { CURVES = 4, MOST_SAMPLES = 4000 }; /* of the problem */
 
+/* The problem [Pa, m, N/m]. */
 #define MODULUS 4e6
 #define CONTACT 1.2e-6
 #define SPRING_CONSTANT 0.5

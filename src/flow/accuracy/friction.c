@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+/* Of the problems; nodes of the reference, and those that tell its error. */
 enum { TERMS = 6, KNOTS = 107, ORDER = 16, CHECK = 12 };
 
 typedef struct friction_problem {
@@ -182,7 +183,7 @@ static wt_status solve_weartrack(void *problem, double value, wt_error *err)
 /* A tenth as many angles as wavenumbers. */
 static wt_status solve_textbook(void *problem, double value, wt_error *err)
 {
-    enum { LEAST_ANGLES = 20 };
+    enum { LEAST_ANGLES = 20 }; /* a rule that any textbook takes */
     friction_problem *p = problem;
     const size_t n = (size_t)value, angles = n / 20 * 2;
     textbook_friction result = {0, 0, 0};

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { WAVES = 400, MOST_TIMES = 64 };
+enum { WAVES = 400, MOST_TIMES = 64 }; /* of the problem */
 
 typedef struct layer_problem {
     wt_energy_source source;

@@ -48,7 +48,7 @@ typedef struct integrals {
  * does not mind an end where the integrand has no slope. */
 static integrals integrate_segment(const reference_material *m, real w, real a, real b)
 {
-    enum { HALF = 40 };
+    enum { HALF = 40 }; /* nodes of tanh-sinh to each side */
     const real step = 3.2L / HALF, middle = (a + b) / 2, half = (b - a) / 2;
     integrals sum = {0, 0};
     for (int i = -HALF; i <= HALF; i++) {
@@ -91,7 +91,7 @@ void reference_angle(const reference_material *material, double w, double *j1, d
 
 /* ---- wavenumber ------------------------------------------------------------------------------ */
 
-enum { MOST_ORDER = 24 };
+enum { MOST_ORDER = 24 }; /* as the header says */
 
 typedef struct rule {
     int n;
@@ -158,7 +158,8 @@ static void add_panel(state *s, real a, real b)
     s->variance += variance_between(s, a, b);
 }
 
-/* Panels that grow by this factor from the beginning, where the area changes fastest. */
+/* Panels that grow by this factor from the beginning, where the area changes fastest, up to the
+ * widest. How good they are is told by two orders. */
 #define GROWTH 3
 #define FIRST 1e-9L
 #define WIDEST 0.7L

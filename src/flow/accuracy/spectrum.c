@@ -10,9 +10,9 @@
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 };
+enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 }; /* of the problem */
 
-#define NOISE 0.005
+#define NOISE 0.005 /* relative, of the moduli: a good rheometer */
 
 typedef struct shift_problem {
     wt_sweep sweep;
@@ -184,7 +184,7 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
     return status;
 }
 
-enum { MOST_TERMS = 64 };
+enum { MOST_TERMS = 64 }; /* more than the problem asks for */
 
 /* What a term with a modulus of 1, the first one without relaxation, gives to E' and E''. */
 static void term_at(double omega, size_t j, double first, double density, double part[2])

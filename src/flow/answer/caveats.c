@@ -209,7 +209,7 @@ static bool is_superposition(const answer_story *story, const char *text)
 /* The first warnings in full, the others by number. */
 static void warnings(const answer_story *story)
 {
-    enum { SHOWN = 5 };
+    enum { SHOWN = 5 }; /* as many as a sentence holds */
     size_t n = 0;
     for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
         wt_log_entry entry = wt_parselog_get(story->log, i);

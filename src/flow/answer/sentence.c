@@ -168,7 +168,7 @@ static void say_transition(sentence *s, const table_view *v)
 
 static void say_payne(sentence *s, const table_view *v)
 {
-    enum { MOST = 3 };
+    enum { MOST = 3 }; /* as many as a sentence holds */
     for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         next(s);

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Approach and retract; those and both. */
 enum { WAYS = 2, ROWS = 3 };
 /* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
  * not known well enough to call one far. */
@@ -475,7 +476,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
  * parabola through the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 };
+    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;

@@ -8,8 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double pi = 3.14159265358979323846;
-/* Frequencies of one drive, and an amplitude that is small beside the indentation. */
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
+/* Frequencies of one drive in contact and in air, relative; and an amplitude that is small beside
+ * the indentation: of a force as depth^(3/2) a fifth changes the sine by 0.1 %. */
 static const double same_drive = 0.01, small = 0.2;
 
 typedef struct history {

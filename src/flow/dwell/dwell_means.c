@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one. */
+/* Frequencies that differ by less are one: they are set. */
 static const double same_frequency = 1e-3;
 
 typedef struct place {

@@ -258,6 +258,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     if (c->fit.n_shifts > 0) {
         status = try_material(c, seed, &rubber, hits, err);
         s.rubber = rubber;
+        s.given = NULL;
     }
     regenerate_inputs(&s, seed);
     if (status == WT_OK && c->has_groups)

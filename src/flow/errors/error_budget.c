@@ -36,6 +36,7 @@ static bool stated_rubber(const setting *s)
 
 static void hold_rubber(setting *s)
 {
+    s->given = NULL;
     s->rubber.n_draws = 0;
     s->rubber.c1_error = s->rubber.c2_error = 0;
 }

@@ -15,7 +15,7 @@
 
 /* ---- choices --------------------------------------------------------------------------------- */
 
-enum { MOST_TRIED = 4, WORDS = 64 };
+enum { MOST_TRIED = 4, WORDS = 64 }; /* as the longest list below; one line of a table */
 
 /* A choice without a measurement. */
 typedef struct choice {
@@ -63,11 +63,12 @@ static double value_q1(const setting *s)
     return s->surface.q1;
 }
 
-/* No surface has waves below the size of a molecule. */
+/* No surface has waves below the size of a molecule [m]. */
 #define SHORTEST_WAVE 1e-9
 
 static bool move_q1(const setting *used, size_t i, setting *s)
 {
+    /* A decade either way, and half of one: nothing measures where a spectrum is to be cut off. */
     static const double factor[] = {0.1, 0.3, 3, 10};
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
@@ -91,6 +92,7 @@ static bool has_q0(const setting *s)
 
 static bool move_q0(const setting *used, size_t i, setting *s)
 {
+    /* Half and twice a cut-off that a scan or a tread sets. */
     static const double factor[] = {0.5, 2};
     const double q0 = used->surface.q0,
                  highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
@@ -107,6 +109,7 @@ static double value_gamma(const setting *s)
 
 static bool move_gamma(const setting *used, size_t i, setting *s)
 {
+    /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
     static const double tried[] = {0.5, 1};
     (void)used;
     if (i >= COUNT_OF(tried))
@@ -127,6 +130,7 @@ static double value_strain(const setting *s)
 
 static bool move_strain(const setting *used, size_t i, setting *s)
 {
+    /* The theory has a factor of order 1. */
     static const double factor[] = {0.5, 2};
     if (i >= COUNT_OF(factor))
         return false;
@@ -149,11 +153,12 @@ static double value_poisson(const setting *s)
 
 static bool move_poisson(const setting *used, size_t i, setting *s)
 {
-    static const double tried[] = {0.4, 0.5};
+    static const double tried[] = {0.4, 0.5}; /* a glass, and rubber that keeps its volume */
     (void)used;
     if (i >= COUNT_OF(tried))
         return false;
     s->rubber.poisson_ratio = tried[i];
+    s->given = NULL;
     return true;
 }
 
@@ -329,6 +334,7 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     if (o->choice->move == move_vertical) {
         status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
         o->setting.rubber = refitted;
+        o->setting.given = NULL;
     }
     if (status == WT_OK)
         status = compute_outcome(o, &w->work, &why);
@@ -514,6 +520,25 @@ static void say_cost(const what_if *w, const wt_job *work)
     cost_say(work, cost);
 }
 
+/* The series of the material over what any of the settings asks of it, before they are computed at
+ * the same time. */
+static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
+{
+    wt_sliding sliding = used->sliding;
+    wt_surface surface = used->surface;
+    drawn_values ignored;
+    for (size_t i = 0; i < w->n; i++) {
+        surface.q0 = fmin(surface.q0, w->outcomes[i].setting.surface.q0);
+        surface.q1 = fmax(surface.q1, w->outcomes[i].setting.surface.q1);
+    }
+    sliding.surface = &surface;
+    const double velocity = used->velocity, worn = used->has_layer && !isnan(used->layer.velocity)
+                                                       ? used->layer.velocity
+                                                       : velocity;
+    return drawn_values_get(w->work.drawn, &sliding, w->work.tolerance, fmin(velocity, worn),
+                            fmax(velocity, worn), &ignored, err);
+}
+
 wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
                           const wt_layer_known *known, const wt_job *work, wt_table **table,
                           wt_error *err)
@@ -527,8 +552,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     what_if w = {.work = *work};
     w.work.threads = 1; /* the settings take the threads */
     w.work.replicates = 0;
-    w.work.drawn = NULL; /* of another material */
-    w.work.log = NULL;   /* what is to be said of the values as used has been said */
+    w.work.log = NULL; /* what is to be said of the values as used has been said */
     w.work.progress = (wt_progress){0};
     w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
     if (w.outcomes == NULL)
@@ -538,11 +562,15 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
     w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
-    status = compute_outcome(&w.outcomes[0], &w.work, err);
+    status = cover_all(&w, &used, err);
+    if (status == WT_OK)
+        status = compute_outcome(&w.outcomes[0], &w.work, err);
     w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
+        drawn_hold(w.work.drawn, true);
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+        drawn_hold(w.work.drawn, false);
         if (status != WT_OK)
             wt_fail(err, status, "the choices of the model could not be tried");
     }

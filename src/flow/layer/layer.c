@@ -217,8 +217,9 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-/* The times that are chosen: so many, from half the first scale to the span of the last. A scale
- * that is not there is so far from the other one. */
+/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
+ * of the last, where all is over. A scale that is not there is so far from the other one. Which
+ * times are told changes none of their numbers. */
 #define TIMES 61
 #define TIME_SPAN 100
 #define SHORT_OF_LAST 1e-3

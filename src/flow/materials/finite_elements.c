@@ -263,7 +263,7 @@ static void write_abaqus(solid *s)
         print_solid(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
 }
 
-enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 };
+enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* of one of its lines */
 
 static void ansys_prony(solid *s, const char *what)
 {

@@ -12,11 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { Q = MATERIALS_QUANTITIES, PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
+enum { Q = MATERIALS_QUANTITIES };
+/* Places where two are compared: six in the width of a relaxation time, 1.14 decades, for 50
+ * decades, and as many temperatures as a figure shows well. More find no difference that is wider.
+ */
+enum { PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
 
-/* A material without a shift law is that of its reference up to this far [K]. */
+/* A material without a shift law is that of its reference up to this far [K]: a chamber holds its
+ * temperature no better. */
 static const double same_temperature = 1;
-static const double ten_hertz = 20 * M_PI;
+static const double ten_hertz = 20 * M_PI; /* [rad/s], of what is told in one number */
 
 wt_materials_job wt_materials_job_defaults(void)
 {

@@ -98,7 +98,7 @@ void material_ratio_clear(material_ratio *r)
 static wt_status find_critical(const material_values *a, const material_values *b,
                                material_ratio *r, wt_error *err)
 {
-    enum { WAYS = 4 };
+    enum { WAYS = 4 }; /* pairs of each draw with others, for draws are dear and pairs are not */
     const size_t m = r->n * Q, n = WAYS * a->n_draws;
     double *most = calloc(n + 1, sizeof *most);
     if (most == NULL)

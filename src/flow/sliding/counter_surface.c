@@ -189,6 +189,7 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
+/* As a figure shows well. */
 #define POINTS_PER_DECADE 20
 
 wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error *err)

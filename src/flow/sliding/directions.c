@@ -152,6 +152,7 @@ wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_t
         return status;
     directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
     d.work.left_out = WT_EXTRAS;
+    d.work.drawn = NULL; /* of another material */
     d.points = malloc(N_KEPT * d.n * sizeof *d.points);
     if (d.points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

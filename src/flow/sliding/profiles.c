@@ -20,6 +20,7 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
 
 /* ---- contact area ---------------------------------------------------------------------------- */
 
+/* As a figure shows well. */
 #define POINTS_PER_DECADE 20
 
 static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
@@ -88,7 +89,7 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
 
 /* ---- energy density -------------------------------------------------------------------------- */
 
-#define DEPTHS 121
+#define DEPTHS 121 /* as a figure shows well */
 
 static void add_depths(const wt_energy_source *source, table_writer *t)
 {

@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of the position within its error. */
+/* Steps of the position within its error to each side: 81 places, of which the largest and the
+ * least are told. */
 enum { WITHIN = 4 };
 
 wt_spot_job wt_spot_job_defaults(void)

@@ -50,7 +50,7 @@ static wt_status measure_others(const spot_field *difference, const spot *s, con
 static wt_status find_deepest(const spot_field *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
-    enum { MOST = 24 };
+    enum { MOST = 24 }; /* steps to each side, a bound of time */
     const double within = fmin(s->error, SEARCHED * s->contact);
     const int steps = (int)fmin(MOST, ceil(STEPS * within / s->contact));
     wt_status status = WT_OK;

@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* Contact radii on each side of the place; most pixels along an axis. */
+/* Contact radii on each side of the place, so that a dent and what lies untouched are both seen;
+ * most pixels along an axis, as many as a small figure shows. */
 enum { AROUND = 5, MOST = 81 };
 
 /* The pixels that are shown of an axis. */

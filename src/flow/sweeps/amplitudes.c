@@ -7,8 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Kelvin within which two are of one temperature, relative difference within which they are of one
- * frequency, and what makes their amplitudes two. */
+/* Kelvin within which two are of one temperature, which is what two runs of one chamber agree to;
+ * relative difference within which they are of one frequency (exports of four digits differ by
+ * 5e-4); and the ratio that makes their amplitudes two, as in fit/sweeps/master_notes.c. */
 static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
 
 /* An isotherm or a temperature sweep: its amplitude (NaN: not measured) and where it was measured.

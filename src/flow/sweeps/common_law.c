@@ -10,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Samples of one law are told apart by chance about so often. */
+/* Samples of one law are told apart by chance about so often: the customary level for what shall
+ * not be said lightly. */
 static const double level = 0.01;
-/* Of a sample, beside its name. */
+/* Letters that a sample takes beside its name, whatever its numbers are. */
 enum { MOST_WORDS = 160 };
 
 wt_common_law_job wt_common_law_job_defaults(void)

@@ -472,7 +472,7 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
-/* More of a standard error than this is seen in an interval. */
+/* More of a standard error than this is seen in an interval: a twentieth of half of it. */
 static const double seen = 0.1;
 
 static void say_unfinished(const wt_master *m, const wt_job *work)

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One value stands for all that is so close: what a chamber holds [K], and a set frequency. */
+/* One value stands for all that is so close: what a chamber holds [K], and a frequency as a person
+ * writes it, to 1 %. */
 static const double same_temperature = 0.5, same_frequency = 0.01;
 
 typedef struct cut {

@@ -76,7 +76,7 @@ void cost_say(const wt_job *work, cost_summary summary)
         work->cost->rows[work->cost->n_rows - 1].said = summary;
 }
 
-enum { ZENER_CONSTANTS = 4 };
+enum { ZENER_CONSTANTS = 4 }; /* of the fractional Zener model */
 
 void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
 {
