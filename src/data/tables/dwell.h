@@ -68,10 +68,11 @@
     X(DWELL_MODULI_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                    \
       SI(ANGULAR_FREQUENCY))                                                                       \
     COLUMN_AND_ERROR(X, DWELL_MODULI_STORAGE, "storage_modulus", "storage modulus",                \
-                     SI(STORAGE_MODULUS), "E′")                                                    \
+                     SI(STORAGE_MODULUS), "E′", .member = NULL)                                    \
     X(DWELL_MODULI_STORAGE_COMMON, "storage_modulus_common_error",                                 \
       "of its standard error, what curves of one kind share", SI(STORAGE_MODULUS))                 \
-    COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″") \
+    COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″", \
+                     .member = NULL)                                                               \
     X(DWELL_MODULI_LOSS_COMMON, "loss_modulus_common_error",                                       \
       "of its standard error, what curves of one kind share", SI(LOSS_MODULUS))
 #define DWELL_MODULI_KEYS(X)

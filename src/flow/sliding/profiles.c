@@ -3,7 +3,7 @@
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
 
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,6 +22,9 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
 
 #define POINTS_PER_DECADE 20
 
+TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;
+          wt_friction_node node;)
+
 static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
                            wt_friction_node *nodes, table_writer *t, cost_summary *cost)
 {
@@ -29,12 +32,7 @@ static void add_area_block(const sliding_contact *c, double velocity, const doub
         t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
     table_block(t);
     for (size_t i = 0; t->status == WT_OK && i < n; i++) {
-        table_row(t);
-        contact_area_put(t, CONTACT_AREA_VELOCITY, velocity);
-        contact_area_put(t, CONTACT_AREA_MAGNIFICATION, q[i] / c->roughness->q0);
-        contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
-        contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
-        contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
+        TABLE_ADD(contact_area, t, velocity, q[i] / c->roughness->q0, q[i], nodes[i]);
         cost->items++;
         cost->error_estimated =
             fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
