@@ -101,6 +101,8 @@ static void empty_block(double *block)
         block[i] = (double)NAN;
 }
 
+TABLE_ROW(map_channels, MAP_CHANNELS, const char *quantity, *name, *unit;)
+
 /* One that comes late is NaN so far. */
 static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
 {
@@ -118,10 +120,7 @@ static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
         good = append(c->dataset, i, c->block, MAP_BLOCK);
     hdf5_leave(&scope);
     w->names.err = w->err;
-    table_row(&w->names);
-    map_channels_put_text(&w->names, MAP_CHANNELS_QUANTITY, wt_quantity_id(c->quantity));
-    map_channels_put_text(&w->names, MAP_CHANNELS_NAME, as->name);
-    map_channels_put_text(&w->names, MAP_CHANNELS_UNIT, as->unit);
+    TABLE_ADD(map_channels, &w->names, wt_quantity_id(c->quantity), as->name, as->unit);
     return good ? w->names.status : store_failed(w->file, w->err);
 }
 

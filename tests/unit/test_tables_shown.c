@@ -8,16 +8,18 @@
 
 /* clang-format off */
 #define ROWS(X) \
-    X(indentation) X(force_displacement) X(force_indentation) X(modulus_depth) \
-    X(modulus_budget) X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) \
-    X(spot_map) X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(friction) \
-    X(directions) X(softening) X(contact_area) X(layer) X(materials) X(material_ratio) \
-    X(coverage) X(error_budget) X(work_precision) X(cost) X(notes) X(map_curves) \
-    X(map_segments) X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) \
-    X(common_law)
+    X(indentation) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
+    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
+    X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(friction) X(directions) \
+    X(softening) X(contact_area) X(layer) X(materials) X(material_ratio) X(coverage) \
+    X(error_budget) X(work_precision) X(cost) X(notes) X(map_curves) X(map_segments) \
+    X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) X(common_law) \
+    X(dwell_dma) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
+    X(failures) X(map_channels)
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
-    X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony)
+    X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
+    X(dwell_dma) X(cost)
 /* clang-format on */
 
 typedef struct binding {

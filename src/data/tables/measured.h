@@ -40,9 +40,9 @@
     X(MAP_SEGMENTS_SETPOINT, IN(of, setpoint), "force at which it ended", SI(FORCE), SPARSE)
 #define MAP_SEGMENTS_KEYS(X)
 #define MAP_CHANNELS_COLUMNS(X)                                                                    \
-    X(MAP_CHANNELS_QUANTITY, "quantity", "quantity, the name of its array", TEXT)                  \
-    X(MAP_CHANNELS_NAME, "name", "channel as it was exported", TEXT)                               \
-    X(MAP_CHANNELS_UNIT, "unit", "its unit there", TEXT)
+    X(MAP_CHANNELS_QUANTITY, AS(quantity), "quantity, the name of its array", TEXT)                \
+    X(MAP_CHANNELS_NAME, AS(name), "channel as it was exported", TEXT)                             \
+    X(MAP_CHANNELS_UNIT, AS(unit), "its unit there", TEXT)
 #define MAP_CHANNELS_KEYS(X)
 
 /* The moduli in tension or in shear, as measured. */

@@ -1,13 +1,15 @@
-/* Binds the columns and keys of a table to the structure that a row of it shows. The list of the
- * table names the members, SHOWS(member); the kind follows from the member, so the two cannot
- * disagree:
+/* Binds the columns and keys of a table to the structure that a row of it is. The list of the table
+ * names the members, by AS(member) in the place of the name, IN(part, member) or SHOWS(member); the
+ * kind follows from the member, so the two cannot disagree:
  *
- *     typedef wt_payne payne_row;
- *     TABLE_ROW(payne, PAYNE)
+ *     TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+ *               double indentation, force, fitted_force;)
+ *     TABLE_ADD(force_indentation, &writer, group, delta[i], shown[i], model[i]);
  *
- * makes payne_add_row(&writer, &row), which begins a row and puts all that it shows; what no
- * member shows is put behind it. TABLE_KEYS(payne, PAYNE) makes payne_set_keys(&writer, &keys) of
- * a payne_keys. Optional keys that are NaN, NULL or "" are left out.
+ * TABLE_ADD begins a row and puts all that its members show; what none shows is put behind it.
+ * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
+ * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
+ * ends, as far as it has them. unit_tables_shown looks at all of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DATA_TABLES_ROWS_H

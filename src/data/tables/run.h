@@ -26,8 +26,8 @@
 #define NOTES_KEYS(X)
 
 #define FAILURES_COLUMNS(X)                                                                        \
-    X(FAILURES_FILE, "file", "file or stage that failed", TEXT, LABEL("File"))                     \
-    X(FAILURES_MESSAGE, "message", "what went wrong, where, and what to do", TEXT,                 \
+    X(FAILURES_FILE, AS(file), "file or stage that failed", TEXT, LABEL("File"))                   \
+    X(FAILURES_MESSAGE, AS(message), "what went wrong, where, and what to do", TEXT,               \
       LABEL("What happened"))
 #define FAILURES_KEYS(X)
 
@@ -53,9 +53,9 @@
     X(COST_FILES, AS(files), "data files read", NUMBER, LABEL("Files"))                            \
     X(COST_BYTES, AS(bytes), "their size", SI(DATA_SIZE), LABEL("Size"))
 #define COST_KEYS(X)                                                                               \
-    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), OPTIONAL)                                   \
-    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), OPTIONAL)                                     \
-    X(COST_KEY_THREADS, "threads", NUMBER, OPTIONAL)
+    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), SHOWS(wall), OPTIONAL)                      \
+    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), SHOWS(cpu), OPTIONAL)                         \
+    X(COST_KEY_THREADS, AS(threads), NUMBER, OPTIONAL)
 
 #define PLAN_COLUMNS(X)                                                                            \
     X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \

@@ -4,8 +4,8 @@
 #define WT_DATA_TABLES_SLIDING_H
 
 #define ROUGHNESS_COLUMNS(X)                                                                       \
-    X(ROUGHNESS_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                            \
-    X(ROUGHNESS_DENSITY, "density", "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
+    X(ROUGHNESS_WAVENUMBER, AS(wavenumber), "wavenumber", SI(WAVENUMBER))                          \
+    X(ROUGHNESS_DENSITY, AS(density), "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
 
 /* The last three of a self-affine law only. */
 #define ROUGHNESS_KEYS(X)                                                                          \
@@ -178,8 +178,8 @@
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \
-    X(ENERGY_DENSITY_DEPTH, "depth", "depth below the surface", SI(LENGTH))                        \
-    X(ENERGY_DENSITY_POWER, "energy_density", "power dissipated per volume", SI(POWER_DENSITY))
+    X(ENERGY_DENSITY_DEPTH, AS(depth), "depth below the surface", SI(LENGTH))                      \
+    X(ENERGY_DENSITY_POWER, AS(energy_density), "power dissipated per volume", SI(POWER_DENSITY))
 #define ENERGY_DENSITY_KEYS(X) X(ENERGY_DENSITY_KEY_VELOCITY, "velocity", SI(VELOCITY))
 
 #endif

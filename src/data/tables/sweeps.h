@@ -189,9 +189,9 @@
     X(MASTER_CURVE_KEY_DEFORMATION, "deformation", TEXT)
 
 #define PRONY_COLUMNS(X)                                                                           \
-    X(PRONY_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME),                       \
+    X(PRONY_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME),                     \
       LABEL("Relaxation time"))                                                                    \
-    X(PRONY_MODULUS, "modulus", "modulus of the term", SI(MODULUS), LABEL("Modulus"))
+    X(PRONY_MODULUS, AS(modulus), "modulus of the term", SI(MODULUS), LABEL("Modulus"))
 
 #define PRONY_KEYS(X)                                                                              \
     X(PRONY_KEY_EQUILIBRIUM_MODULUS, AS(equilibrium_modulus), SI(MODULUS),                         \
@@ -223,10 +223,10 @@
 
 /* What a program for finite elements is given: few terms in place of the spectrum. */
 #define PRONY_REDUCED_COLUMNS(X)                                                                   \
-    X(PRONY_REDUCED_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME),               \
+    X(PRONY_REDUCED_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME),             \
       LABEL("Relaxation time"))                                                                    \
-    X(PRONY_REDUCED_MODULUS, "modulus", "modulus of the term", SI(MODULUS), LABEL("Modulus"))      \
-    X(PRONY_REDUCED_SHARE, "share", "modulus of the term over the instantaneous one", NUMBER,      \
+    X(PRONY_REDUCED_MODULUS, AS(modulus), "modulus of the term", SI(MODULUS), LABEL("Modulus"))    \
+    X(PRONY_REDUCED_SHARE, AS(share), "modulus of the term over the instantaneous one", NUMBER,    \
       LABEL("Share"))
 
 #define PRONY_REDUCED_KEYS(X)                                                                      \
@@ -269,9 +269,9 @@
     X(MATERIAL_DRAWS_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))
 
 #define SERIES_DRAWS_COLUMNS(X)                                                                    \
-    X(SERIES_DRAWS_DRAW, "draw", "number of the draw, from 1", NUMBER)                             \
-    X(SERIES_DRAWS_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME))                \
-    X(SERIES_DRAWS_MODULUS, "modulus", "modulus of the term", SI(MODULUS))
+    X(SERIES_DRAWS_DRAW, AS(draw), "number of the draw, from 1", NUMBER)                           \
+    X(SERIES_DRAWS_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME))              \
+    X(SERIES_DRAWS_MODULUS, AS(modulus), "modulus of the term", SI(MODULUS))
 #define SERIES_DRAWS_KEYS(X)
 
 #endif

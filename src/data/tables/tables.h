@@ -1,5 +1,5 @@
 /* All tables that leave the program, each declared once: a column or a key is a row in the list of
- * its table, and the place where it is put.
+ * its table, which names the member that it shows (rows.h); what no member shows is put by a call.
  *
  * For a table `layer` this header makes the types layer_column and layer_key, the schema
  * layer_schema, and the functions below that take nothing but those. The columns or keys of another

@@ -88,6 +88,8 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
 
 #define DEPTHS 121
 
+TABLE_ROW(energy_density, ENERGY_DENSITY, double depth, energy_density;)
+
 static void add_depths(const wt_energy_source *source, table_writer *t)
 {
     double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
@@ -99,9 +101,7 @@ static void add_depths(const wt_energy_source *source, table_writer *t)
     const double first = 0.1 / q_max, last = 3 / q_min;
     for (size_t i = 0; i < DEPTHS; i++) {
         const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
-        table_row(t);
-        energy_density_put(t, ENERGY_DENSITY_DEPTH, depth);
-        energy_density_put(t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
+        TABLE_ADD(energy_density, t, depth, wt_energy_density(source, depth));
     }
 }
 

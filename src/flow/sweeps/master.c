@@ -190,15 +190,14 @@ static wt_status master_table(const wt_master *m, wt_table **table, wt_error *er
 TABLE_KEYS(prony, PRONY, wt_prony series; wt_estimate equilibrium_modulus;
            double limit, noise_storage, noise_loss; const char *deformation;)
 
+TABLE_ROW(prony, PRONY, double relaxation_time, modulus;)
+
 static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err)
 {
     const wt_prony *p = &m->prony;
     table_writer t = table_begin(&prony_schema, err);
-    for (size_t i = 0; i < p->n; i++) {
-        table_row(&t);
-        prony_put(&t, PRONY_RELAXATION_TIME, p->relaxation_time[i]);
-        prony_put(&t, PRONY_MODULUS, p->modulus[i]);
-    }
+    for (size_t i = 0; i < p->n; i++)
+        TABLE_ADD(prony, &t, p->relaxation_time[i], p->modulus[i]);
     TABLE_SET(prony, &t, *p, {p->equilibrium_modulus, m->equilibrium.standard_error, 0, NULL},
               m->equilibrium_limit ? m->equilibrium.high : (double)NAN, m->noise_storage,
               m->noise_loss, flow_deformation_name(p->deformation));
@@ -251,15 +250,14 @@ static void put_material(table_writer *t, const wt_master *m, size_t draw, const
     }
 }
 
+TABLE_ROW(series_draws, SERIES_DRAWS, double draw, relaxation_time, modulus;)
+
 static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
 {
     table_block(t);
-    for (size_t k = 0; k < prony->n; k++) {
-        table_row(t);
-        series_draws_put(t, SERIES_DRAWS_DRAW, (double)draw + 1);
-        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME, rounded(prony->relaxation_time[k]));
-        series_draws_put(t, SERIES_DRAWS_MODULUS, rounded(prony->modulus[k]));
-    }
+    for (size_t k = 0; k < prony->n; k++)
+        TABLE_ADD(series_draws, t, (double)draw + 1, rounded(prony->relaxation_time[k]),
+                  rounded(prony->modulus[k]));
 }
 
 static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_error *err)

@@ -68,6 +68,8 @@ static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson
     return WT_OK;
 }
 
+TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
+
 static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poisson_ratio,
                              wt_table **table, wt_error *err)
 {
@@ -76,12 +78,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
     wt_prony_deviation(&m->prony, p, deviation);
     for (size_t i = 0; i < p->n; i++)
         sum += p->modulus[i];
-    for (size_t i = 0; i < p->n; i++) {
-        table_row(&t);
-        prony_reduced_put(&t, PRONY_REDUCED_RELAXATION_TIME, p->relaxation_time[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_MODULUS, p->modulus[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_SHARE, p->modulus[i] / sum);
-    }
+    for (size_t i = 0; i < p->n; i++)
+        TABLE_ADD(prony_reduced, &t, p->relaxation_time[i], p->modulus[i], p->modulus[i] / sum);
     const struct {
         prony_reduced_key key;
         double value;

@@ -186,11 +186,13 @@ cost_of_stages cost_stages(const wt_cost *cost, const char *beginning)
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
+static const double unknown = (double)NAN;
+
 TABLE_ROW_OF(cost, COST, struct cost_row)
+TABLE_KEYS(cost, COST, wt_estimate wall, cpu, threads;)
 
 static void put_row(table_writer *t, bool timed, cost_row row)
 {
-    const double unknown = (double)NAN;
     cost_summary *s = &row.said;
     const double error = s->number.standard_error / fabs(s->number.value);
     if (!timed)
@@ -213,11 +215,9 @@ wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err)
     table_writer t = table_begin(&cost_schema, err);
     for (size_t i = 0; i < cost->n_rows; i++)
         put_row(&t, cost->timed, cost->rows[i]);
-    if (cost->timed) {
-        cost_set_value(&t, COST_KEY_WALL_TIME, wt_time_wall() - cost->wall, (double)NAN,
-                       (double)NAN);
-        cost_set_value(&t, COST_KEY_CPU_TIME, wt_time_cpu() - cost->cpu, (double)NAN, (double)NAN);
-        cost_set_value(&t, COST_KEY_THREADS, cost->threads, (double)NAN, (double)NAN);
-    }
+    if (cost->timed)
+        TABLE_SET(cost, &t, {wt_time_wall() - cost->wall, unknown, unknown, NULL},
+                  {wt_time_cpu() - cost->cpu, unknown, unknown, NULL},
+                  {cost->threads, unknown, unknown, NULL});
     return table_end(&t, table);
 }

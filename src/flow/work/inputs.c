@@ -66,15 +66,15 @@ bool flow_goes_on(const wt_job *work, wt_status status)
            status != WT_E_INTERNAL;
 }
 
+TABLE_ROW(failures, FAILURES, const char *file, *message;)
+
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err)
 {
     char message[2048];
     wt_error_format(failure, message, sizeof message);
     table_writer t = table_continue(work->failures, &failures_schema, "", err);
-    table_row(&t);
-    failures_put_text(&t, FAILURES_FILE, what);
-    failures_put_text(&t, FAILURES_MESSAGE, message);
+    TABLE_ADD(failures, &t, what, message);
     return table_end(&t, NULL);
 }
 
