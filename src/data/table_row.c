@@ -5,7 +5,6 @@
 #include "base/clocale.h"
 
 #include <math.h>
-#include <string.h>
 
 /* A member that is a number in any form, with NaN for what the form does not have. */
 typedef struct shown_number {
@@ -15,45 +14,27 @@ typedef struct shown_number {
 
 static shown_number number_at(const schema_field *field, const void *row)
 {
-    const char *const at = (const char *)row + field->offset;
+    const void *const at = (const char *)row + field->offset;
+    const wt_interval *interval = at;
     shown_number n = {.low = (double)NAN, .high = (double)NAN};
-    wt_interval interval;
-    size_t count;
-    bool yes;
-    switch (field->form) {
-    case FORM_NUMBER:
-        memcpy(&n.estimate.value, at, sizeof n.estimate.value);
-        break;
-    case FORM_COUNT:
-        memcpy(&count, at, sizeof count);
-        n.estimate.value = (double)count;
-        break;
-    case FORM_YES_NO:
-        memcpy(&yes, at, sizeof yes);
-        n.estimate.value = yes;
-        break;
-    case FORM_ESTIMATE:
-        memcpy(&n.estimate, at, sizeof n.estimate);
-        break;
-    case FORM_INTERVAL:
-        memcpy(&interval, at, sizeof interval);
+    if (field->form == FORM_NUMBER)
+        n.estimate.value = *(const double *)at;
+    else if (field->form == FORM_COUNT)
+        n.estimate.value = (double)*(const size_t *)at;
+    else if (field->form == FORM_YES_NO)
+        n.estimate.value = *(const bool *)at;
+    else if (field->form == FORM_ESTIMATE)
+        n.estimate = *(const wt_estimate *)at;
+    else
         n = (shown_number){
-            {interval.value, interval.standard_error, 0, NULL}, interval.low, interval.high};
-        break;
-    case FORM_NONE:
-    case FORM_WORDS:
-    case FORM_LETTERS:
-        break;
-    }
+            {interval->value, interval->standard_error, 0, NULL}, interval->low, interval->high};
     return n;
 }
 
 static const char *words_at(const schema_field *field, const void *row)
 {
-    const char *words = (const char *)row + field->offset;
-    if (field->form == FORM_WORDS)
-        memcpy(&words, words, sizeof words);
-    return words;
+    const char *const at = (const char *)row + field->offset;
+    return field->form == FORM_WORDS ? *(const char *const *)(const void *)at : at;
 }
 
 static bool is_words(const schema_field *field)

@@ -6,14 +6,21 @@
 
 #include <string.h>
 
-#define ROWS(X)                                                                                    \
-    X(indentation)                                                                                 \
-    X(force_displacement)                                                                          \
-    X(force_indentation) X(modulus_depth) X(modulus_budget) X(payne_sweep) X(payne) X(ramp)        \
-        X(glass_transition) X(moduli_at) X(spot) X(spot_map) X(modulus_groups) X(modulus_rate)     \
-            X(dma_comparison) X(comparison)
-#define KEYS(X)                                                                                    \
-    X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) X(comparison)
+/* clang-format off */
+#define ROWS(X) \
+    X(indentation) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
+    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
+    X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(friction) X(directions) \
+    X(softening) X(contact_area) X(layer) X(materials) X(material_ratio) X(coverage) \
+    X(error_budget) X(work_precision) X(cost) X(notes) X(map_curves) X(map_segments) \
+    X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) X(common_law) \
+    X(dwell_dma) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
+    X(failures) X(map_channels)
+#define KEYS(X) \
+    X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
+    X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
+    X(dwell_dma) X(cost)
+/* clang-format on */
 
 typedef struct binding {
     const table_schema *schema;
@@ -22,9 +29,9 @@ typedef struct binding {
 } binding;
 
 #define ROW_FIELDS(table) const schema_field *table##_row_shows(void);
-#define KEY_FIELDS(table) const schema_field *table##_keys_show(void);
+#define KEY_FIELDS(table) const schema_field *table##_keys_shows(void);
 #define ROW_BINDING(table) {&table##_schema, table##_row_shows(), false},
-#define KEY_BINDING(table) {&table##_schema, table##_keys_show(), true},
+#define KEY_BINDING(table) {&table##_schema, table##_keys_shows(), true},
 ROWS(ROW_FIELDS)
 KEYS(KEY_FIELDS)
 

@@ -1,13 +1,15 @@
-/* Binds the columns and keys of a table to the structure that a row of it shows. The list of the
- * table names the members, SHOWS(member); the kind follows from the member, so the two cannot
- * disagree:
+/* Binds the columns and keys of a table to the structure that a row of it is. The list of the table
+ * names the members, by AS(member) in the place of the name, IN(part, member) or SHOWS(member); the
+ * kind follows from the member, so the two cannot disagree:
  *
- *     typedef wt_payne payne_row;
- *     TABLE_ROW(payne, PAYNE)
+ *     TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+ *               double indentation, force, fitted_force;)
+ *     TABLE_ADD(force_indentation, &writer, group, delta[i], shown[i], model[i]);
  *
- * makes payne_add_row(&writer, &row), which begins a row and puts all that it shows; what no
- * member shows is put behind it. TABLE_KEYS(payne, PAYNE) makes payne_set_keys(&writer, &keys) of
- * a payne_keys. Optional keys that are NaN, NULL or "" are left out.
+ * TABLE_ADD begins a row and puts all that its members show; what none shows is put behind it.
+ * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
+ * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
+ * ends, as far as it has them. unit_tables_shown looks at all of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DATA_TABLES_ROWS_H
@@ -30,29 +32,42 @@
                         : FORM_LETTERS))
 #define SHOWS(name) .member = #name, .offset = offsetof(shown_row, name), .form = SHOWN_FORM(name)
 
-#define TABLE_ROW(table, TABLE)                                                                    \
-    const schema_field *table##_row_shows(void);                                                   \
-    const schema_field *table##_row_shows(void)                                                    \
+#define SHOWN_BY(table, row, FIELDS, add, writer)                                                  \
+    const schema_field *table##_##row##_shows(void);                                               \
+    const schema_field *table##_##row##_shows(void)                                                \
     {                                                                                              \
-        typedef table##_row shown_row;                                                             \
-        static const schema_field columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};             \
-        return columns;                                                                            \
+        typedef table##_##row shown_row;                                                           \
+        static const schema_field fields[] = {FIELDS{.name = NULL}};                               \
+        return fields;                                                                             \
     }                                                                                              \
-    static inline void table##_add_row(table_writer *w, const table##_row *row)                    \
+    static inline void table##_##add(table_writer *w, const table##_##row *from)                   \
     {                                                                                              \
-        writer_row(w, &table##_schema, table##_row_shows(), row);                                  \
+        writer(w, &table##_schema, table##_##row##_shows(), from);                                 \
     }
-#define TABLE_KEYS(table, TABLE)                                                                   \
-    const schema_field *table##_keys_show(void);                                                   \
-    const schema_field *table##_keys_show(void)                                                    \
-    {                                                                                              \
-        typedef table##_keys shown_row;                                                            \
-        static const schema_field keys[] = {TABLE##_KEYS(KEY){.name = NULL}};                      \
-        return keys;                                                                               \
-    }                                                                                              \
-    static inline void table##_set_keys(table_writer *w, const table##_keys *keys)                 \
-    {                                                                                              \
-        writer_keys(w, &table##_schema, table##_keys_show(), keys);                                \
-    }
+#define SHOWN_COLUMNS(table, TABLE)                                                                \
+    SHOWN_BY(table, row, TABLE##_COLUMNS(COLUMN), add_row, writer_row)
+#define SHOWN_KEYS(table, TABLE) SHOWN_BY(table, keys, TABLE##_KEYS(KEY), set_keys, writer_keys)
+
+/* With these members, or with a structure that there is. */
+#define TABLE_ROW(table, TABLE, ...)                                                               \
+    typedef struct table##_row {                                                                   \
+        __VA_ARGS__                                                                                \
+    } table##_row;                                                                                 \
+    SHOWN_COLUMNS(table, TABLE)
+#define TABLE_KEYS(table, TABLE, ...)                                                              \
+    typedef struct table##_keys {                                                                  \
+        __VA_ARGS__                                                                                \
+    } table##_keys;                                                                                \
+    SHOWN_KEYS(table, TABLE)
+#define TABLE_ROW_OF(table, TABLE, type)                                                           \
+    typedef type table##_row;                                                                      \
+    SHOWN_COLUMNS(table, TABLE)
+#define TABLE_KEYS_OF(table, TABLE, type)                                                          \
+    typedef type table##_keys;                                                                     \
+    SHOWN_KEYS(table, TABLE)
+
+/* A row of these values, in the order of the members; the same for keys. */
+#define TABLE_ADD(table, writer, ...) table##_add_row(writer, &(table##_row){__VA_ARGS__})
+#define TABLE_SET(table, writer, ...) table##_set_keys(writer, &(table##_keys){__VA_ARGS__})
 
 #endif

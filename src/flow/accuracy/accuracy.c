@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -73,23 +73,8 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
     return status;
 }
 
-static void put_errors(const accuracy_part *part, const accuracy_method *m, double value,
-                       accuracy_errors errors, double reference_error, const timing *time,
-                       table_writer *t)
-{
-    table_row(t);
-    work_precision_put_text(t, WORK_PRECISION_PART, part->name);
-    work_precision_put_text(t, WORK_PRECISION_METHOD, m->name);
-    work_precision_put_text(t, WORK_PRECISION_SETTING, m->setting);
-    work_precision_put(t, WORK_PRECISION_VALUE, value);
-    work_precision_put(t, WORK_PRECISION_TRUE_ERROR, errors.true_error);
-    work_precision_put(t, WORK_PRECISION_STATED_ERROR, errors.stated_error);
-    work_precision_put(t, WORK_PRECISION_REFERENCE_ERROR, reference_error);
-    work_precision_put(t, WORK_PRECISION_SECONDS, time->median);
-    work_precision_put(t, WORK_PRECISION_SPREAD, time->spread);
-    work_precision_put(t, WORK_PRECISION_REPEATS, (double)time->repeats);
-    work_precision_put_text(t, WORK_PRECISION_WORDS, part->words);
-}
+TABLE_ROW(work_precision, WORK_PRECISION, const char *part, *method, *setting, *words;
+          double value, reference_error; accuracy_errors errors; timing time;)
 
 static wt_status sweep_setting(const accuracy_part *part, void *problem, double reference_error,
                                size_t repeats, table_writer *t, wt_error *err)
@@ -100,7 +85,8 @@ static wt_status sweep_setting(const accuracy_part *part, void *problem, double 
             timing time;
             status = time_method(m, problem, m->values[i], repeats, &time, err);
             if (status == WT_OK)
-                put_errors(part, m, m->values[i], part->judge(problem), reference_error, &time, t);
+                TABLE_ADD(work_precision, t, part->name, m->name, m->setting, part->words,
+                          m->values[i], reference_error, part->judge(problem), time);
         }
     return status;
 }

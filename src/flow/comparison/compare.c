@@ -17,13 +17,8 @@
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-typedef struct modulus_groups_row {
-    const char *group;
-    wt_group data;
-    wt_group_summary summary;
-    wt_interval modulus;
-} modulus_groups_row;
-TABLE_ROW(modulus_groups, MODULUS_GROUPS)
+TABLE_ROW(modulus_groups, MODULUS_GROUPS, const char *group; wt_group data;
+          wt_group_summary summary; wt_interval modulus;)
 
 static wt_interval mean_of(const wt_group_summary *s)
 {
@@ -36,7 +31,7 @@ static void group_row(table_writer *t, const char *name, const wt_group *group)
     wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none};
     if (group->n > 0 && t->status == WT_OK)
         t->status = wt_group_summarise(group, &s, t->err);
-    modulus_groups_add_row(t, &(modulus_groups_row){name, *group, s, mean_of(&s)});
+    TABLE_ADD(modulus_groups, t, name, *group, s, mean_of(&s));
 }
 
 /* The name of the group of an indentation table. */
@@ -129,20 +124,10 @@ static wt_status make_points(compare_pair *p, wt_error *err)
     return status;
 }
 
-typedef struct modulus_rate_row {
-    const char *group;
-    rate_point point;
-    wt_interval modulus;
-} modulus_rate_row;
-TABLE_ROW(modulus_rate, MODULUS_RATE)
+TABLE_ROW(modulus_rate, MODULUS_RATE, const char *group; rate_point point; wt_interval modulus;)
 
-typedef struct dma_comparison_row {
-    const char *group;
-    double frequency, storage, ratio, extrapolated;
-    wt_interval modulus;
-    wt_estimate dma;
-} dma_comparison_row;
-TABLE_ROW(dma_comparison, DMA_COMPARISON)
+TABLE_ROW(dma_comparison, DMA_COMPARISON, const char *group;
+          double frequency, storage, ratio, extrapolated; wt_interval modulus; wt_estimate dma;)
 
 /* error: relative, of |E*|; material: NULL where the DMA does not reach. */
 static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material,
@@ -172,8 +157,8 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
         table_block(&t);
         for (size_t b = 0; b < p->n_bins; b++)
             if (p->point[g][b].n > 0)
-                modulus_rate_add_row(&t, &(modulus_rate_row){compare_group_name[g], p->point[g][b],
-                                                             mean_of(&p->point[g][b].summary)});
+                TABLE_ADD(modulus_rate, &t, compare_group_name[g], p->point[g][b],
+                          mean_of(&p->point[g][b].summary));
     }
     return table_end(&t, table);
 }
@@ -213,11 +198,8 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
     return status;
 }
 
-typedef struct dma_comparison_keys {
-    wt_estimate temperature, track_temperature;
-    const char *ratio_of, *lacks, *statement;
-} dma_comparison_keys;
-TABLE_KEYS(dma_comparison, DMA_COMPARISON)
+TABLE_KEYS(dma_comparison, DMA_COMPARISON, wt_estimate temperature, track_temperature;
+           const char *ratio_of, *lacks, *statement;)
 
 /* A block for each group that has a temperature of its own. */
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
@@ -239,11 +221,9 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
                   differ && statement[1][0] != '\0' ? "; " : "",
                   differ || statement[0][0] == '\0' ? statement[1] : "");
     const bool no_draws = job->rubber->n_draws == 0, own = !isnan(job->track_temperature.value);
-    dma_comparison_set_keys(
-        &t,
-        &(dma_comparison_keys){given[0], own ? given[1] : job->track_temperature,
-                               "indentation modulus over |E*| of the DMA",
-                               no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, both});
+    TABLE_SET(dma_comparison, &t, given[0], own ? given[1] : job->track_temperature,
+              "indentation modulus over |E*| of the DMA",
+              no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, both);
     return table_end(&t, table);
 }
 

@@ -148,8 +148,7 @@ static void warn_rates(const comparison_task *task)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-typedef compare_row comparison_row;
-TABLE_ROW(comparison, COMPARISON)
+TABLE_ROW_OF(comparison, COMPARISON, compare_row)
 
 static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval)
 {
@@ -207,12 +206,10 @@ static double spread_of_rates(const compare_row *rates, size_t n)
     return high > low ? (high - low) / 2 : 0;
 }
 
-typedef struct comparison_keys {
-    const char *differs, *settled_by, *unit, *rates, *includes, *cantilevers, *cancels;
-    wt_estimate margin, rate_slope, ratio;
-    double interaction_p, ratio_df, calibration_share;
-} comparison_keys;
-TABLE_KEYS(comparison, COMPARISON)
+TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *unit, *rates, *includes,
+           *cantilevers, *cancels;
+           wt_estimate margin, rate_slope, ratio;
+           double interaction_p, ratio_df, calibration_share;)
 
 /* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
 static void find_ratio(const comparison_task *task, bool twisted, bool interval,

@@ -14,7 +14,7 @@
 #include "base/mix.h"
 #include "base/normal.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -297,6 +297,8 @@ typedef struct tally {
     coverage_share known;
 } tally;
 
+TABLE_ROW(coverage, COVERAGE, const char *number; tally found;)
+
 static tally count_hits(const coverage *c, size_t k)
 {
     tally t = {.scatter = (double)NAN};
@@ -392,18 +394,8 @@ static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
     table_writer t = table_begin(&coverage_schema, err);
     for (size_t k = 0; k < N_JUDGED; k++) {
         const tally found = count_hits(c, k);
-        if (found.n == 0)
-            continue;
-        table_row(&t);
-        coverage_put_text(&t, COVERAGE_NUMBER, judged_words[k]);
-        coverage_put(&t, COVERAGE_TRIALS, (double)found.n);
-        coverage_put(&t, COVERAGE_ONE, found.one);
-        coverage_put(&t, COVERAGE_BOTH, found.both);
-        coverage_put(&t, COVERAGE_LOW, found.known.low);
-        coverage_put(&t, COVERAGE_HIGH, found.known.high);
-        coverage_put(&t, COVERAGE_SCATTER, found.scatter);
-        coverage_put_text(&t, COVERAGE_VERDICT, found.known.verdict);
-        coverage_put(&t, COVERAGE_SETTLED_BY, found.known.trials);
+        if (found.n > 0)
+            TABLE_ADD(coverage, &t, judged_words[k], found);
     }
     put_verdicts(c, &t);
     coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);

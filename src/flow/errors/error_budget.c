@@ -8,7 +8,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -257,17 +257,12 @@ typedef struct row {
     double share, seconds;
 } row;
 
+TABLE_ROW(error_budget, ERROR_BUDGET, const char *number; row of;)
+
 static void put_row(const char *number, double value, row r, table_writer *t)
 {
-    table_row(t);
-    error_budget_put_text(t, ERROR_BUDGET_NUMBER, number);
-    error_budget_put_text(t, ERROR_BUDGET_SOURCE, r.source);
-    error_budget_put_text(t, ERROR_BUDGET_KIND, r.kind);
-    error_budget_put(t, ERROR_BUDGET_RELATIVE_ERROR,
-                     r.error / fabs(value)); /* 0 of 0 is not known */
-    error_budget_put(t, ERROR_BUDGET_SHARE, r.share);
-    error_budget_put(t, ERROR_BUDGET_SECONDS, r.seconds);
-    error_budget_put_text(t, ERROR_BUDGET_REMEDY, r.remedy);
+    r.error /= fabs(value); /* 0 of 0 is not known */
+    TABLE_ADD(error_budget, t, number, r);
 }
 
 static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)

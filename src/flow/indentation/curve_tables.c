@@ -11,17 +11,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct force_displacement_row {
-    const char *group, *segment;
-    double displacement, force;
-} force_displacement_row;
-TABLE_ROW(force_displacement, FORCE_DISPLACEMENT)
+TABLE_ROW(force_displacement, FORCE_DISPLACEMENT, const char *group, *segment;
+          double displacement, force;)
 
-typedef struct force_indentation_row {
-    const char *group;
-    double indentation, force, fitted_force;
-} force_indentation_row;
-TABLE_ROW(force_indentation, FORCE_INDENTATION)
+TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+          double indentation, force, fitted_force;)
 
 /* A new block of a table that is made with the first one; a failure stays in the writer. */
 static table_writer next_block(wt_table **table, const table_schema *schema, const char *group,
@@ -56,10 +50,9 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
     for (size_t i = 0; height != NULL && i < segment->n_points; i++) {
         if (!isfinite(height[i]) || !isfinite(force[i]))
             continue;
-        force_displacement_add_row(
-            t, &(force_displacement_row){t->suffix, wt_segment_kind_name(segment->kind),
-                                         fit->direction * height[i] - fit->contact_point.value,
-                                         force[i] - fit->baseline_offset.value});
+        TABLE_ADD(force_displacement, t, t->suffix, wt_segment_kind_name(segment->kind),
+                  fit->direction * height[i] - fit->contact_point.value,
+                  force[i] - fit->baseline_offset.value);
     }
 }
 
@@ -155,8 +148,7 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     table_writer branch =
         next_block(&tables->force_indentation, &force_indentation_schema, group, err);
     for (size_t i = 0; i < n; i++)
-        force_indentation_add_row(&branch,
-                                  &(force_indentation_row){group, delta[i], shown[i], model[i]});
+        TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
     if (retract != NULL)
         force = segment_force(retract, &curve->cantilever, scratch);
     if (retract != NULL && force != NULL)
@@ -186,13 +178,8 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
 
-typedef struct indentation_row {
-    const char *file, *spot, *verdict;
-    size_t curve;
-    double x, y, equivalent_frequency;
-    wt_indent_fit fit;
-} indentation_row;
-TABLE_ROW(indentation, INDENTATION)
+TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
+          double x, y, equivalent_frequency; wt_indent_fit fit;)
 
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
                           const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)

@@ -7,20 +7,11 @@
 
 #include <math.h>
 
-typedef struct modulus_depth_row {
-    const char *group;
-    double depth;
-    wt_interval modulus;
-    size_t n, n_units;
-} modulus_depth_row;
-TABLE_ROW(modulus_depth, MODULUS_DEPTH)
+TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_interval modulus;
+          size_t n, n_units;)
 
-typedef struct modulus_depth_keys {
-    const char *changes, *reading;
-    wt_interval ratio;
-    double chance, misfit_chance;
-} modulus_depth_keys;
-TABLE_KEYS(modulus_depth, MODULUS_DEPTH)
+TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
+           double chance, misfit_chance;)
 
 typedef struct depth_words {
     char text[48];
@@ -135,7 +126,6 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, cons
     }
     modulus_depth_set_keys(&t, &keys);
     for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
-        modulus_depth_add_row(
-            &t, &(modulus_depth_row){group, d->depth[i], d->modulus[i], d->n, d->n_units});
+        TABLE_ADD(modulus_depth, &t, group, d->depth[i], d->modulus[i], d->n, d->n_units);
     return table_end(&t, NULL);
 }

@@ -21,19 +21,10 @@ typedef struct part {
     bool applies;
 } part;
 
-typedef struct modulus_budget_row {
-    const char *group, *kind;
-    double share;
-    part part;
-} modulus_budget_row;
-TABLE_ROW(modulus_budget, MODULUS_BUDGET)
+TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group, *kind; double share; part part;)
 
-typedef struct modulus_budget_keys {
-    wt_estimate modulus;
-    double df, low, high;
-    const char *says;
-} modulus_budget_keys;
-TABLE_KEYS(modulus_budget, MODULUS_BUDGET)
+TABLE_KEYS(modulus_budget, MODULUS_BUDGET, wt_estimate modulus; double df, low, high;
+           const char *says;)
 
 typedef struct budget {
     part part[PARTS];
@@ -106,13 +97,11 @@ static void put_rows(table_writer *t, const char *group, const budget *b)
                curve = {"one curve", (double)NAN, b->curves, none, true};
     for (int i = 0; i < PARTS; i++)
         if (b->part[i].applies)
-            modulus_budget_add_row(
-                t, &(modulus_budget_row){group, i == SCATTER ? "scatter" : "shared",
-                                         share_of(b, b->part[i].error), b->part[i]});
-    modulus_budget_add_row(
-        t, &(modulus_budget_row){group, "together", share_of(b, b->all.error), all});
-    modulus_budget_add_row(t, &(modulus_budget_row){group, "beside", (double)NAN, spot});
-    modulus_budget_add_row(t, &(modulus_budget_row){group, "beside", (double)NAN, curve});
+            TABLE_ADD(modulus_budget, t, group, i == SCATTER ? "scatter" : "shared",
+                      share_of(b, b->part[i].error), b->part[i]);
+    TABLE_ADD(modulus_budget, t, group, "together", share_of(b, b->all.error), all);
+    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, spot);
+    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, curve);
 }
 
 /* ---- in words -------------------------------------------------------------------------------- */
@@ -192,11 +181,8 @@ static void add_group(table_writer *t, const char *name, const wt_group_data *d)
     const double e = b.group.geometric_mean, reach = students_t_quantile(b.all.df) * b.all.error;
     const bool bounded = !isnan(b.all.error) && isfinite(b.all.df);
     say(name, &b, text, sizeof text);
-    modulus_budget_set_keys(t, &(modulus_budget_keys){{e, e * b.all.error, 0, NULL},
-                                                      bounded ? b.all.df : (double)NAN,
-                                                      e * exp(-reach),
-                                                      e * exp(reach),
-                                                      text});
+    TABLE_SET(modulus_budget, t, {e, e * b.all.error, 0, NULL}, bounded ? b.all.df : (double)NAN,
+              e * exp(-reach), e * exp(reach), text);
 }
 
 static bool states_any(const wt_group_data *d)

@@ -6,7 +6,7 @@
 
 #include "base/clocale.h"
 #include "base/normal.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -237,15 +237,21 @@ static wt_status find_beside(const wt_compared *m, double sample_error, material
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* A value and its interval: three columns. */
-#define PUT_INTERVAL(table, t, COLUMN, ln, error)                                                  \
-    do {                                                                                           \
-        table##_put(t, COLUMN, exp(ln));                                                           \
-        if (!isnan(error)) {                                                                       \
-            table##_put(t, COLUMN##_LOW, exp((ln)-NORMAL_95 *(error)));                            \
-            table##_put(t, COLUMN##_HIGH, exp((ln) + NORMAL_95 * (error)));                        \
-        }                                                                                          \
-    } while (0)
+TABLE_ROW(materials, MATERIALS, const char *material; double angular_frequency;
+          wt_interval storage, loss, factor;)
+
+TABLE_ROW(material_ratio, MATERIAL_RATIO, const char *material, *over;
+          double temperature, angular_frequency; wt_interval storage, loss, factor;)
+
+TABLE_KEYS(material_ratio, MATERIAL_RATIO, const char *differs, *settled_by, *first_material,
+           *outside;
+           double temperature, angular_frequency, margin; char includes[160], lacks[160];)
+
+static wt_interval interval_of(double ln, double error)
+{
+    return (wt_interval){exp(ln), (double)NAN, exp(ln - NORMAL_95 * error),
+                         exp(ln + NORMAL_95 * error)};
+}
 
 static wt_status add_material(const wt_compared *m, const material_beside *beside,
                               double temperature, const wt_job *work, table_writer *t,
@@ -262,12 +268,10 @@ static wt_status add_material(const wt_compared *m, const material_beside *besid
     table_block(t);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const double *x = v.value + i * Q, *e = v.error + i * Q;
-        table_row(t);
-        materials_put_text(t, MATERIALS_MATERIAL, m->name);
-        materials_put(t, MATERIALS_ANGULAR_FREQUENCY, place[i].frequency);
-        PUT_INTERVAL(materials, t, MATERIALS_STORAGE, x[MATERIALS_E1], e[MATERIALS_E1]);
-        PUT_INTERVAL(materials, t, MATERIALS_LOSS, x[MATERIALS_E2], e[MATERIALS_E2]);
-        PUT_INTERVAL(materials, t, MATERIALS_FACTOR, x[MATERIALS_TAN], e[MATERIALS_TAN]);
+        TABLE_ADD(materials, t, m->name, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
     material_values_clear(&v);
     return status;
@@ -281,14 +285,10 @@ static void put_ratios(table_writer *t, const char *name, const char *over,
         table_block(t);
     for (size_t i = first; i < last; i++) {
         const double *x = r->value + i * Q, *e = r->error + i * Q;
-        table_row(t);
-        material_ratio_put_text(t, MATERIAL_RATIO_MATERIAL, name);
-        material_ratio_put_text(t, MATERIAL_RATIO_OVER, over);
-        material_ratio_put(t, MATERIAL_RATIO_TEMPERATURE, place[i].temperature);
-        material_ratio_put(t, MATERIAL_RATIO_ANGULAR_FREQUENCY, place[i].frequency);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_STORAGE, x[MATERIALS_E1], e[MATERIALS_E1]);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_LOSS, x[MATERIALS_E2], e[MATERIALS_E2]);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_FACTOR, x[MATERIALS_TAN], e[MATERIALS_TAN]);
+        TABLE_ADD(material_ratio, t, name, over, place[i].temperature, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
 }
 
@@ -388,26 +388,27 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
 static void set_keys(const wt_materials_job *job, const setting *s, const sayings *words,
                      table_writer *t)
 {
-    material_ratio_set_text(t, MATERIAL_RATIO_KEY_DIFFERS, words->differs);
-    if (words->settled_by[0] != '\0')
-        material_ratio_set_text(t, MATERIAL_RATIO_KEY_SETTLED_BY, words->settled_by);
-    material_ratio_set_text(t, MATERIAL_RATIO_KEY_FIRST, job->materials[0].name);
-    material_ratio_set_value(t, MATERIAL_RATIO_KEY_TEMPERATURE, s->at_temperature, 0, 0);
-    material_ratio_set_value(t, MATERIAL_RATIO_KEY_FREQUENCY, s->at_frequency, 0, 0);
+    material_ratio_keys keys = {words->differs,
+                                words->settled_by,
+                                job->materials[0].name,
+                                words->outside,
+                                s->at_temperature,
+                                s->at_frequency,
+                                job->margin,
+                                "",
+                                ""};
+    const bool sizes = job->sample_error > 0;
     if (words->known) {
-        material_ratio_set_print(t, MATERIAL_RATIO_KEY_INCLUDES,
-                                 "noise of the isotherms, shifts and their law%s%s",
-                                 words->misfit ? ", misfit of superposition" : "",
-                                 job->sample_error > 0 ? ", dimensions of the samples" : "");
-        material_ratio_set_print(
-            t, MATERIAL_RATIO_KEY_LACKS, "other samples of the same materials%s",
-            job->sample_error > 0 ? ""
-                                  : "; dimensions of these (sample-error), which do not act on "
-                                    "tan delta");
+        clocale_print(keys.includes, sizeof keys.includes,
+                      "noise of the isotherms, shifts and their law%s%s",
+                      words->misfit ? ", misfit of superposition" : "",
+                      sizes ? ", dimensions of the samples" : "");
+        clocale_print(keys.lacks, sizeof keys.lacks, "other samples of the same materials%s",
+                      sizes ? ""
+                            : "; dimensions of these (sample-error), which do not act on "
+                              "tan delta");
     }
-    if (words->outside[0] != '\0')
-        material_ratio_set_text(t, MATERIAL_RATIO_KEY_OUTSIDE, words->outside);
-    material_ratio_set_print(t, MATERIAL_RATIO_KEY_MARGIN, "%g", job->margin);
+    material_ratio_set_keys(t, &keys);
 }
 
 static void warn_deformation(const wt_materials_job *job, const wt_job *work)

@@ -175,19 +175,17 @@ static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log
     return WT_OK;
 }
 
-typedef struct ramp_row {
-    double temperature, angular_frequency, storage_modulus, loss_modulus, loss_factor, strain;
-    const char *source;
-} ramp_row;
-TABLE_ROW(ramp, RAMP)
+TABLE_ROW(ramp, RAMP, double temperature, angular_frequency, storage_modulus, loss_modulus,
+          loss_factor, strain;
+          const char *source;)
 
 static void put_points(table_writer *t, const wt_ramp *r)
 {
     table_block(t);
     for (size_t i = 0; i < r->n; i++)
-        ramp_add_row(t, &(ramp_row){r->temperature[i], r->angular_frequency, r->storage_modulus[i],
-                                    r->loss_modulus[i], loss_factor(r, i),
-                                    r->strain != NULL ? r->strain[i] : (double)NAN, r->source});
+        TABLE_ADD(ramp, t, r->temperature[i], r->angular_frequency, r->storage_modulus[i],
+                  r->loss_modulus[i], loss_factor(r, i),
+                  r->strain != NULL ? r->strain[i] : (double)NAN, r->source);
 }
 
 typedef struct shown_peak {
@@ -196,12 +194,8 @@ typedef struct shown_peak {
     const char *why_not;
 } shown_peak;
 
-typedef struct glass_transition_row {
-    shown_peak factor, loss;
-    double angular_frequency, temperature_min, temperature_max;
-    const char *source;
-} glass_transition_row;
-TABLE_ROW(glass_transition, GLASS_TRANSITION)
+TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss;
+          double angular_frequency, temperature_min, temperature_max; const char *source;)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
@@ -233,19 +227,14 @@ static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const w
         status = find_peak(job, u, LOSS, &found->loss, err);
     if (status != WT_OK)
         return status;
-    glass_transition_add_row(
-        t, &(glass_transition_row){show_peak(&found->factor), show_peak(&found->loss),
-                                   ramp->angular_frequency, ramp->temperature[0],
-                                   ramp->temperature[ramp->n - 1], ramp->source});
+    TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
+              ramp->angular_frequency, ramp->temperature[0], ramp->temperature[ramp->n - 1],
+              ramp->source);
     return WT_OK;
 }
 
-typedef struct moduli_at_row {
-    double temperature, angular_frequency;
-    wt_interval modulus[QUANTITIES];
-    const char *note, *source;
-} moduli_at_row;
-TABLE_ROW(moduli_at, MODULI_AT)
+TABLE_ROW(moduli_at, MODULI_AT, double temperature, angular_frequency;
+          wt_interval modulus[QUANTITIES]; const char *note, *source;)
 
 static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
                             const usable *u, wt_error *err)
@@ -278,12 +267,8 @@ typedef struct writers {
 } writers;
 
 /* Of the frequency nearest to 1 Hz that has a peak. */
-typedef struct glass_transition_keys {
-    wt_interval factor_peak, loss_peak;
-    double angular_frequency;
-    const char *deformation;
-} glass_transition_keys;
-TABLE_KEYS(glass_transition, GLASS_TRANSITION)
+TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak;
+           double angular_frequency; const char *deformation;)
 
 static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
                          writers *w, wt_error *err)

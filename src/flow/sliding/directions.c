@@ -4,7 +4,7 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -83,19 +83,13 @@ static wt_status compute_all(directions *d, wt_error *err)
     return WT_OK;
 }
 
+TABLE_ROW(directions, DIRECTIONS, const char *factors; wt_friction_point point;)
+
 static void put_points(const directions *d, size_t k, table_writer *t)
 {
     table_block(t);
-    for (size_t i = 0; i + 1 < d->n; i++) {
-        const wt_friction_point *p = &d->points[k * d->n + i];
-        table_row(t);
-        directions_put_text(t, DIRECTIONS_FACTORS, kept[k].words);
-        directions_put(t, DIRECTIONS_VELOCITY, p->velocity);
-        directions_put(t, DIRECTIONS_HYSTERESIS, p->hysteresis.value);
-        directions_put(t, DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, p->hysteresis.numerical_error);
-        directions_put(t, DIRECTIONS_AREA_RATIO, p->area_ratio.value);
-        directions_put(t, DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, p->area_ratio.numerical_error);
-    }
+    for (size_t i = 0; i + 1 < d->n; i++)
+        TABLE_ADD(directions, t, kept[k].words, d->points[k * d->n + i]);
 }
 
 static void say_change(const directions *d, size_t k, table_writer *t)

@@ -186,20 +186,11 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image, c
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-typedef struct spot_row {
-    spot spot;
-    imprint left;
-    wt_interval roughness, ratio;
-    wt_estimate shift_x, shift_y;
-    double x, y, depth, tilt, limit, places, deepest_x, deepest_y;
-} spot_row;
-TABLE_ROW(spot, SPOT)
+TABLE_ROW(spot, SPOT, spot spot; imprint left; wt_interval roughness, ratio;
+          wt_estimate shift_x, shift_y;
+          double x, y, depth, tilt, limit, places, deepest_x, deepest_y;)
 
-typedef struct spot_keys {
-    const char *tip, *image, *verdict;
-    wt_estimate effect;
-} spot_keys;
-TABLE_KEYS(spot, SPOT)
+TABLE_KEYS(spot, SPOT, const char *tip, *image, *verdict; wt_estimate effect;)
 
 static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const spot *s,
                           const imprint *left, wt_table **table, wt_error *err)
@@ -210,28 +201,20 @@ static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const s
     const spot_shift *shift = &left->shift;
     char tip[256];
     table_writer t = table_begin(&spot_schema, err);
-    spot_add_row(
-        &t, &(spot_row){.spot = *s,
-                        .left = *left,
-                        .roughness = rough ? (wt_interval){rms, nan, s->low, s->high} : none,
-                        .ratio =
-                            rough ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth}
-                                  : none,
-                        .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
-                        .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
-                        .x = s->x + image->x_min,
-                        .y = s->y + image->y_min,
-                        .depth = depth,
-                        .tilt = rough ? hypot(s->plane.slope_x, s->plane.slope_y) : nan,
-                        .limit = limit_of(job, s),
-                        .places = job->after != NULL ? (double)left->places : nan,
-                        .deepest_x = left->deepest_x + image->x_min,
-                        .deepest_y = left->deepest_y + image->y_min});
+    TABLE_ADD(
+        spot, &t, .spot = *s, .left = *left,
+        .roughness = rough ? (wt_interval){rms, nan, s->low, s->high} : none,
+        .ratio = rough ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
+        .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
+        .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
+        .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
+        .tilt = rough ? hypot(s->plane.slope_x, s->plane.slope_y) : nan, .limit = limit_of(job, s),
+        .places = job->after != NULL ? (double)left->places : nan,
+        .deepest_x = left->deepest_x + image->x_min, .deepest_y = left->deepest_y + image->y_min);
     if (job->after != NULL)
         spot_set_text(&t, SPOT_KEY_IMPRINT, left->verdict);
     wt_tip_describe(&job->tip, tip, sizeof tip);
-    spot_set_keys(&t,
-                  &(spot_keys){tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL}});
+    TABLE_SET(spot, &t, tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL});
     return table_end(&t, table);
 }
 

@@ -32,10 +32,7 @@ static double less_plane(const spot_field *f, const spot_plane *p, size_t i, siz
     return f->z[j * f->nx + i] - (p->height + p->slope_x * u + p->slope_y * v);
 }
 
-typedef struct spot_map_row {
-    double x, y, before, after, change;
-} spot_map_row;
-TABLE_ROW(spot_map, SPOT_MAP)
+TABLE_ROW(spot_map, SPOT_MAP, double x, y, before, after, change;)
 
 wt_status spot_map_make(const spot_field *before, const spot *s, const double *difference,
                         wt_table **table, wt_error *err)
@@ -56,7 +53,7 @@ wt_status spot_map_make(const spot_field *before, const spot *s, const double *d
             const double was = less_plane(before, &planes[0], i, j, u, v),
                          change = difference != NULL ? less_plane(&changed, &planes[1], i, j, u, v)
                                                      : nan;
-            spot_map_add_row(&t, &(spot_map_row){u, v, was, was + change, change});
+            TABLE_ADD(spot_map, &t, u, v, was, was + change, change);
         }
     spot_map_set_value(&t, SPOT_MAP_KEY_CONTACT_RADIUS, s->contact, 0, 0);
     return table_end(&t, table);

@@ -59,12 +59,9 @@ static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_pars
     return WT_OK;
 }
 
-typedef struct payne_sweep_row {
-    double strain, angular_frequency, temperature, storage, loss, loss_factor;
-    double storage_ratio, loss_ratio, storage_kraus, loss_kraus;
-    const char *source, *sample;
-} payne_sweep_row;
-TABLE_ROW(payne_sweep, PAYNE_SWEEP)
+TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperature, storage, loss,
+          loss_factor;
+          double storage_ratio, loss_ratio, storage_kraus, loss_kraus; const char *source, *sample;)
 
 static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
 {
@@ -73,22 +70,15 @@ static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne
     for (size_t i = 0; i < s->n; i++) {
         const double strain = s->strain[i], storage = s->storage_modulus[i],
                      loss = s->loss_modulus[i];
-        payne_sweep_add_row(
-            t, &(payne_sweep_row){
-                   strain, s->angular_frequency, s->temperature, storage, loss,
-                   storage > 0 ? loss / storage : unknown, storage / p->storage_start,
-                   loss / p->loss_start, p->fitted ? wt_kraus_storage(&p->law, strain) : unknown,
-                   p->fitted ? wt_kraus_loss(&p->law, strain) : unknown, s->source, s->sample});
+        TABLE_ADD(payne_sweep, t, strain, s->angular_frequency, s->temperature, storage, loss,
+                  storage > 0 ? loss / storage : unknown, storage / p->storage_start,
+                  loss / p->loss_start, p->fitted ? wt_kraus_storage(&p->law, strain) : unknown,
+                  p->fitted ? wt_kraus_loss(&p->law, strain) : unknown, s->source, s->sample);
     }
 }
 
-typedef struct payne_row {
-    wt_strain_sweep sweep;
-    wt_payne payne;
-    size_t points;
-    double strain_min, strain_max;
-} payne_row;
-TABLE_ROW(payne, PAYNE)
+TABLE_ROW(payne, PAYNE, wt_strain_sweep sweep; wt_payne payne; size_t points;
+          double strain_min, strain_max;)
 
 static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
                              wt_error *err)
@@ -111,8 +101,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
                                   err);
             if (status == WT_OK) {
                 put_points(&points, s, &payne);
-                payne_add_row(&numbers,
-                              &(payne_row){*s, payne, u.n, s->strain[0], s->strain[s->n - 1]});
+                TABLE_ADD(payne, &numbers, *s, payne, u.n, s->strain[0], s->strain[s->n - 1]);
                 told++;
             }
         }

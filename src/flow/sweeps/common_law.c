@@ -3,7 +3,7 @@
 #include "flow/work/inputs.h"
 
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -37,39 +37,23 @@ PARAM_TABLE(wt_common_law_job_params, wt_common_law_job, rows, wt_common_law_job
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static void put_interval(table_writer *t, common_law_column first, wt_interval x)
-{
-    common_law_put(t, first, x.value);
-    common_law_put(t, first + 1, x.low);
-    common_law_put(t, first + 2, x.high);
-}
+TABLE_ROW(common_law, COMMON_LAW, const char *sample, *note; wt_interval moved;
+          wt_common_point point;)
 
 static void put_sample(const wt_common_law_job *job, const wt_common_law *law, size_t sample,
                        table_writer *t)
 {
+    const double none = (double)NAN;
+    const wt_interval unknown = {none, none, none, none};
     const wt_common_member *m = &law->members[sample];
+    const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
     table_block(t);
-    if (!m->used) {
-        table_row(t);
-        common_law_put_text(t, COMMON_LAW_SAMPLE, job->names[sample]);
-        common_law_put_text(t, COMMON_LAW_NOTE, m->why_not);
-    }
-    for (size_t i = 0; i < law->n; i++) {
-        const wt_common_point *p = &law->points[i];
-        if (p->sample != sample)
-            continue;
-        table_row(t);
-        common_law_put_text(t, COMMON_LAW_SAMPLE, job->names[sample]);
-        common_law_put(t, COMMON_LAW_TEMPERATURE, p->temperature);
-        common_law_put(t, COMMON_LAW_LOG_A, p->log_a);
-        common_law_put(t, COMMON_LAW_LOG_A_STANDARD_ERROR, p->log_a_error);
-        put_interval(t, COMMON_LAW_LAW_LOG_A, p->law);
-        put_interval(t, COMMON_LAW_DIFFERENCE, p->difference);
-        if (job->common != WT_COMMON_MOVED)
-            continue;
-        common_law_put(t, COMMON_LAW_MOVED, m->moved.value);
-        common_law_put(t, COMMON_LAW_MOVED_STANDARD_ERROR, m->moved.standard_error);
-    }
+    if (!m->used)
+        TABLE_ADD(common_law, t, job->names[sample], m->why_not, unknown,
+                  {sample, none, none, none, unknown, unknown});
+    for (size_t i = 0; i < law->n; i++)
+        if (law->points[i].sample == sample)
+            TABLE_ADD(common_law, t, job->names[sample], NULL, moved, law->points[i]);
 }
 
 /* ---- words ----------------------------------------------------------------------------------- */

@@ -5,9 +5,16 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
+
+wt_interval flow_power_of_ten(wt_interval log)
+{
+    return (wt_interval){pow(10, log.value), (double)NAN, pow(10, log.low), pow(10, log.high)};
+}
+
+TABLE_ROW(relaxation_spectrum, RELAXATION_SPECTRUM, double relaxation_time; wt_interval density;)
 
 wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *err)
 {
@@ -15,14 +22,9 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
     for (size_t i = 0; i < m->prony.n; i++) {
         wt_interval density;
         wt_master_spectrum(m, i, &density);
-        if (isnan(density.value))
-            continue;
-        table_row(&t);
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_RELAXATION_TIME,
-                                m->prony.relaxation_time[i]);
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_DENSITY, pow(10, density.value));
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_LOW, pow(10, density.low));
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_HIGH, pow(10, density.high));
+        if (!isnan(density.value))
+            TABLE_ADD(relaxation_spectrum, &t, m->prony.relaxation_time[i],
+                      flow_power_of_ten(density));
     }
     relaxation_spectrum_set_value(&t, RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE,
                                   m->reference_temperature, 0, 0);
@@ -66,6 +68,8 @@ static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson
     return WT_OK;
 }
 
+TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
+
 static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poisson_ratio,
                              wt_table **table, wt_error *err)
 {
@@ -74,12 +78,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
     wt_prony_deviation(&m->prony, p, deviation);
     for (size_t i = 0; i < p->n; i++)
         sum += p->modulus[i];
-    for (size_t i = 0; i < p->n; i++) {
-        table_row(&t);
-        prony_reduced_put(&t, PRONY_REDUCED_RELAXATION_TIME, p->relaxation_time[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_MODULUS, p->modulus[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_SHARE, p->modulus[i] / sum);
-    }
+    for (size_t i = 0; i < p->n; i++)
+        TABLE_ADD(prony_reduced, &t, p->relaxation_time[i], p->modulus[i], p->modulus[i] / sum);
     const struct {
         prony_reduced_key key;
         double value;

@@ -5,7 +5,7 @@
 
 #include "base/array.h"
 #include "base/digest.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <search.h>
 #include <stdlib.h>
@@ -47,18 +47,16 @@ static const char *path_below(const char *folder, const char *path)
     return path + length + strspn(path + length, "/");
 }
 
+TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
+
 wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                          wt_error *err)
 {
     table_writer t = table_begin(&notes_schema, err);
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
         wt_log_entry entry = wt_parselog_get(log, i);
-        table_row(&t);
-        notes_put_text(&t, NOTES_SEVERITY, wt_severity_name(entry.severity));
-        notes_put_text(&t, NOTES_FILE, path_below(folder, entry.file));
-        notes_put_text(&t, NOTES_PLACE, entry.place);
-        notes_put_text(&t, NOTES_TEXT, entry.text);
-        notes_put(&t, NOTES_COUNT, (double)entry.count);
+        TABLE_ADD(notes, &t, wt_severity_name(entry.severity), path_below(folder, entry.file),
+                  entry);
     }
     return table_end(&t, table);
 }
@@ -69,15 +67,15 @@ bool flow_goes_on(const wt_job *work, wt_status status)
            status != WT_E_INTERNAL;
 }
 
+TABLE_ROW(failures, FAILURES, const char *file, *message;)
+
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err)
 {
     char message[2048];
     wt_error_format(failure, message, sizeof message);
     table_writer t = table_continue(work->failures, &failures_schema, "", err);
-    table_row(&t);
-    failures_put_text(&t, FAILURES_FILE, what);
-    failures_put_text(&t, FAILURES_MESSAGE, message);
+    TABLE_ADD(failures, &t, what, message);
     return table_end(&t, NULL);
 }
 
