@@ -62,7 +62,7 @@
     X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER,                                 \
       HEADLINE("Change of friction by the layer"), OPTIONAL)                                       \
     X(FRICTION_KEY_RELATIVE_CHANGE, "relative_change_at_reference", NUMBER,                        \
-      LABEL("Relative change at reference"), OPTIONAL)                                             \
+      HEADLINE("Relative change of friction by the layer"), OPTIONAL)                              \
     X(FRICTION_KEY_RELATIVE_CHANGE_LOW, "relative_change_low", NUMBER,                             \
       LABEL("Relative change, lowest of all velocities"), OPTIONAL)                                \
     X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, "relative_change_high", NUMBER,                           \
