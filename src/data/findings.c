@@ -162,8 +162,8 @@ static double reach_of_choice(const table_view *what_if, size_t *row, what_if_nu
     return high - low;
 }
 
-/* The first row is as used. */
-static finding_range range_of(const table_view *what_if, what_if_number *number)
+/* The first row is as used. What lies within the numerical error is the same. */
+static finding_range range_of(const table_view *what_if, what_if_number *number, double error)
 {
     finding_range r = {.low = (double)NAN, .high = (double)NAN};
     size_t low = 0, high = 0;
@@ -175,7 +175,7 @@ static finding_range range_of(const table_view *what_if, what_if_number *number)
         low = value < number(what_if, low) ? i : low;
         high = value > number(what_if, high) ? i : high;
     }
-    if (low == high)
+    if (low == high || number(what_if, high) - number(what_if, low) <= error)
         return r; /* such as a thickness that was observed */
     for (size_t i = 1; i < what_if->n_rows;) {
         const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
@@ -236,7 +236,7 @@ finding finding_of_friction(const finding_tables *t, friction_key key)
         f.lacks = friction_words(&t->friction, FRICTION_KEY_ERROR_LACKS);
         f.velocity = friction_value(&t->friction, FRICTION_KEY_REFERENCE_VELOCITY).value;
         f.pressure = friction_value(&t->friction, FRICTION_KEY_PRESSURE).value;
-        f.range = range_of(&t->what_if, of_friction[i].number);
+        f.range = range_of(&t->what_if, of_friction[i].number, f.number.numerical_error);
         set_interval(&f, of_friction[i].positive);
     }
     return f;
@@ -254,7 +254,7 @@ finding finding_of_thickness(const finding_tables *t)
     f.lacks = layer_words(&t->layer, LAYER_KEY_ERROR_LACKS);
     f.velocity = layer_value(&t->layer, LAYER_KEY_VELOCITY).value;
     f.pressure = layer_value(&t->layer, LAYER_KEY_PRESSURE).value;
-    f.range = range_of(&t->what_if, thickness_of);
+    f.range = range_of(&t->what_if, thickness_of, f.number.numerical_error);
     set_interval(&f, true);
     return f;
 }

@@ -90,8 +90,11 @@ static void say_short(const answer_story *story, const char *what, const char *t
 static void short_of_missing(const answer_story *story, const char *what, flow_stage_id stage)
 {
     const flow_outcome outcome = story->plan->outcome[stage];
-    if (outcome == FLOW_FAILED || outcome == FLOW_BLOCKED)
-        say_short(story, what, "not answered");
+    if (outcome == FLOW_FAILED)
+        answer_say(story, in_short, "short", "%s: not answered: %s.", what,
+                   why_failed(story, flow_stages[stage].id));
+    else if (outcome == FLOW_BLOCKED)
+        answer_say(story, in_short, "short", "%s: not answered, for what it needs failed.", what);
 }
 
 static void short_of_friction(const answer_story *story, telling *t)

@@ -144,18 +144,18 @@ static void temperature_caveats(answer_story *story)
     const double sliding = friction_value(&story->found.friction, FRICTION_KEY_TEMPERATURE).value;
     if (story->found.friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
         if (isnan(sliding))
-            answer_caveat(story, CAVEAT_CONDITIONS,
+            answer_caveat(story, CAVEAT_FRICTION,
                           "Neither the case nor its material says a temperature: friction is that "
                           "at the temperature the material was given for.");
         else
-            answer_caveat(story, CAVEAT_CONDITIONS,
+            answer_caveat(story, CAVEAT_FRICTION,
                           "The case does not say the temperature of sliding: friction is that at "
                           "the reference temperature of the material, %s.",
                           words_of_celsius(sliding).text);
     }
     if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature.value))
         answer_caveat(
-            story, CAVEAT_CONDITIONS,
+            story, CAVEAT_MODULI,
             "The case does not say the temperature of indentation: it is compared with DMA at "
             "the reference temperature, %s.",
             words_of_celsius(
@@ -172,7 +172,7 @@ static void ratio_caveats(answer_story *story)
     if (comparison->table == NULL)
         return;
     if (isnan(track))
-        answer_caveat(story, CAVEAT_CONDITIONS,
+        answer_caveat(story, CAVEAT_VERDICT,
                       "The case does not say that the track was indented at another temperature "
                       "than the bulk: they are taken to be as warm as each other.");
     if (isnan(comparison_value(comparison, COMPARISON_KEY_MODULUS_RATIO).value))
