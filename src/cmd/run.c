@@ -23,13 +23,23 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* The answer is the data of this subcommand: it goes to standard output. */
+/* The answer is the data of this subcommand: it goes to standard output. What is folded on the page
+ * is counted here. */
 static void print_answer(const wt_result *result)
 {
     const wt_table *answer = wt_result_find(result, "answer");
     const char *last = "";
+    size_t folded = 0;
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
+        if (strcmp(wt_table_text(answer, i, ANSWER_KIND), "folded") == 0) {
+            const bool more = i + 1 < wt_table_n_rows(answer) &&
+                              strcmp(wt_table_text(answer, i + 1, ANSWER_KIND), "folded") == 0;
+            folded++;
+            if (!more)
+                printf("  %zu more: on the page and in the table answer.\n", folded);
+            continue;
+        }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;

@@ -129,7 +129,7 @@ static void test_friction_only(void **state)
     check_answer(&r, "layer", "Not asked: the case has no");
     check_answer(&r, "thickness", "no layer parameters");
     check_answer(&r, "friction", "hysteresis");
-    check_answer(&r, "caveat", "do not include the model");
+    check_answer(&r, "caveat", "shift law; not the model");
     const wt_table *cost = table_of(&r, "cost");
     assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
     assert_true(number_cell(cost, stage_row(cost, "friction"), "error_estimated") <= 1e-10);

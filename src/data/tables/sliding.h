@@ -64,7 +64,7 @@
     X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER, SHOWS(change),                  \
       HEADLINE("Change of friction by the layer"), OPTIONAL)                                       \
     X(FRICTION_KEY_RELATIVE_CHANGE, "relative_change_at_reference", NUMBER,                        \
-      SHOWS(relative_change), LABEL("Relative change at reference"), OPTIONAL)                     \
+      SHOWS(relative_change), HEADLINE("Relative change of friction by the layer"), OPTIONAL)      \
     X(FRICTION_KEY_RELATIVE_CHANGE_LOW, AS(relative_change_low), NUMBER,                           \
       LABEL("Relative change, lowest of all velocities"), OPTIONAL)                                \
     X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, AS(relative_change_high), NUMBER,                         \

@@ -231,7 +231,7 @@ static const struct {
 
 typedef struct choice_range {
     const char *words;
-    double half;
+    double low, high, half; /* of the number; half of what it is apart */
 } choice_range;
 
 /* The rows of one choice follow one another, and the first row of all is as used. Returns where the
@@ -245,7 +245,7 @@ static size_t range_of(const table_view *t, size_t row, what_if_column column, c
         low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax leave out NaN */
         high = fmax(high, what_if_get(t, row, column));
     }
-    range->half = (high - low) / 2;
+    *range = (choice_range){range->words, low, high, (high - low) / 2};
     return row;
 }
 
@@ -322,6 +322,7 @@ static void put_advice(const budget *b, setting_number k, const verdict *v, tabl
 {
     char text[640];
     const double value = fabs(b->values.number[k].value);
+    const int decimals = v->widest.half < 0.1 * value ? 1 : 0;
     size_t n = 0;
 #define SAY(...) n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
     if (v->largest == NULL)
@@ -331,9 +332,10 @@ static void put_advice(const budget *b, setting_number k, const verdict *v, tabl
         SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
             v->largest->remedy);
     if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* together may be unknown */
-        SAY(" The choice of the %s moves it by %.*f %%, %s: more of the same measurements do not "
-            "settle that.",
-            v->widest.words, v->widest.half < 0.1 * value ? 1 : 0, 100 * v->widest.half / value,
+        SAY(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
+            "measurements do not settle that.",
+            v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
+            100 * (v->widest.high / value - 1),
             v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
     if (isnan(v->numerical))

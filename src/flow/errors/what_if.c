@@ -377,17 +377,12 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
 
 static const struct {
     what_if_column value, change;
-    what_if_key key;
-    const char *unit;
 } numbers[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE, WHAT_IF_KEY_HYSTERESIS,
-                            "1"},
-    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE, WHAT_IF_KEY_AREA_RATIO,
-                            "1"},
-    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE, WHAT_IF_KEY_FRICTION, "1"},
-    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE, WHAT_IF_KEY_THICKNESS, "m"},
-    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE, WHAT_IF_KEY_WITH_LAYER,
-                            "1"}};
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE}};
 
 static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
 {
@@ -402,78 +397,6 @@ static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
     }
     what_if_put_text(t, WHAT_IF_WHY, o->choice != NULL ? o->choice->why : "");
     what_if_put_text(t, WHAT_IF_NOTE, o->note);
-}
-
-/* The settings between which a number goes by one choice. */
-typedef struct range {
-    const outcome *low, *high;   /* of the number */
-    const outcome *first, *last; /* of the value of the choice */
-} range;
-
-static double range_width(range r, size_t k)
-{
-    return r.high->number[k] - r.low->number[k];
-}
-
-static range range_of(const what_if *w, const choice *c, size_t k)
-{
-    const outcome *used = &w->outcomes[0];
-    range r = {used, used, used, used};
-    for (size_t i = 1; i < w->n; i++) {
-        const outcome *o = &w->outcomes[i];
-        if (o->choice != c || !isfinite(o->number[k]))
-            continue;
-        r.low = o->number[k] < r.low->number[k] ? o : r.low;
-        r.high = o->number[k] > r.high->number[k] ? o : r.high;
-        if (c->unit != NULL && c->value(&o->setting) < c->value(&r.first->setting))
-            r.first = o;
-        if (c->unit != NULL && c->value(&o->setting) > c->value(&r.last->setting))
-            r.last = o;
-    }
-    return r;
-}
-
-static void number_words(double value, const char *unit, char text[WORDS])
-{
-    if (unit[0] == '1')
-        short_number(value, text);
-    else if (!(value > 0))
-        snprintf(text, WORDS, "none");
-    else
-        wt_format_si(value, unit, 3, text, WORDS);
-}
-
-/* "0.08 to 0.58 if the largest wavenumber q1 lies between 2e5 and 2e7 rad/m": by the
- * choice that moves the number most. */
-static void set_range(const what_if *w, size_t k, table_writer *t)
-{
-    const choice *most = NULL;
-    range widest = {0};
-    char low[WORDS], high[WORDS], first[WORDS], last[WORDS];
-    if (!isfinite(w->outcomes[0].number[k]))
-        return;
-    for (size_t i = 0; i < COUNT_OF(choices); i++) {
-        const range r = range_of(w, &choices[i], k);
-        if (range_width(r, k) > (most != NULL ? range_width(widest, k) : 0)) {
-            most = &choices[i];
-            widest = r;
-        }
-    }
-    if (most == NULL)
-        return;
-    const bool is_number = most->unit != NULL;
-    number_words(widest.low->number[k], numbers[k].unit, low);
-    number_words(widest.high->number[k], numbers[k].unit, high);
-    if (strcmp(low, high) == 0)
-        return; /* such as a thickness that was observed */
-    name_choice(most, is_number ? &widest.first->setting : &widest.low->setting, first);
-    name_choice(most, is_number ? &widest.last->setting : &widest.high->setting, last);
-    if (is_number)
-        first[strcspn(first, " ")] = '\0'; /* the unit stands behind the other one */
-    what_if_set_print(t, numbers[k].key,
-                      is_number ? "%s to %s if the %s lies between %s and %s"
-                                : "%s to %s if the %s is %s or %s",
-                      low, high, most->words, first, last);
 }
 
 static void set_left_out(const setting *used, table_writer *t)
@@ -494,8 +417,6 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     table_writer t = table_begin(&what_if_schema, err);
     for (size_t i = 0; i < w->n; i++)
         put_outcome(w, &w->outcomes[i], &t);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
-        set_range(w, k, &t);
     set_left_out(used, &t);
     if (used->statement[0] != '\0')
         what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
