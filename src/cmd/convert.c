@@ -53,8 +53,8 @@ int cmd_convert(int argc, char **argv)
         const bool store = cmd_is_store(s.common.output);
         wt_status made = cmd_provenance(s.result, &s.err);
         if (made == WT_OK)
-            made = wt_convert_file(&job, s.files[0], &s.work, take_table, store ? take_curve : NULL, &d,
-                                   &s.err);
+            made = wt_convert_file(&job, s.files[0], &s.work, take_table, store ? take_curve : NULL,
+                                   &d, &s.err);
         if (made == WT_OK)
             made = cmd_record(&s, take_table, &d);
         if (d.sink.stream != NULL)
