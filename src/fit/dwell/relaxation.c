@@ -20,8 +20,8 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what the
- * dwell tells of ln tau; a cosine and a sine of two ripples. */
+/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what
+ * the dwell tells of ln tau; a cosine and a sine of two ripples. */
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
 enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
 /* Steps of the force within one of the means of the approach, over which the depth is linear. */
