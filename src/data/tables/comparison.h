@@ -86,6 +86,8 @@
 #define COMPARISON_KEYS(X)                                                                         \
     X(COMPARISON_KEY_DIFFERS, "differs", TEXT, LABEL("Does the wear track differ"))                \
     X(COMPARISON_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
+    X(COMPARISON_KEY_WOULD_EXPLAIN, "would_explain", TEXT,                                         \
+      LABEL("What else would make this ratio"), OPTIONAL)                                          \
     X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT)                                   \
     X(COMPARISON_KEY_RATES, "rates_compared", TEXT, LABEL("Rates compared"))                       \
     X(COMPARISON_KEY_INCLUDES, "interval_includes", TEXT, LABEL("The interval includes"),          \

@@ -11,6 +11,7 @@ typedef struct comparison_task {
     const wt_compare_job *job;
     const wt_job *work;
     compare_known known;
+    compare_unsaid unsaid;
     compare_row *rows; /* [1 + n_bins] */
 } comparison_task;
 
@@ -115,6 +116,19 @@ static void warn_two_spots(const comparison_task *task)
                     "the two spots of the %s do not tell whether they scatter more than those of "
                     "the %s; if they do, the interval is too narrow and a difference may be shown "
                     "where there is none: measure a third spot",
+                    compare_group_name[g], compare_group_name[!g]);
+}
+
+/* What a single spot does not tell is taken from the others (compare_lone in fit). */
+static void warn_one_spot(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
+        return;
+    const int g = c->n_track == 1;
+    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                    "the %s has one spot only: it is taken to scatter up to twice as much as those "
+                    "of the %s; more spots would tell",
                     compare_group_name[g], compare_group_name[!g]);
 }
 
@@ -235,14 +249,16 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
 {
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
-    const compare_verdict v =
-        compare_judge(p, task->job, &task->known, &task->rows[0], task->rows + 1, p->n_bins);
+    const compare_verdict v = compare_judge(p, task->job, &task->known, &task->unsaid,
+                                            &task->rows[0], task->rows + 1, p->n_bins);
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
     add_rows(&t, task->rows, p->n_bins + 1, v.silent, interval);
     comparison_set_text(&t, COMPARISON_KEY_DIFFERS, v.differs);
     if (v.settled_by[0] != '\0')
         comparison_set_text(&t, COMPARISON_KEY_SETTLED_BY, v.settled_by);
+    if (task->unsaid.would_explain[0] != '\0' && !v.silent)
+        comparison_set_text(&t, COMPARISON_KEY_WOULD_EXPLAIN, task->unsaid.would_explain);
     comparison_set_text(&t, COMPARISON_KEY_UNIT_OF_ANALYSIS, unit_words(p, task->job, c));
     comparison_set_text(&t, COMPARISON_KEY_RATES, rates_words(task));
     if (interval && !v.silent)
@@ -269,9 +285,12 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
     if (task.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = compare_rows(&task, err);
+    if (status == WT_OK)
+        status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
     if (status == WT_OK) {
         warn_copies(&task);
         warn_two_spots(&task);
+        warn_one_spot(&task);
         warn_rates(&task);
         status = write_table(&task, table, err);
     }
