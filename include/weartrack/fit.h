@@ -288,7 +288,8 @@ typedef enum wt_rates_by {
 /* Why there is no interval. */
 typedef enum wt_unsettled {
     WT_SETTLED,
-    WT_ONE_SPOT,    /* in a group: how the spots scatter is not known there */
+    WT_ONE_SPOT,    /* in a group, and fewer than three in the other: how spots scatter is not
+                       known */
     WT_RATES_APART, /* no rate in common and no slope */
     WT_RATES_TWIST  /* no rate in common, and the slopes of the groups differ */
 } wt_unsettled;
@@ -315,6 +316,27 @@ typedef struct wt_comparison {
     double interaction_p;    /* of the slopes of the two groups being one; NaN if not known */
 } wt_comparison;
 
+/* What curves show beside the modulus, by group. */
+typedef struct wt_sign_comparison {
+    double mean[2];          /* of the spots; NaN: none known */
+    double larger_chance[2]; /* of as much larger in this group than in the other by scatter alone
+                                (Welch, one-sided); NaN with fewer than two spots in a group */
+} wt_sign_comparison;
+/* values: [n] of each curve, those that are not finite are left out; spots: [n], NULL: each curve
+ * is a unit. */
+WT_API wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
+                                  const size_t n[2], wt_sign_comparison *signs,
+                                  wt_error *err) WT_NODISCARD;
+/* The chance of two independent tests together (Fisher 1932); of one that is NaN, of the other. */
+WT_API double wt_chance_of_both(double a, double b);
+/* A curve down to a depth [m], where the lever is bent by `bending` [m], by a pyramid or cone whose
+ * cap has another radius [m] than the stated one, fitted by the law of the stated one: ln of the
+ * modulus over the true one, and the root mean square of what is left, of the largest force. */
+typedef struct wt_worn_tip {
+    double log_modulus, misfit;
+} wt_worn_tip;
+WT_API wt_status wt_worn_tip_fit(const wt_tip *stated, double radius, double depth, double bending,
+                                 wt_worn_tip *fit, wt_error *err) WT_NODISCARD;
 /* WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. With one unit its interval
  * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,

@@ -282,12 +282,22 @@ typedef struct wt_group_data {
     double *indentation_rate;     /* [n] m/s, NaN if unknown */
     double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
     double *spectrum_factor;      /* [n] on the spectrum of the DMA, NaN if unknown */
-    wt_curve_digest *digest;      /* [n_digests] of the curves, rising */
-    size_t n_digests, n_copies;   /* how many were left out as copies */
-    const char *copy_of[2];       /* files of the first copy; borrowed from the table */
-    wt_estimate spring_constant;  /* of the table; NaN if it has none */
-    double sensitivity_gain;      /* mean of the curves, NaN if unknown */
-    wt_estimate sensitivity;      /* that was given; NaN if none was */
+    double *pull;                 /* [n] N, the largest of approach and retract; NaN if unknown */
+    double *max_force, *max_indentation; /* [n] N, m; NaN if unknown */
+    /* of all curves together: mean residual of the largest force, and the chance of more by
+     * scatter; NaN if unknown */
+    double pooled_misfit, pooled_misfit_chance;
+    /* [n_fitted] of the curves that were fitted, rejected ones too, for a misfit rejects them: cube
+     * root of the lack of fit, number of the spot (not that of the accepted ones) */
+    double *lack_of_fit;
+    long *fitted_spot;
+    size_t n_fitted;
+    wt_curve_digest *digest;     /* [n_digests] of the curves, rising */
+    size_t n_digests, n_copies;  /* how many were left out as copies */
+    const char *copy_of[2];      /* files of the first copy; borrowed from the table */
+    wt_estimate spring_constant; /* of the table; NaN if it has none */
+    double sensitivity_gain;     /* mean of the curves, NaN if unknown */
+    wt_estimate sensitivity;     /* that was given; NaN if none was */
     /* relative standard errors, NaN if not stated, and what 1 of each does to ln E, NaN if unknown
      */
     double common_error[WT_COMMON_SOURCES];

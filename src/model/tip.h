@@ -53,6 +53,9 @@ bool contact_law_holds(const wt_tip *tip, double depth);
 /* The tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);
 
+/* A pyramid or cone with a cap from the words of wt_tip_describe; false of other tips and words. */
+bool tip_from_description(const char *words, wt_tip *tip);
+
 /* The depth b^2/R below which a blunted tip is a paraboloid; infinite for a paraboloid, 0 for
  * others. */
 double contact_switch_depth(const wt_tip *tip);

@@ -140,7 +140,9 @@ static wt_status summarise_both(const wt_group *const groups[2], pool *memory, w
 
 static wt_unsettled why_unsettled(const compare_units *u)
 {
-    if (u->n[0] < 2 || u->n[1] < 2)
+    const size_t fewer = u->n[0] < u->n[1] ? u->n[0] : u->n[1],
+                 more = u->n[0] < u->n[1] ? u->n[1] : u->n[0];
+    if (fewer < 2 && (more < COMPARE_MANY_SPOTS || u->rates_by == WT_RATES_BETWEEN))
         return WT_ONE_SPOT;
     if (!u->known)
         return WT_RATES_APART;
@@ -183,7 +185,7 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
     const moments b = moments_of(u->value[1], u->n[1]);
     const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
     c->unsettled = why_unsettled(u);
-    if (c->unsettled == WT_SETTLED && !(a.variance + b.variance > 0.0)) {
+    if (c->unsettled == WT_SETTLED && !(a.variance > 0.0) && !(b.variance > 0.0)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
         wt_error_advice(err, "measured moduli scatter; are these values copies of one curve?");

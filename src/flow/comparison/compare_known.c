@@ -263,6 +263,24 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     return status;
 }
 
+wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
+                                    const wt_job *work, double *slope, wt_error *err)
+{
+    condition at = {compare_temperature(job, 0).value, mean_frequency(&p->data[0])};
+    wt_error why = WT_ERROR_INIT;
+    double y[2] = {0, 0};
+    wt_status status = WT_OK;
+    *slope = 0;
+    at.temperature -= 1;
+    if (!(at.frequency > 0) || !flow_rubber_reaches(job->rubber, at.temperature, &why) ||
+        !flow_rubber_reaches(job->rubber, at.temperature + 2, &why))
+        return WT_OK;
+    for (int i = 0; status == WT_OK && i < 2; i++, at.temperature += 2)
+        status = log_modulus(job->rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
+    *slope = status == WT_OK && isfinite(y[1] - y[0]) ? (y[1] - y[0]) / 2 : 0;
+    return status;
+}
+
 wt_estimate compare_temperature(const wt_compare_job *job, int group)
 {
     wt_estimate t = group == 1 && !isnan(job->track_temperature.value) ? job->track_temperature

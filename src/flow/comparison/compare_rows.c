@@ -13,6 +13,7 @@ typedef struct comparison_task {
     const wt_compare_job *job;
     const wt_job *work;
     compare_known known;
+    compare_unsaid unsaid;
     compare_row *rows; /* [1 + n_bins] */
 } comparison_task;
 
@@ -121,6 +122,19 @@ static void warn_two_spots(const comparison_task *task)
                     compare_group_name[g], compare_group_name[!g]);
 }
 
+/* What a single spot does not tell is taken from the others (compare_lone in fit). */
+static void warn_one_spot(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
+        return;
+    const int g = c->n_track == 1;
+    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                    "the %s has one spot only: it is taken to scatter up to twice as much as those "
+                    "of the %s; more spots would tell",
+                    compare_group_name[g], compare_group_name[!g]);
+}
+
 /* Rates in one group only are left out if there are others. */
 static void warn_rates(const comparison_task *task)
 {
@@ -206,8 +220,8 @@ static double spread_of_rates(const compare_row *rates, size_t n)
     return high > low ? (high - low) / 2 : 0;
 }
 
-TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *unit, *rates, *includes,
-           *cantilevers, *cancels;
+TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
+           *includes, *cantilevers, *cancels;
            wt_estimate margin, rate_slope, ratio;
            double interaction_p, ratio_df, calibration_share;)
 
@@ -232,14 +246,15 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
 {
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
-    const compare_verdict v =
-        compare_judge(p, task->job, &task->known, &task->rows[0], task->rows + 1, p->n_bins);
+    const compare_verdict v = compare_judge(p, task->job, &task->known, &task->unsaid,
+                                            &task->rows[0], task->rows + 1, p->n_bins);
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
     add_rows(&t, task->rows, p->n_bins + 1, v.silent, interval);
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
                             .settled_by = v.settled_by,
+                            .would_explain = v.silent ? NULL : task->unsaid.would_explain,
                             .unit = unit_words(p, task->job, c),
                             .rates = rates_words(task),
                             .includes = interval && !v.silent ? task->known.includes : NULL,
@@ -267,9 +282,12 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
     if (task.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = compare_rows(&task, err);
+    if (status == WT_OK)
+        status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
     if (status == WT_OK) {
         warn_copies(&task);
         warn_two_spots(&task);
+        warn_one_spot(&task);
         warn_rates(&task);
         status = write_table(&task, table, err);
     }

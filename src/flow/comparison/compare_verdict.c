@@ -189,8 +189,8 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
 }
 
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
-                              const compare_known *known, const compare_row *row,
-                              const compare_row *rates, size_t n_rates)
+                              const compare_known *known, const compare_unsaid *unsaid,
+                              const compare_row *row, const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
@@ -205,6 +205,13 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     const bool within = low > -margin && high < margin;
     if (within && known->lacks[0] != '\0') {
         say_lacking(job, known, &v);
+    } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
+        SAY(v.differs, "cannot say: the wear track %s, but this may be as well: %s",
+            within     ? "seems to differ by less than the margin"
+            : high < 0 ? "seems softer"
+                       : "seems stiffer",
+            unsaid->plausible);
+        SAY(v.settled_by, "%s", unsaid->settled_by);
     } else if (low > 0 || high < 0) {
         SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
             within ? ", by less than the margin" : "");
