@@ -94,8 +94,8 @@
 #define COMPARISON_KEYS(X)                                                                         \
     X(COMPARISON_KEY_DIFFERS, AS(differs), TEXT, LABEL("Does the wear track differ"))              \
     X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)    \
-    X(COMPARISON_KEY_WOULD_EXPLAIN, AS(would_explain), TEXT, \
-      LABEL("What else would make this ratio"), OPTIONAL) \
+    X(COMPARISON_KEY_WOULD_EXPLAIN, AS(would_explain), TEXT,                                       \
+      LABEL("What else would make this ratio"), OPTIONAL)                                          \
     X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT, SHOWS(unit))                      \
     X(COMPARISON_KEY_RATES, "rates_compared", TEXT, SHOWS(rates), LABEL("Rates compared"))         \
     X(COMPARISON_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                         \
