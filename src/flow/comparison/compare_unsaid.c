@@ -11,9 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Customary, of evidence that the groups differ: a difference that is not there costs a "cannot
- * say" where a yes would do, one that is not seen a wrong yes. */
+/* Customary, of evidence that one group is pulled, or has a misfit, against what was stated. */
 static const double level = 0.05;
+/* Of a misfit that few curves do not show well: one that is not there costs a "cannot say", one
+ * that is not seen a wrong yes, so that the customary error of the second kind is that of the
+ * first. */
+static const double few_level = 0.2;
 /* A heuristic: probes of 10 to 20 nm are found with 50 to 100 nm after scans over hard fillers, and
  * with more than that images show the tip instead of the sample. */
 static const double worn_radius = 100e-9;
