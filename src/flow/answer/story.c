@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Characters of an answer; longer ones are cut. */
 enum { LONGEST = 1200 };
 
 static void put(const answer_story *story, const char *question, const char *kind, const char *text)

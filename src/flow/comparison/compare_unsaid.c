@@ -128,7 +128,9 @@ static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double
                        double chance)
 {
     const bool stated = d->common_error[WT_COMMON_RADIUS] > 0 || job->tip_error > 0;
-    return stated || isnan(d->pooled_misfit) ? chance < level : d->pooled_misfit > misfit / 2;
+    if (stated)
+        return chance < level;
+    return isnan(d->pooled_misfit) ? chance < few_level : d->pooled_misfit > misfit / 2;
 }
 
 /* It is blunter in the group that seems stiffer; where none does, in the one with the misfit. */

@@ -40,12 +40,6 @@ typedef struct dwell_task {
     dwell_curve curve; /* the latest */
 } dwell_task;
 
-bool dwell_is_modulus(const wt_dwell_moduli *m)
-{
-    return m->storage.value > 0 &&
-           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
-}
-
 /* A force that pulls has no modulus, nor has a depth at which the law does not hold. */
 static double point_modulus(const dwell_task *task, const wt_dwell_point *p, double modulus)
 {

@@ -109,6 +109,12 @@ static double slope_at(const wt_contact_table *contact, double depth, double poi
     return slope / (1 - poisson * poisson);
 }
 
+bool dwell_is_modulus(const wt_dwell_moduli *m)
+{
+    return m->storage.value > 0 &&
+           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
+}
+
 static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
                              double spring_constant, const wt_indent_fit *fit, const dwell_curve *c,
                              dwell_modulated *m, wt_error *err)

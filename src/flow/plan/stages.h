@@ -86,6 +86,7 @@ typedef enum flow_extra {
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;
 
+/* What a stage takes into account beside its needs, at most: the rows of STAGES have two. */
 enum { FLOW_MOST_MORE = 2 };
 
 /* Whole or not at all: its things, the words behind the title of the stage, and in "without ...".
