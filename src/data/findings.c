@@ -287,6 +287,16 @@ bool finding_of_key(const finding_tables *t, const schema_field *key, finding *f
     return false;
 }
 
+int finding_digits(double value, double low, double high)
+{
+    enum { LEAST = 3, MOST = 6, OF_ERROR = 2 };
+    const double half = (high - low) / 2;
+    if (!(half > 0) || !isfinite(half) || !(fabs(value) > 0) || !isfinite(value))
+        return LEAST;
+    const double digits = floor(log10(fabs(value))) - floor(log10(half)) + OF_ERROR;
+    return (int)fmax(LEAST, fmin(MOST, digits));
+}
+
 /* ---- signs ----------------------------------------------------------------------------------- */
 
 static finding_sign sign_between(double low, double high, double neutral)

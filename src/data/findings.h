@@ -62,6 +62,10 @@ finding finding_of_thickness(const finding_tables *tables);
 /* The same of a key of any schema; false if it is none of them. */
 bool finding_of_key(const finding_tables *tables, const schema_field *key, finding *f);
 
+/* Digits of a number and of the ends of its interval: three, or as many as tell two of half the
+ * interval, six at most. */
+int finding_digits(double value, double low, double high);
+
 /* By the interval alone, and by all choices of the model beside it. */
 finding_sign finding_sign_measured(const finding *f);
 finding_sign finding_sign_of(const finding *f);

@@ -9,11 +9,11 @@
 #include <math.h>
 
 /* "0.59 to 0.69 MPa" in the unit of the value. */
-static void add_ends(growing_text *text, const finding *f, double low, double high)
+static void add_ends(growing_text *text, const finding *f, double low, double high, int digits)
 {
     lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
-    text_format(text, "%s to %s%s%s", NUMBER(lab_value(&lab, low), 3),
-                NUMBER(lab_value(&lab, high), 3), lab.label[0] != '\0' ? " " : "", lab.label);
+    text_format(text, "%s to %s%s%s", NUMBER(lab_value(&lab, low), digits),
+                NUMBER(lab_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "", lab.label);
 }
 
 /* An interval as statistical error, and what the choices of the model make of the number behind the
@@ -24,13 +24,13 @@ static void finding_row(page_writer *page, const char *name, const finding *f, g
     const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
                                   f->number.numerical_error, f->number.unit};
     if (isfinite(f->low) && isfinite(f->high)) {
-        add_ends(&interval, f, f->low, f->high);
+        add_ends(&interval, f, f->low, f->high, finding_digits(f->number.value, f->low, f->high));
         text_add(&interval, " (95 % interval)");
     } else
         text_add(&interval, "not known");
     if (!isnan(f->range.low)) {
         text_add(remark, remark->length > 0 ? "; " : "");
-        add_ends(remark, f, f->range.low, f->range.high);
+        add_ends(remark, f, f->range.low, f->range.high, 3);
         text_add(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));

@@ -202,6 +202,33 @@ static void test_missing_file(void **state)
     wt_result_free(r.result);
 }
 
+/* Curves that are not there: each is a failure once, and the answer says what failed, not that it
+ * was not asked for. */
+static void test_missing_curves(void **state)
+{
+    (void)state;
+    ran r = run_text(HEAD "<indentation><tip>sphere:radius=5um</tip>"
+                          "<bulk><files>no-such-bulk.txt</files></bulk>"
+                          "<track><files>no-such-track.txt</files></track></indentation>" PRONY
+                          "</case>",
+                     1);
+    const wt_table *failures = table_of(&r, "failures"), *answer = table_of(&r, "answer");
+    assert_int_equal(r.n_failed, 4); /* two files, two stages */
+    assert_string_equal(text_cell(failures, 0, "file"), "no-such-bulk.txt");
+    assert_string_equal(text_cell(failures, 1, "file"), "stage indentation_bulk");
+    assert_string_equal(text_cell(answer, 0, "answer"),
+                        "Layer (measured): not answered, for what it needs failed.");
+    check_answer(&r, "layer",
+                 "Not answered: a stage that comparison needs failed (indentation_bulk): no force "
+                 "curve could be read for \"bulk\"");
+    wt_table *headlines = NULL;
+    assert_int_equal(wt_result_headlines(r.result, &headlines, NULL), WT_OK);
+    assert_string_equal(text_cell(headlines, 0, "key"), "verdict");
+    assert_int_equal(strncmp(text_cell(headlines, 0, "words"), "Not answered: ", 14), 0);
+    wt_table_free(headlines);
+    wt_result_free(r.result);
+}
+
 /* A measured spectrum with units given in the case, cut at both ends, with its own error. */
 static void test_spectrum(void **state)
 {
@@ -269,10 +296,10 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_only), cmocka_unit_test(test_layer),
-        cmocka_unit_test(test_stand_in),      cmocka_unit_test(test_missing_file),
-        cmocka_unit_test(test_spectrum),      cmocka_unit_test(test_one_isotherm),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_friction_only),  cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_stand_in),       cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_missing_curves), cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_one_isotherm),   cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("flow run", tests, NULL, NULL);
 }

@@ -36,16 +36,36 @@ static const char *why_failed(const answer_story *story, const char *stage)
     return "the stage failed";
 }
 
+/* The stage whose failure keeps another from running: the first that failed of those that give what
+ * it takes, or that are kept from running themselves. */
+static flow_stage_id root_of(const flow_plan *plan, flow_stage_id stage, unsigned level)
+{
+    const flow_things takes = flow_needs(plan, stage, level) | flow_stages[stage].any;
+    for (size_t i = 0; i < FLOW_N_STAGES && i < (size_t)stage; i++) {
+        if ((flow_stages[i].gives & takes) == 0)
+            continue;
+        if (plan->outcome[i] == FLOW_FAILED)
+            return (flow_stage_id)i;
+        if (plan->outcome[i] == FLOW_BLOCKED)
+            return root_of(plan, (flow_stage_id)i, 0);
+    }
+    return stage;
+}
+
 /* Why something that was asked for was not given, as a sentence. */
 static void say_why_not(const answer_story *story, flow_stage_id stage, flow_outcome outcome,
                         const char *question, const char *kind)
 {
-    const char *id = flow_stages[stage].id;
+    const flow_plan *plan = story->plan;
     if (outcome == FLOW_FAILED)
-        answer_say(story, question, kind, "Not answered: %s.", why_failed(story, id));
-    else if (outcome == FLOW_BLOCKED)
-        answer_say(story, question, kind,
-                   "Not answered: a stage that %s needs failed; the table failures says why.", id);
+        answer_say(story, question, kind, "Not answered: %s.",
+                   why_failed(story, flow_stages[stage].id));
+    else if (outcome == FLOW_BLOCKED) {
+        const flow_stage_id root = root_of(plan, stage, plan->level[stage]);
+        answer_say(story, question, kind, "Not answered: a stage that %s needs failed (%s): %s.",
+                   flow_stages[stage].id, flow_stages[root].id,
+                   why_failed(story, flow_stages[root].id));
+    }
 }
 
 static void say_missing(const answer_story *story, flow_stage_id stage, const char *question,

@@ -172,7 +172,7 @@ static void ratio_caveats(answer_story *story)
     if (comparison->table == NULL)
         return;
     if (isnan(track))
-        answer_caveat(story, CAVEAT_VERDICT,
+        answer_caveat(story, CAVEAT_CONDITIONS,
                       "The case does not say that the track was indented at another temperature "
                       "than the bulk: they are taken to be as warm as each other.");
     if (isnan(comparison_value(comparison, COMPARISON_KEY_MODULUS_RATIO).value))

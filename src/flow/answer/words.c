@@ -21,7 +21,7 @@ void tell(telling *t, const char *format, ...)
     t->used += n > 0 ? (size_t)n : 0;
 }
 
-number_words words_of(double value, const char *unit)
+static number_words words_with(double value, const char *unit, int digits)
 {
     number_words words = {""};
     if (isnan(value))
@@ -29,13 +29,18 @@ number_words words_of(double value, const char *unit)
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
     else if (strcmp(unit, "1") == 0) {
-        clocale_print(words.text, sizeof words.text, "%#.3g", value);
+        clocale_print(words.text, sizeof words.text, "%#.*g", digits, value);
         const size_t length = strlen(words.text);
-        if (words.text[length - 1] == '.') /* three digits before it */
+        if (words.text[length - 1] == '.') /* all digits before it */
             words.text[length - 1] = '\0';
     } else
-        wt_format_si(value, unit, 3, words.text, sizeof words.text);
+        wt_format_si(value, unit, digits, words.text, sizeof words.text);
     return words;
+}
+
+number_words words_of(double value, const char *unit)
+{
+    return words_with(value, unit, 3);
 }
 
 number_words words_of_value(wt_estimate e)
@@ -78,14 +83,15 @@ number_words words_of_estimate(wt_estimate e)
 
 number_words words_of_known(wt_estimate e)
 {
-    number_words words = words_of_value(e);
+    const double half = NORMAL_95 * e.standard_error, low = e.value - half, high = e.value + half;
+    const int digits = finding_digits(e.value, low, high);
+    number_words words = words_with(e.value, e.unit, digits);
     telling t = {words.text, sizeof words.text, strlen(words.text)};
-    const double half = NORMAL_95 * e.standard_error;
     if (isfinite(e.value) && isnan(half))
         tell(&t, " (error not known)");
     else if (isfinite(e.value) && half > 0)
-        tell(&t, " (95 %%: %s to %s)", words_of(e.value - half, e.unit).text,
-             words_of(e.value + half, e.unit).text);
+        tell(&t, " (95 %%: %s to %s)", words_with(low, e.unit, digits).text,
+             words_with(high, e.unit, digits).text);
     return words;
 }
 
@@ -107,10 +113,10 @@ static bool is_change(const finding *f)
     return f->neutral == 0;
 }
 
-static number_words number_of_finding(const finding *f, double value)
+static number_words number_of_finding(const finding *f, double value, int digits)
 {
     if (!is_change(f) || !isfinite(value))
-        return words_of(value, f->number.unit);
+        return words_with(value, f->number.unit, digits);
     number_words words;
     clocale_print(words.text, sizeof words.text, "%+.0f %%", 100 * value);
     return words;
@@ -118,17 +124,19 @@ static number_words number_of_finding(const finding *f, double value)
 
 number_words words_of_number(const finding *f)
 {
-    return number_of_finding(f, f->number.value);
+    return number_of_finding(f, f->number.value, finding_digits(f->number.value, f->low, f->high));
 }
 
 finding_words words_of_interval(const finding *f)
 {
+    const int digits = finding_digits(f->number.value, f->low, f->high);
     finding_words words;
     if (isnan(f->low) || isnan(f->high))
         snprintf(words.text, sizeof words.text, "error not known");
     else
         clocale_print(words.text, sizeof words.text, "95 %% interval %s to %s",
-                      number_of_finding(f, f->low).text, number_of_finding(f, f->high).text);
+                      number_of_finding(f, f->low, digits).text,
+                      number_of_finding(f, f->high, digits).text);
     return words;
 }
 
@@ -137,8 +145,8 @@ finding_words words_of_range(const finding *f)
     finding_words words = {""};
     if (!isnan(f->range.low))
         clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
-                      number_of_finding(f, f->range.low).text,
-                      number_of_finding(f, f->range.high).text);
+                      number_of_finding(f, f->range.low, 3).text,
+                      number_of_finding(f, f->range.high, 3).text);
     return words;
 }
 
@@ -153,7 +161,7 @@ finding_words words_of_choices(const finding *f)
     } ends[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
     for (int i = 0; i < 2 && !isnan(r->low); i++) {
         tell(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
-             number_of_finding(f, ends[i].value).text);
+             number_of_finding(f, ends[i].value, 3).text);
         if (ends[i].choice[0] != '\0')
             tell(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
         else

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
 
+#include "base/normal.h"
+
 #include "data/force_curve.h"
 #include "model/tip.h"
 

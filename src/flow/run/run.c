@@ -26,6 +26,7 @@ PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 typedef struct conduct {
     flow_run run;
     flow_things have;
+    wt_status failure; /* of the last stage that failed */
     wt_formats *formats;
     wt_parselog *own_log;
     wt_result *result;
@@ -73,6 +74,12 @@ static bool is_listed(const conduct *d, const wt_error *failure)
     return false;
 }
 
+/* Where there are no data, less of it makes none. */
+static bool is_tried_again(const conduct *d, unsigned level)
+{
+    return level > 0 && d->failure != WT_E_EMPTY;
+}
+
 static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *because, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
@@ -97,8 +104,10 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
         return status;
     }
     plan->outcome[i] = FLOW_FAILED;
-    snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, level > 0 ? " with " : "",
-             level > 0 ? flow_stages[i].more[level - 1].words : "");
+    d->failure = status;
+    const bool again = is_tried_again(d, level);
+    snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
+             again ? flow_stages[i].more[level - 1].words : "");
     snprintf(text, sizeof text, "%s, and failed", because);
     cost_explain(d->cost, text);
     return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
@@ -119,7 +128,7 @@ static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error
     } else
         snprintf(text, sizeof text, "%s", because);
     wt_status status = run_stage(d, i, level, text, err);
-    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && level > 0) {
+    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && is_tried_again(d, level)) {
         plan->fuller[i] = FLOW_FAILED;
         level--;
         snprintf(text, sizeof text, "runs because it did not succeed with %s",
