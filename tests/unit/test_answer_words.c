@@ -16,7 +16,7 @@ static void test_values(void **state)
     } cases[] = {
         {1.1512e-6, "m", "1.15 \xc2\xb5m"},
         {-2.5e6, "Pa", "-2.50 MPa"},
-        {0.10049, "1", "0.1"},
+        {0.10049, "1", "0.100"},
         {1.23456, "1", "1.23"},
         {-0.0456, "1", "-0.0456"},
         {(double)NAN, "m", "not known"},
@@ -51,7 +51,7 @@ static void test_errors(void **state)
         {(double)NAN, (double)NAN, "m", "not known"},
         {(double)NAN, 0.1, "m", "not known"},
         {(double)INFINITY, (double)NAN, "m", "without limit"},
-        {0.5, (double)INFINITY, "1", "0.5"},
+        {0.5, (double)INFINITY, "1", "0.500"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const wt_estimate e = {cases[i].value, cases[i].error, 0, cases[i].unit};
