@@ -108,7 +108,6 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* of the contact only indentations from this on [m] */
     double fit_force_from;          /* and forces from this on [N] */
     double fit_force_fraction_from; /* and from this share of the largest on */
-    uint64_t reserved[1];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -233,11 +232,6 @@ typedef enum wt_depth_verdict {
     WT_DEPTH_OTHERWISE, /* there is a residual, but not that of a modulus that changes with depth */
 } wt_depth_verdict;
 
-/* With its 95 % interval; standard_error is half its width over 1.96. */
-typedef struct wt_interval {
-    double value, standard_error, low, high;
-} wt_interval;
-
 enum { WT_DEPTHS = 5 };
 typedef struct wt_curve_depth {
     size_t n, n_units; /* curves; spots, or curves where fewer than three spots are */
@@ -273,7 +267,6 @@ typedef struct wt_group {
     const long *rate_class; /* [n], with `rate`: what of both groups is the same nominal rate */
     size_t n;
     size_t n_rejected;
-    uint64_t reserved[6];
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -295,7 +288,8 @@ typedef enum wt_rates_by {
 /* Why there is no interval. */
 typedef enum wt_unsettled {
     WT_SETTLED,
-    WT_ONE_SPOT,    /* in a group: how the spots scatter is not known there */
+    WT_ONE_SPOT,    /* in a group, and fewer than three in the other: how spots scatter is not
+                       known */
     WT_RATES_APART, /* no rate in common and no slope */
     WT_RATES_TWIST  /* no rate in common, and the slopes of the groups differ */
 } wt_unsettled;
@@ -322,6 +316,27 @@ typedef struct wt_comparison {
     double interaction_p;    /* of the slopes of the two groups being one; NaN if not known */
 } wt_comparison;
 
+/* What curves show beside the modulus, by group. */
+typedef struct wt_sign_comparison {
+    double mean[2];          /* of the spots; NaN: none known */
+    double larger_chance[2]; /* of as much larger in this group than in the other by scatter alone
+                                (Welch, one-sided); NaN with fewer than two spots in a group */
+} wt_sign_comparison;
+/* values: [n] of each curve, those that are not finite are left out; spots: [n], NULL: each curve
+ * is a unit. */
+WT_API wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
+                                  const size_t n[2], wt_sign_comparison *signs,
+                                  wt_error *err) WT_NODISCARD;
+/* The chance of two independent tests together (Fisher 1932); of one that is NaN, of the other. */
+WT_API double wt_chance_of_both(double a, double b);
+/* A curve down to a depth [m], where the lever is bent by `bending` [m], by a pyramid or cone whose
+ * cap has another radius [m] than the stated one, fitted by the law of the stated one: ln of the
+ * modulus over the true one, and the root mean square of what is left, of the largest force. */
+typedef struct wt_worn_tip {
+    double log_modulus, misfit;
+} wt_worn_tip;
+WT_API wt_status wt_worn_tip_fit(const wt_tip *stated, double radius, double depth, double bending,
+                                 wt_worn_tip *fit, wt_error *err) WT_NODISCARD;
 /* WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. With one unit its interval
  * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
@@ -408,7 +423,6 @@ typedef struct wt_dwell_history {
     double contact_point, modulus; /* of a fit of the approach, to begin with; [m], [Pa] */
     double baseline_offset;        /* likewise [N] */
     wt_estimate baseline_tilt;     /* likewise [N/m] */
-    uint64_t reserved[4];
 } wt_dwell_history;
 
 /* A mean of the dwell. */
@@ -480,7 +494,6 @@ WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_
 /* The part of the contact by which the slope is measured: shares of the rise of the signal. */
 typedef struct wt_slope_options {
     double from, to;
-    uint64_t reserved[6];
 } wt_slope_options;
 WT_API wt_slope_options wt_slope_defaults(void);
 WT_API const wt_params *wt_slope_params(void);
@@ -537,6 +550,24 @@ WT_API wt_status wt_thermal_fit(const double *frequency, const double *density, 
                                 double from, double to, wt_thermal *thermal,
                                 wt_error *err) WT_NODISCARD;
 
+/* ---- Sader's method -------------------------------------------------------------------------- */
+
+typedef enum wt_medium { WT_MEDIUM_AIR, WT_MEDIUM_WATER } wt_medium;
+typedef struct wt_fluid {
+    double density, viscosity; /* [kg/m^3], [Pa s] */
+} wt_fluid;
+/* Dry air at 1013.25 hPa or water at a temperature [K]; NaN for water that is not liquid. */
+WT_API wt_fluid wt_fluid_at(wt_medium medium, double temperature);
+/* Of a rectangular blade at the Reynolds number density omega width^2 / (4 viscosity), above 0
+ * (Sader, J. Appl. Phys. 84 (1998) 64). */
+WT_API void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary);
+/* k = 0.1906 density width^2 length Q Im Gamma omega^2 of a rectangular lever much longer than wide
+ * (Sader, Chon and Mulvaney, Rev. Sci. Instrum. 70 (1999) 3967) from SI values above 0, its error
+ * by theirs. */
+WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate width,
+                                            wt_estimate resonance, wt_estimate quality,
+                                            wt_fluid fluid);
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {
@@ -570,7 +601,6 @@ typedef struct wt_master_options {
     bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
     wt_shift_by shift_by;    /* default MODULI */
     wt_reference_at reference_at;
-    uint64_t reserved[7];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);

@@ -44,8 +44,17 @@ double thin_sample_reach(const wt_tip *tip, double delta);
 /* What the base makes of G and slope of a half-space; no curvature. */
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space);
 
+/* Of a depth over the radius of a sphere, paraboloid or punch: up to it the contact law holds.
+ * Strains are of the order of 1 there, and a sphere's paraboloid is 11 % off. */
+#define ROUND_TIP_REACH 1.0
+/* Whether the contact law of a tip holds at a depth, on a thin sample too. */
+bool contact_law_holds(const wt_tip *tip, double depth);
+
 /* The tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);
+
+/* A pyramid or cone with a cap from the words of wt_tip_describe; false of other tips and words. */
+bool tip_from_description(const char *words, wt_tip *tip);
 
 /* The depth b^2/R below which a blunted tip is a paraboloid; infinite for a paraboloid, 0 for
  * others. */

@@ -27,7 +27,7 @@ static const struct {
 };
 enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
-enum { LIST = 256 };
+enum { LIST = 256 }; /* letters of a list of words */
 
 /* "a, b or c": adds one more word, of which `after` follow. */
 static void add_word(char list[LIST], const char *word, size_t after)
@@ -216,4 +216,34 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
                            radius, tip->unbonded ? "sliding on" : "bonded to");
     }
     return length > 0 ? (size_t)length : 0;
+}
+
+/* What stands behind a word, up to a comma or the end, as a quantity; false if it is none. */
+static bool described(const char *words, const char *word, const char *unit, wt_quantity quantity,
+                      double *value)
+{
+    char text[48];
+    const char *at = strstr(words, word);
+    if (at == NULL)
+        return false;
+    at += strlen(word);
+    const size_t n = strcspn(at, unit[0] != '\0' ? " " : ",;");
+    if (n + strlen(unit) >= sizeof text)
+        return false;
+    snprintf(text, sizeof text, "%.*s%s", (int)n, at, unit);
+    return wt_quantity_parse(text, quantity, value, NULL) == WT_OK;
+}
+
+bool tip_from_description(const char *words, wt_tip *tip)
+{
+    double sides = 0;
+    const bool cone = strncmp(words, "blunted cone, ", 14) == 0;
+    *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID};
+    if (!(cone || described(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
+        !described(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
+        !described(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
+        !described(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
+        return false;
+    tip->sides = (unsigned)sides;
+    return wt_tip_check(tip, NULL) == WT_OK;
 }

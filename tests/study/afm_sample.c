@@ -62,10 +62,10 @@ static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, do
         const double a = out || base > 0 ? jkr_radius(&law, k, base) : 0;
         return a > 0 ? jkr_force(&law, a) : 0;
     }
-    const double pull = 2 * M_PI * w * tip->radius;
+    const double pull = s->pull > 0 ? s->pull : 2 * M_PI * w * tip->radius;
     double low = 0, high = 1e-9;
-    if (base + pull / k <= 0 || (!out && base <= 0))
-        return 0;
+    if (base + pull / k <= 0 || (!out && base <= 0)) /* the lever's own bending there left out */
+        return s->reach > 0 ? -pull * exp((out ? base + pull / k : base) / s->reach) : 0;
 #define BASE(a) (tip_depth(tip, a) + (layer_reduced(s, a) * tip_force(tip, a) - pull) / k)
     while (BASE(high) < base)
         high *= 2;

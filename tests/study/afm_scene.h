@@ -32,6 +32,8 @@ typedef struct afm_scene {
     afm_noise kind;
     double work, work_out; /* of adhesion on the way in and out [J/m^2] */
     bool dmt;              /* a pull of 2 pi w R without long contact, else JKR */
+    double pull, reach;    /* the same pull in both ways [N], which falls off with the distance as
+                              exp(-gap/reach) [m]; 0: none, and at contact */
     afm_loss loss;
     double tan_delta;                    /* at 1/t_c */
     double dma;                          /* the spectrum is given, as if it were 1/dma of it */

@@ -39,12 +39,14 @@ static afm_sample *make_sample(const lever_scene *s, int zone, const calibration
 {
     const double ratio = s->ratio > 0 ? s->ratio : usual_ratio,
                  scatter = s->scatter > 0 ? s->scatter : usual_scatter;
-    *here = (afm_scene){.noise = 0.005,
+    *here = (afm_scene){.noise = s->noise > 0 ? s->noise : 0.005,
                         .modulus = bulk_modulus * (zone > 0 ? ratio : 1) *
                                    exp(scatter * random_normal(random)),
                         .spring_constant = c->stated * c->lever,
-                        .radius_factor = c->radius,
+                        .radius_factor = c->radius * (zone > 0 && s->worn > 0 ? s->worn : 1),
                         .angle_factor = c->angle,
+                        .pull = zone > 0 ? s->pull : 0,
+                        .reach = s->reach,
                         .depth = s->depth[zone]};
     afm_sample *sample = afm_sample_make(here);
     const double as_stated = 1 / (c->lever * c->sensitivity);

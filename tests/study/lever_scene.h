@@ -14,7 +14,10 @@ typedef struct lever_scene {
     double spring_constant;                   /* 0: 0.5 N/m */
     double depth[2];                          /* bulk and track [m]; 0: 70 nm */
     double scatter;                           /* of spots; 0: 0.04 */
+    double noise;                             /* of the largest force; 0: 0.005 */
     bool two;                                 /* levers */
+    double worn;        /* radius of the tip in the track over that in the bulk, unsaid; 0: 1 */
+    double pull, reach; /* in the track only, as in afm_scene */
 } lever_scene;
 
 extern const lever_scene lever_scenes[];

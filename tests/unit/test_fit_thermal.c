@@ -135,10 +135,52 @@ static void test_misfit(void **state)
     assert_true(drawn(&s, &seed).chance < 1e-6);
 }
 
+/* Values by the power series of the Bessel functions; levers of table 1 of Sader, Chon and Mulvaney
+ * 1999, the first of 0.157 N/m. */
+static void test_sader(void **state)
+{
+    (void)state;
+    static const double gamma[][3] = {{0.01, 41.643048409891676, 140.65737551031637},
+                                      {0.1, 10.484879689242149, 21.827531221369203},
+                                      {1, 3.7339594930468185, 4.074610833672525},
+                                      {10, 1.9183181062502703, 0.981621970168545},
+                                      {30, 1.5585699550440055, 0.5424380465733218}};
+    static const double levers[][5] = {{397e-6, 29e-6, 17.36e3, 55.5, 0.1573065202661381},
+                                       {197e-6, 29e-6, 69.87e3, 136, 1.3034645388562758},
+                                       {77e-6, 20e-6, 64.26e3, 60.3, 0.15014736040721197}};
+    const wt_fluid air = {1.18, 1.86e-5};
+    for (size_t i = 0; i < sizeof gamma / sizeof *gamma; i++) {
+        double real, imaginary;
+        wt_hydrodynamic_function(gamma[i][0], &real, &imaginary);
+        assert_near(real, gamma[i][1], 1e-11);
+        assert_near(imaginary, gamma[i][2], 1e-11);
+    }
+    for (size_t i = 0; i < sizeof levers / sizeof *levers; i++) {
+        const double *l = levers[i];
+        const wt_estimate length = {l[0], 0, 0, "m"}, width = {l[1], 0, 0, "m"},
+                          f = {l[2], 0, 0, "Hz"}, q = {l[3], 0, 0, "1"};
+        assert_near(wt_sader_spring_constant(length, width, f, q, air).value, l[4], 1e-10);
+    }
+    /* Errors: those of length and quality as they are, of the width by what it does. */
+    const wt_estimate length = {397e-6, 397e-8, 0, "m"}, width = {29e-6, 29e-8, 0, "m"},
+                      wider = {29.29e-6, 0, 0, "m"}, f = {17.36e3, 0, 0, "Hz"},
+                      q = {55.5, 0.555, 0, "1"};
+    const wt_estimate k = wt_sader_spring_constant(length, width, f, q, air),
+                      other = wt_sader_spring_constant(length, wider, f, q, air);
+    const double by_width = other.value / k.value - 1;
+    assert_near(k.standard_error / k.value, sqrt(2e-4 + by_width * by_width), 0.01);
+    /* air and water of the tables */
+    assert_near(wt_fluid_at(WT_MEDIUM_AIR, 298.15).density, 1.184, 0.002);
+    assert_near(wt_fluid_at(WT_MEDIUM_AIR, 298.15).viscosity, 1.845e-5, 0.01);
+    assert_near(wt_fluid_at(WT_MEDIUM_WATER, 298.15).density, 997.047, 1e-5);
+    assert_near(wt_fluid_at(WT_MEDIUM_WATER, 298.15).viscosity, 890.0e-6, 1e-3);
+    assert_true(isnan(wt_fluid_at(WT_MEDIUM_WATER, 260).density));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_truth),
                                        cmocka_unit_test(test_coverage),
-                                       cmocka_unit_test(test_misfit)};
+                                       cmocka_unit_test(test_misfit), cmocka_unit_test(test_sader)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

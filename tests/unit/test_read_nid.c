@@ -416,6 +416,57 @@ static void no_samples(void **state)
 
 /* ---- measured files, where present -------------------------------------------------------- */
 
+/* A complete scan that went down ends at line 0; one that was stopped has lines of one value. */
+static void stopped_scans(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t missed, flat_from, flat_to;
+        const char *warning;
+    } scans[] = {{0, 0, 0, NULL},
+                 {3, 0, 0, NULL},
+                 {1, 3, 4, "scan was stopped at line 2: 1 of 4 lines were not measured"},
+                 {2, 0, 1, "scan was stopped at line 1: 1 of 4 lines were not measured"},
+                 {2, 3, 4, NULL},
+                 {3, 0, 4, NULL}};
+    for (size_t k = 0; k < sizeof scans / sizeof scans[0]; k++) {
+        double heights[4 * 8];
+        for (size_t i = 0; i < 32; i++)
+            heights[i] =
+                i / 8 >= scans[k].flat_from && i / 8 < scans[k].flat_to ? 0 : ldexp((double)i, -30);
+        const nid_writer_channel channel = {1,  "Z-Axis", "m", -ldexp(1, -20), ldexp(1, -19),
+                                            16, heights};
+        const nid_writer_group scan = {.name = "Scan forward",
+                                       .points = 8,
+                                       .lines = 4,
+                                       .missed = scans[k].missed,
+                                       .x_name = "X*",
+                                       .x_unit = "m",
+                                       .y_name = "Y*",
+                                       .y_unit = "m",
+                                       .x_range = 8e-6,
+                                       .y_range = 4e-6,
+                                       .n_channels = 1,
+                                       .channels = &channel};
+        nid_writer_file f = nid_writer_defaults();
+        f.path = path;
+        f.n_groups = 1;
+        f.groups = &scan;
+        assert_int_equal(nid_write(&f), 0);
+        reading r;
+        wt_image *images = NULL;
+        size_t n = 0;
+        open_input(&r, path);
+        assert_int_equal(wt_images_read(formats, r.input, NULL, r.log, &images, &n, &r.err), WT_OK);
+        assert_int_equal(wt_parselog_count(r.log), scans[k].warning != NULL ? 1 : 0);
+        if (scans[k].warning != NULL)
+            assert_string_equal(wt_parselog_get(r.log, 0).text, scans[k].warning);
+        wt_image_clear(&images[0]);
+        free(images);
+        close_all(&r);
+    }
+}
+
 static wt_image *read_shared(const char *name, size_t *n)
 {
     wt_image *images = NULL;
@@ -527,6 +578,7 @@ int main(void)
         cmocka_unit_test(listed_positions),
         cmocka_unit_test(described),
         cmocka_unit_test(image_with_known_rows),
+        cmocka_unit_test(stopped_scans),
         cmocka_unit_test(sizes_must_add_up),
         cmocka_unit_test(no_samples),
         cmocka_unit_test(measured_thermal_spectrum),

@@ -95,7 +95,7 @@ static void put_channel(const nid_writer_group *g, size_t number, const nid_writ
 {
     fprintf(out, "[DataSet-%zu:%zu]\r\nVersion=%d\r\nPoints=%zu\r\nLines=%zu\r\nFrame=%s\r\n",
             number, c->slot, g->line_points != NULL ? 3 : 2, g->points, g->lines, g->name);
-    fprintf(out, "CurLine=%zu\r\n", g->lines - 1);
+    fprintf(out, "CurLine=%zu\r\n", g->lines - 1 - g->missed);
     fprintf(out, "Dim0Name=%s\r\nDim0Unit=%s\r\nDim0Range=%.17g\r\nDim0Min=0\r\n", g->x_name,
             g->x_unit, g->x_range);
     fprintf(out, "Dim1Name=%s\r\nDim1Unit=%s\r\nDim1Range=%.17g\r\nDim1Min=0\r\n", g->y_name,

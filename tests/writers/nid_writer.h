@@ -19,6 +19,7 @@ typedef struct nid_writer_channel {
 typedef struct nid_writer_group {
     const char *name; /* "Scan forward", "Spec backward", ... */
     size_t points, lines;
+    size_t missed; /* lines that CurLine says were not scanned, from the top; 0 = none */
     const size_t *line_points; /* [lines] for version 3, NULL for version 2 */
     const char *x_name, *x_unit, *y_name, *y_unit;
     double x_range, y_range;

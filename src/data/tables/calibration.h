@@ -40,14 +40,17 @@
     X(SENSITIVITY_UNITS, "n_units", "files, or curves where fewer than three files are", NUMBER,   \
       LABEL("Units"))                                                                              \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_VALUE, "sensitivity", "deflection sensitivity",             \
-                        SI(SENSITIVITY), "Deflection sensitivity")                                 \
+                        SI(SENSITIVITY), "Deflection sensitivity", .member = NULL)                 \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_FACTOR, "factor", "sensitivity over that of the file",      \
-                        NUMBER, "Over that of the file")                                           \
+                        NUMBER, "Over that of the file", .member = NULL)                           \
     X(SENSITIVITY_SCATTER, "scatter", "standard deviation of a unit, of the sensitivity", NUMBER,  \
       LABEL("Scatter"), DIGITS(2), SPARSE)                                                         \
+    X(SENSITIVITY_WAYS_ERROR, "ways_error",                                                        \
+      "part of the standard error by the difference of approach and retract, of the sensitivity",  \
+      NUMBER, LABEL("Of it by the ways"), DIGITS(2), SPARSE)                                       \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_CHANGE, "slope_change",                                     \
                         "change of the slope from end to end of the part, of the slope", NUMBER,   \
-                        "Change of the slope")                                                     \
+                        "Change of the slope", .member = NULL)                                     \
     X(SENSITIVITY_SHARE, "surface_share",                                                          \
       "share of the sensitivity that a surface like a sphere's contact may add, by the upper end " \
       "of the change of the slope",                                                                \
@@ -75,13 +78,13 @@
 #define THERMAL_COLUMNS(X)                                                                         \
     X(THERMAL_FILE, "file", "file of the spectrum", TEXT, LABEL("File"))                           \
     NUMBER_AND_INTERVAL(X, THERMAL_SPRING_CONSTANT, "spring_constant", "spring constant",          \
-                        SI(SPRING_CONSTANT), "Spring constant")                                    \
+                        SI(SPRING_CONSTANT), "Spring constant", .member = NULL)                    \
     X(THERMAL_FIT_ERROR, "fit_error", "standard error by the scatter of the spectrum, of it",      \
       NUMBER, LABEL("Of it by the fit"), DIGITS(2), SPARSE)                                        \
     NUMBER_AND_INTERVAL(X, THERMAL_RESONANCE, "resonance", "resonance", SI(FREQUENCY),             \
-                        "Resonance")                                                               \
+                        "Resonance", .member = NULL)                                               \
     NUMBER_AND_INTERVAL(X, THERMAL_QUALITY, "quality_factor", "quality factor", NUMBER,            \
-                        "Quality factor")                                                          \
+                        "Quality factor", .member = NULL)                                          \
     X(THERMAL_DEFLECTION, "deflection", "root mean square of the deflection as measured",          \
       SI(DEFLECTION), LABEL("Deflection"), SPARSE)                                                 \
     X(THERMAL_FLOOR, "floor", "density of the white floor", SI(SPECTRAL_DENSITY), SPARSE)          \
@@ -90,6 +93,13 @@
     X(THERMAL_OF_FILE, "spring_constant_of_file", "spring constant that the file says",            \
       SI(SPRING_CONSTANT), LABEL("Of the file"), SPARSE)                                           \
     X(THERMAL_RATIO, "ratio", "spring constant over that of the file", NUMBER, LABEL("Ratio"),     \
+      SPARSE)                                                                                      \
+    X(THERMAL_SADER, "sader_spring_constant",                                                      \
+      "spring constant by Sader's method, of resonance and quality factor", SI(SPRING_CONSTANT),   \
+      LABEL("By Sader's method"), STANDARD_ERROR(THERMAL_SADER), SPARSE)                           \
+    X(THERMAL_SADER_STANDARD_ERROR, "sader_spring_constant_standard_error",                        \
+      "its standard error, as far as those of its values are known", SI(SPRING_CONSTANT), SPARSE)  \
+    X(THERMAL_SADER_RATIO, "sader_ratio", "spring constant over that by Sader's method", NUMBER,   \
       SPARSE)                                                                                      \
     X(THERMAL_FROM, "fit_from", "range of the fit", SI(FREQUENCY), SPARSE)                         \
     X(THERMAL_TO, "fit_to", "its end", SI(FREQUENCY), SPARSE)                                      \
@@ -110,6 +120,7 @@
     X(THERMAL_KEY_INCLUDES, "includes", TEXT)                                                      \
     X(THERMAL_KEY_INDENT, "indent_option", TEXT, OPTIONAL)                                         \
     X(THERMAL_KEY_COMPARE, "compare_option", TEXT, OPTIONAL)                                       \
+    X(THERMAL_KEY_CONTRADICTION, "contradiction", TEXT, LABEL("Not to be used"), OPTIONAL)         \
     X(THERMAL_KEY_N_SPECTRA, "n_spectra", PLAIN)
 
 #endif

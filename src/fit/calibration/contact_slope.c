@@ -13,9 +13,9 @@
 #include <stdlib.h>
 
 /* Most and least blocks of the part, and how many samples each shall have; the fit through their
- * means has three parameters. Samples of a curve at least, and which share of them is its far end;
- * the share of the baseline that is taken for its tilt, which must be as long as the part. The
- * least rise, in standard deviations of the noise. */
+ * means has three parameters: seven degrees of freedom tell the scatter to a quarter, three are the
+ * fewest that tell it. Samples of a curve at least, of which the far end is a tenth, four; curves
+ * that tell a scatter. */
 enum {
     BLOCKS = 10,
     LEAST_BLOCKS = 6,
@@ -26,7 +26,16 @@ enum {
     FAR_SHARE = 10,
     LEAST_UNITS = 3
 };
-static const double baseline_share = 0.6, least_rise = 20, level = 0.975;
+/* The share of the baseline that is taken for its tilt, which must be as long as the part: what is
+ * left keeps long-range forces and the wave of an interference out of it. Chosen; half of it tells
+ * the tilt nearly three times worse. */
+static const double baseline_share = 0.6;
+/* The least rise, in standard deviations of the noise: from there on a slope is told to some per
+ * cent. */
+static const double least_rise = 20;
+/* Intervals of 95 %. */
+static const double level = 0.975;
+/* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)
@@ -53,7 +62,7 @@ typedef struct samples {
     size_t n;
 } samples;
 
-static double mean(const double *values, size_t n)
+static double mean_of(const double *values, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -61,7 +70,7 @@ static double mean(const double *values, size_t n)
     return sum / (double)n;
 }
 
-static void turn(double *values, size_t n)
+static void reverse_order(double *values, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         const double kept = values[i];
@@ -70,7 +79,7 @@ static void turn(double *values, size_t n)
     }
 }
 
-static void take(samples *s, const double *position, const double *signal, size_t n)
+static void take_samples(samples *s, const double *position, const double *signal, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (isfinite(position[i]) && isfinite(signal[i])) {
@@ -78,9 +87,9 @@ static void take(samples *s, const double *position, const double *signal, size_
             s->v[s->n++] = signal[i];
         }
     const size_t end = s->n / FAR_SHARE;
-    if (end > 0 && mean(s->v, end) > mean(s->v + s->n - end, end)) {
-        turn(s->z, s->n);
-        turn(s->v, s->n);
+    if (end > 0 && mean_of(s->v, end) > mean_of(s->v + s->n - end, end)) {
+        reverse_order(s->z, s->n);
+        reverse_order(s->v, s->n);
     }
 }
 
@@ -109,7 +118,7 @@ typedef struct line {
 
 static line line_through(const double *z, const double *v, size_t n)
 {
-    line l = {mean(z, n), mean(v, n), 0};
+    line l = {mean_of(z, n), mean_of(v, n), 0};
     double zz = 0, zv = 0;
     for (size_t i = 0; i < n; i++) {
         zz += (z[i] - l.z) * (z[i] - l.z);
@@ -181,8 +190,8 @@ static double baseline_tilt(const samples *s, const part *p, double *standard_er
         return (double)NAN;
     for (size_t b = 0; b < BLOCKS; b++) {
         const size_t first = n * b / BLOCKS, length = n * (b + 1) / BLOCKS - first;
-        z[b] = mean(s->z + first, length);
-        v[b] = mean(s->v + first, length);
+        z[b] = mean_of(s->z + first, length);
+        v[b] = mean_of(s->v + first, length);
     }
     const line l = line_through(z, v, BLOCKS);
     for (size_t b = 0; b < BLOCKS; b++) {
@@ -204,10 +213,10 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     double z[BLOCKS], v[BLOCKS], zz = 0, zzz = 0, zv = 0, qq = 0, qv = 0, left = 0;
     for (size_t b = 0; b < n; b++) {
         const size_t first = p->n * b / n, end = p->n * (b + 1) / n;
-        z[b] = mean(s->z + p->first + first, end - first);
-        v[b] = mean(s->v + p->first + first, end - first);
+        z[b] = mean_of(s->z + p->first + first, end - first);
+        v[b] = mean_of(s->v + p->first + first, end - first);
     }
-    const double z0 = mean(z, n), v0 = mean(v, n);
+    const double z0 = mean_of(z, n), v0 = mean_of(v, n);
     for (size_t b = 0; b < n; b++) {
         z[b] -= z0;
         v[b] -= v0;
@@ -236,7 +245,7 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     c->change_error = 2 * sqrt(variance / qq) * c->travel / slope;
 }
 
-static double residual(const samples *s, const part *p)
+static double line_residual(const samples *s, const part *p)
 {
     const line l = line_through(s->z + p->first, s->v + p->first, p->n);
     double squares = 0;
@@ -250,7 +259,7 @@ static double residual(const samples *s, const part *p)
 static void measure_part(const samples *s, const part *p, double rise, wt_contact_slope *c)
 {
     c->n = p->n;
-    c->misfit = residual(s, p) / rise;
+    c->misfit = line_residual(s, p) / rise;
     fit_blocks(s, p, c);
     double tilt_error = 0;
     const double tilt = baseline_tilt(s, p, &tilt_error), own = c->slope;
@@ -263,7 +272,7 @@ static void measure_part(const samples *s, const part *p, double rise, wt_contac
     c->change_error *= own / c->slope;
 }
 
-static void measure(samples *s, const wt_slope_options *options, wt_contact_slope *c)
+static void measure_slope(samples *s, const wt_slope_options *options, wt_contact_slope *c)
 {
     if (s->n < CURVE_LEAST) {
         snprintf(c->why_not, sizeof c->why_not, "%zu samples, at least %d are needed", s->n,
@@ -326,8 +335,8 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
     if (room == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
     samples s = {.z = room, .v = room + n + 1, .scratch = room + 2 * (n + 1)};
-    take(&s, position, signal, n);
-    measure(&s, options, slope);
+    take_samples(&s, position, signal, n);
+    measure_slope(&s, options, slope);
     free(room);
     return WT_OK;
 }
@@ -342,7 +351,7 @@ static double unit_mean(const double *values, const long *units, size_t n, size_
     do
         ++*at;
     while (units != NULL && *at < n && units[*at] == units[first]);
-    return mean(values + first, *at - first);
+    return mean_of(values + first, *at - first);
 }
 
 static size_t count_units(const double *values, const long *units, size_t n, double *sum)

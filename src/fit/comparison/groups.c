@@ -79,8 +79,8 @@ static wt_status make_units(const wt_group *group, bool use_spots, pool *memory,
     return WT_OK;
 }
 
-static wt_status summarise(const wt_group *group, const units *u, pool *memory,
-                           wt_group_summary *summary, wt_error *err)
+static wt_status summarise_group(const wt_group *group, const units *u, pool *memory,
+                                 wt_group_summary *summary, wt_error *err)
 {
     double *sorted = pool_numbers(memory, group->n);
     if (sorted == NULL)
@@ -115,7 +115,7 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
     pool memory = {0};
     wt_status status = make_units(group, group->spot != NULL, &memory, &u, err);
     if (status == WT_OK)
-        status = summarise(group, &u, &memory, summary, err);
+        status = summarise_group(group, &u, &memory, summary, err);
     pool_free(&memory);
     return status;
 }
@@ -133,14 +133,16 @@ static wt_status summarise_both(const wt_group *const groups[2], pool *memory, w
         units u;
         status = make_units(groups[g], c->by_spot, memory, &u, err);
         if (status == WT_OK)
-            status = summarise(groups[g], &u, memory, summaries[g], err);
+            status = summarise_group(groups[g], &u, memory, summaries[g], err);
     }
     return status;
 }
 
 static wt_unsettled why_unsettled(const compare_units *u)
 {
-    if (u->n[0] < 2 || u->n[1] < 2)
+    const size_t fewer = u->n[0] < u->n[1] ? u->n[0] : u->n[1],
+                 more = u->n[0] < u->n[1] ? u->n[1] : u->n[0];
+    if (fewer < 2 && (more < COMPARE_MANY_SPOTS || u->rates_by == WT_RATES_BETWEEN))
         return WT_ONE_SPOT;
     if (!u->known)
         return WT_RATES_APART;
@@ -183,7 +185,7 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
     const moments b = moments_of(u->value[1], u->n[1]);
     const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
     c->unsettled = why_unsettled(u);
-    if (c->unsettled == WT_SETTLED && !(a.variance + b.variance > 0.0)) {
+    if (c->unsettled == WT_SETTLED && !(a.variance > 0.0) && !(b.variance > 0.0)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
         wt_error_advice(err, "measured moduli scatter; are these values copies of one curve?");

@@ -22,8 +22,10 @@ typedef struct compare_units {
 wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, pool *memory,
                              compare_units *units, wt_error *err) WT_NODISCARD;
 
-/* Of the difference of two means, each of two units or more; `shift` adds to it, and `known` as a
- * normal variance. */
+/* One spot against so many or more: from three on they tell how much spots scatter. */
+enum { COMPARE_MANY_SPOTS = 3 };
+/* Of the difference of two means, one of them of two units or more; `shift` adds to it, and `known`
+ * as a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);
 wt_status compare_ranks(const compare_units *units, pool *memory, wt_comparison *result,
                         wt_error *err) WT_NODISCARD;

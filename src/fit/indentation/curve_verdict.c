@@ -19,9 +19,6 @@ static const double told_gain = 1000.0;    /* of it, in words */
 static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
 static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
 static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against the fit */
-/* In radii of a sphere, paraboloid or punch: strains of 1. A sphere's paraboloid is 11 % off there.
- */
-static const double deepest_round = 1.0;
 enum { BEND_BLOCKS = 16 };
 static const double least_bias = 0.005; /* of a modulus by loss, to be said */
 /* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
@@ -201,11 +198,10 @@ static bool is_too_deep(const curve_fitting *f, char reason[160])
 {
     const double depth = f->solution.max_indentation;
     const wt_tip *tip = contact_table_tip(f->table);
-    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
     const double reach = thin_sample_reach(tip, depth);
-    if (!faced && depth > deepest_round * tip->radius) {
+    if (!contact_law_holds(tip, depth) && !(reach > THIN_SAMPLE_REACH)) {
         curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
-                  curve_si(depth, "m").words, depth / tip->radius, deepest_round);
+                  curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
         return true;
     }
     if (reach > THIN_SAMPLE_REACH)

@@ -9,12 +9,13 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
+/* Change along the steepest isotherm over that along the one to start from: from there on the other
+ * tells shifts with half the error, for that is noise over slope. */
 static const double much_steeper = 2.0;
 
 /* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
  */
-static double steeper(const master_work *work)
+static double steeper_reference(const master_work *work)
 {
     const shift_set *set = &work->set;
     size_t steepest = work->anchor;
@@ -200,7 +201,7 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = posterior_close(work.posterior, work.reference, err);
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
-    *better = status == WT_E_NO_OVERLAP ? steeper(&work) : (double)NAN;
+    *better = status == WT_E_NO_OVERLAP ? steeper_reference(&work) : (double)NAN;
     posterior_free(work.posterior);
     pool_free(&work.memory);
     return status;

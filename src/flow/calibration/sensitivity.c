@@ -1,6 +1,7 @@
 /* The job of deflection sensitivity: curves on a hard surface, both ways of each, their scatter,
  * and whether the surface is as hard and the detector as straight as that takes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/normal.h"
 #include "base/param.h"
 #include "flow/work/cost.h"
 #include "flow/work/far_values.h"
@@ -14,11 +15,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WAYS = 2, ROWS = 3, OUTLIER_LEAST = 8 };
+/* Approach and retract; those and both. */
+enum { WAYS = 2, ROWS = 3 };
+/* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
+ * not known well enough to call one far. */
+enum { OUTLIER_LEAST = 8 };
 static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
 
 wt_sensitivity_job wt_sensitivity_job_defaults(void)
 {
+    /* 5 %: the mean slope of such a part is off by less than half of that, which is what deflection
+     * sensitivities are repeated to (a heuristic). */
     return (wt_sensitivity_job){.options = wt_slope_defaults(), .most_bend = 0.05};
 }
 
@@ -64,8 +71,8 @@ typedef struct sensitivity_task {
     size_t n;
 } sensitivity_task;
 
-static wt_status measure(const sensitivity_task *task, const wt_force_curve *curve,
-                         wt_quantity signal, item *it, wt_error *err)
+static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve *curve,
+                              wt_quantity signal, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
     it->of_file = curve->cantilever.sensitivity;
@@ -128,7 +135,7 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
         }
         task->items = items;
         items[task->n] = (item){.file = file, .unit = unit};
-        status = measure(task, &curve, signal, &items[task->n], err);
+        status = measure_ways(task, &curve, signal, &items[task->n], err);
         task->n++;
     }
     wt_force_curve_clear(&curve);
@@ -177,25 +184,25 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has(const item *it, size_t way)
+static bool has_way(const item *it, size_t way)
 {
     return it->there[way] && it->way[way].found;
 }
 
 /* Travel per signal. */
-static double inverse(const item *it, size_t way)
+static double travel_per_signal(const item *it, size_t way)
 {
     return 1 / it->way[way].slope;
 }
 
 static double sensitivity_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) : (double)NAN;
+    return it->volts ? travel_per_signal(it, way) : (double)NAN;
 }
 
 static double factor_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) / it->of_file : inverse(it, way);
+    return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
 }
 
 /* Curves of one file whose slope is far from that of the others, by one way. */
@@ -203,13 +210,14 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way))
-            values[m++] = inverse(&items[i], way);
+        if (has_way(&items[i], way))
+            values[m++] = travel_per_signal(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
     const usual_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
+        if (has_way(&items[i], way) &&
+            fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
             items[i].outlier = true;
 }
 
@@ -292,6 +300,8 @@ typedef struct group {
     size_t n, n_units, n_with_retract;
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, own_error; /* of one curve alone, of the sensitivity */
+    double scatter;         /* of a unit, of the sensitivity */
+    double ways_error;      /* by the difference of the ways, of the sensitivity; NaN: not known */
     const char *verdict;
     bool refused;
 } group;
@@ -305,7 +315,7 @@ typedef struct collected {
     size_t n;
 } collected;
 
-static void keep(collected *c, double value, long unit)
+static void add_value(collected *c, double value, long unit)
 {
     if (isnan(value))
         return;
@@ -331,7 +341,7 @@ static wt_interval own_change(const item *it, size_t row, double value)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-static void judge(group *g, double most)
+static void decide_straight(group *g, double most)
 {
     const wt_interval *c = &g->change;
     if (c->value > most && c->low > 0) {
@@ -366,7 +376,7 @@ static double tilt_of(const item *it, size_t way)
 static double difference_of(const item *it, size_t way)
 {
     (void)way;
-    return inverse(it, 1) / inverse(it, 0);
+    return travel_per_signal(it, 1) / travel_per_signal(it, 0);
 }
 
 static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *c, size_t *n_units,
@@ -375,9 +385,9 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        const bool usable = row < WAYS ? has(it, row) : has(it, 0) && has(it, 1);
+        const bool usable = row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1);
         if (usable && !it->outlier)
-            keep(c, over_ways(it, row, of), it->unit);
+            add_value(c, over_ways(it, row, of), it->unit);
     }
     return wt_student_mean(c->values, c->units, c->n, n_units);
 }
@@ -386,10 +396,45 @@ static const item *first_of(const sensitivity_task *task, size_t row)
 {
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        if (!it->outlier && (row < WAYS ? has(it, row) : has(it, 0) && has(it, 1)))
+        if (!it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1)))
             return it;
     }
     return NULL;
+}
+
+/* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
+ * curve tells how much in each: the sensitivity lies anywhere between them. The standard deviation
+ * of that about their mean is the difference over sqrt(12), about one of them over sqrt(3); an
+ * interval of 95 % about the mean then holds both ways. */
+static double ways_error(size_t row, double retract_over_approach)
+{
+    const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
+    return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
+}
+
+static void widen(wt_interval *i, double relative)
+{
+    const double low = hypot(i->value - i->low, NORMAL_95 * relative * i->value),
+                 high = hypot(i->high - i->value, NORMAL_95 * relative * i->value);
+    i->standard_error = hypot(i->standard_error, relative * i->value);
+    i->low = i->value - low;
+    i->high = i->value + high;
+}
+
+/* Without curves that have both ways the difference is not known and not held. */
+static void add_ways_error(group groups[ROWS])
+{
+    const double difference = groups[WAYS].n > 0 ? groups[WAYS].difference.value : (double)NAN;
+    for (size_t row = 0; row < ROWS; row++) {
+        group *g = &groups[row];
+        const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
+        g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
+        g->ways_error = ways_error(row, difference);
+        if (isnan(g->ways_error))
+            continue;
+        widen(&g->sensitivity, g->ways_error);
+        widen(&g->factor, g->ways_error);
+    }
 }
 
 static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], wt_error *err)
@@ -417,8 +462,10 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
         }
         if (row == WAYS)
             g->difference = mean_of(task, row, &c, &ignored, difference_of);
-        judge(g, task->job->most_bend);
+        decide_straight(g, task->job->most_bend);
     }
+    if (status == WT_OK)
+        add_ways_error(groups);
     free(c.values);
     free(c.units);
     return status;
@@ -429,7 +476,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
  * parabola through the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 };
+    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;
@@ -470,9 +517,8 @@ static void put_group(table_writer *t, size_t row, const group *g, double share)
         return;
     put_interval(t, SENSITIVITY_VALUE, g->sensitivity);
     put_interval(t, SENSITIVITY_FACTOR, g->factor);
-    const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
-    sensitivity_put(t, SENSITIVITY_SCATTER,
-                    of->standard_error * sqrt((double)g->n_units) / of->value);
+    sensitivity_put(t, SENSITIVITY_SCATTER, g->scatter);
+    sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->ways_error);
 }
 
 /* What other subcommands are given. */
@@ -493,7 +539,8 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
 {
     size_t left_out = 0;
     for (size_t i = 0; i < task->n; i++)
-        left_out += task->items[i].outlier || !(has(&task->items[i], 0) || has(&task->items[i], 1));
+        left_out +=
+            task->items[i].outlier || !(has_way(&task->items[i], 0) || has_way(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);

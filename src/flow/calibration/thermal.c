@@ -1,5 +1,6 @@
 /* The job of thermal noise: spectra of levers at rest to spring constants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/clocale.h"
 #include "base/normal.h"
 #include "base/param.h"
 #include "flow/work/cost.h"
@@ -12,14 +13,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double boltzmann = 1.380649e-23; /* [J/K], exact */
-static const double room_temperature = 298.15;
+static const double boltzmann = 1.380649e-23;  /* [J/K], exact */
+static const double room_temperature = 298.15; /* [K]; 10 K more are 3 % of a spring constant */
 /* Of a rectangular lever read at its end: the first mode has 0.971 of the thermal energy, and the
  * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
  * 0.817. Butt and Jaschke 1995. */
 static const double first_mode = 0.971, free_over_pressed = 1.09;
-static const double least_chance = 1e-3, averages_agree = 2;
+/* A heuristic: no interval is told of a misfit that one good spectrum in a thousand has. */
+static const double least_chance = 1e-3;
+/* A heuristic: the averages by the scatter are those of the file up to a factor, for windows share
+ * bins and instruments count differently. */
+static const double averages_agree = 2;
+/* The scatter between spectra, where there are so many: of two it has one degree of freedom, and
+ * the interval would be 13 standard errors wide. */
 enum { LEAST_SPECTRA = 3 };
+/* Two spring constants of one lever contradict one another beyond this factor. A heuristic: thermal
+ * noise, Sader's method and plan view are each good to 10 or 20 % where nothing is wrong, so that
+ * this is two standard deviations of their ratio at least. */
+static const double contradiction = 1.5;
+/* Length over width of the levers on which Sader, Chon and Mulvaney tried their formula. */
+static const double least_slender = 3.3, most_slender = 13.7;
 
 wt_thermal_job wt_thermal_job_defaults(void)
 {
@@ -28,7 +41,10 @@ wt_thermal_job wt_thermal_job_defaults(void)
                             .mode_shape = first_mode,
                             .chi = free_over_pressed,
                             .from = unknown,
-                            .to = unknown};
+                            .to = unknown,
+                            .length = {unknown, 0, 0, "m"},
+                            .width = {unknown, 0, 0, "m"},
+                            .sader_coefficient = {unknown, 0, 0, "1"}};
 }
 
 static const wt_param rows[] = {
@@ -51,6 +67,18 @@ static const wt_param rows[] = {
     {PARAM("fit-to", wt_thermal_job, to, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "40 widths above it, at most three times its frequency", .flags = PARAM_NO_CASE,
      .help = "end of the range of the fit"},
+    {PARAM("length", wt_thermal_job, length, WT_Q_LENGTH, ABOVE(0)), .value = "L", .unset = "",
+     .flags = PARAM_NO_CASE,
+     .help = "length of a rectangular lever, such as \"225um +- 2%\": with --width its spring "
+             "constant by Sader's method stands beside that of the noise"},
+    {PARAM("width", wt_thermal_job, width, WT_Q_LENGTH, ABOVE(0)), .value = "B", .unset = "",
+     .flags = PARAM_NO_CASE, .help = "width of a rectangular lever, such as 40um"},
+    {PARAM_CHOICE_OF("medium", wt_thermal_job, medium, "air|water"), .flags = PARAM_NO_CASE,
+     .help = "what surrounds the lever, at its temperature and 1013 hPa; for --length and --width"},
+    {PARAM("sader-coefficient", wt_thermal_job, sader_coefficient, WT_Q_NONE, ABOVE(0)),
+     .value = "A", .unset = "", .flags = PARAM_NO_CASE,
+     .help = "coefficient of a kind of lever of any shape, k = A Q f^1.3 with k in N/m and f in "
+             "kHz, as of one that was calibrated; instead of --length and --width"},
 };
 PARAM_TABLE(wt_thermal_job_params, wt_thermal_job, rows, wt_thermal_job_defaults, NO_PARTS)
 
@@ -62,7 +90,9 @@ typedef struct lever {
     wt_estimate temperature;
     double sensitivity;             /* 1 of a spectrum in metres */
     double constant, common, error; /* relative errors: of all spectra alike, of this one */
-    char note[256];
+    wt_estimate sader;              /* by Sader's method; NaN: not asked for */
+    char contradiction[512];        /* to another spring constant; "" = none */
+    char note[768];
 } lever;
 
 static void add_note(lever *l, const char *note)
@@ -129,7 +159,7 @@ static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
                     s->frequency[first]);
 }
 
-static void judge(const wt_job *work, const flow_file *file, lever *l)
+static void say_misfit(const wt_job *work, const flow_file *file, lever *l)
 {
     const double said = l->spectrum.averages;
     if (!l->fit.found) {
@@ -149,7 +179,7 @@ static void judge(const wt_job *work, const flow_file *file, lever *l)
         add_note(l, "amplitudes are taken for roots of averaged power");
 }
 
-static void compute(const wt_thermal_job *job, lever *l)
+static void find_spring_constant(const wt_thermal_job *job, lever *l)
 {
     const double square = l->sensitivity * l->sensitivity * l->fit.mean_square.value;
     const double of_temperature = l->temperature.standard_error > 0
@@ -161,8 +191,68 @@ static void compute(const wt_thermal_job *job, lever *l)
     l->common = hypot(of_temperature, 2 * job->sensitivity_error);
 }
 
-static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_file *file, lever *l,
-                         wt_error *err)
+/* ---- beside it: Sader's method, the file ----------------------------------------------------- */
+
+static wt_estimate estimate_of(wt_interval i, const char *unit)
+{
+    return (wt_estimate){i.value, i.standard_error, 0, unit};
+}
+
+/* Of the resonance and the quality factor of the fit. */
+static void find_sader(const wt_thermal_job *job, lever *l)
+{
+    const wt_estimate f = estimate_of(l->fit.resonance, "Hz"), q = estimate_of(l->fit.quality, "1"),
+                      a = job->sader_coefficient;
+    const double slender = job->length.value / job->width.value;
+    if (!isnan(a.value)) {
+        const double k = a.value * q.value * pow(1e-3 * f.value, 1.3);
+        l->sader = (wt_estimate){
+            k,
+            k * hypot(a.standard_error / a.value,
+                      hypot(q.standard_error / q.value, 1.3 * f.standard_error / f.value)),
+            0, "N/m"};
+        return;
+    }
+    if (isnan(slender))
+        return;
+    l->sader = wt_sader_spring_constant(job->length, job->width, f, q,
+                                        wt_fluid_at(job->medium, l->temperature.value));
+    if (isnan(l->sader.value))
+        add_note(l,
+                 "no spring constant by Sader's method: water is not liquid at this temperature");
+    if (slender < least_slender || slender > most_slender)
+        add_note(l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
+}
+
+/* What would make the spring constant of the noise `ratio` times another one. */
+static void say_contradiction(lever *l, const char *other, double ratio)
+{
+    const bool small = ratio < 1;
+    if (!(fmax(ratio, 1 / ratio) > contradiction) || l->contradiction[0] != '\0')
+        return;
+    clocale_print(l->contradiction, sizeof l->contradiction,
+                  "the noise gives %.3g times the spring constant %s; what could be the cause: a "
+                  "deflection sensitivity %.3g times too %s, %s, or the other one (nominal, or of "
+                  "a plan view or quality factor that is not this lever's)",
+                  ratio, other, small ? sqrt(1 / ratio) : sqrt(ratio), small ? "large" : "small",
+                  small ? "densities of peak values (a factor 2) or with the width of a window in "
+                          "them (1.5 of Hann's)"
+                        : "two-sided densities (a factor 2) or a peak that is not the lever's");
+}
+
+static void compare_spring_constants(const wt_job *work, const flow_file *file, lever *l)
+{
+    say_contradiction(l, "by Sader's method", l->constant / l->sader.value);
+    say_contradiction(l, "of the file", l->constant / l->spectrum.spring_constant);
+    if (l->contradiction[0] == '\0')
+        return;
+    add_note(l, l->contradiction);
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised",
+                    l->contradiction);
+}
+
+static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
+                               lever *l, wt_error *err)
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
@@ -179,9 +269,13 @@ static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_fil
         return status;
     find_temperature(job, work, file, l);
     say_left_out(work, file, l);
-    judge(work, file, l);
-    if (l->fit.found)
-        compute(job, l);
+    say_misfit(work, file, l);
+    l->sader.value = l->sader.standard_error = (double)NAN;
+    if (!l->fit.found)
+        return WT_OK;
+    find_spring_constant(job, l);
+    find_sader(job, l);
+    compare_spring_constants(work, file, l);
     return WT_OK;
 }
 
@@ -230,6 +324,10 @@ static void put_lever(table_writer *t, const flow_file *file, const lever *l)
     thermal_put(t, THERMAL_DEFLECTION, l->sensitivity * sqrt(f->mean_square.value));
     thermal_put(t, THERMAL_FLOOR, l->sensitivity * sqrt(f->floor));
     thermal_put(t, THERMAL_RATIO, l->constant / l->spectrum.spring_constant);
+    thermal_put(t, THERMAL_SADER, l->sader.value);
+    if (known)
+        thermal_put(t, THERMAL_SADER_STANDARD_ERROR, l->sader.standard_error);
+    thermal_put(t, THERMAL_SADER_RATIO, l->constant / l->sader.value);
     thermal_put(t, THERMAL_AVERAGES, f->averages);
     thermal_put(t, THERMAL_CHANCE, f->chance);
 }
@@ -280,6 +378,11 @@ static void set_keys(table_writer *t, const wt_thermal_job *job, const lever *le
     thermal_set(t, THERMAL_KEY_SPRING_CONSTANT, k);
     if (!isnan(scatter))
         thermal_set_print(t, THERMAL_KEY_SCATTER, "%.3g", scatter);
+    for (size_t i = 0; i < n; i++)
+        if (levers[i].contradiction[0] != '\0') {
+            thermal_set_text(t, THERMAL_KEY_CONTRADICTION, levers[i].contradiction);
+            return;
+        }
     thermal_set_print(t, THERMAL_KEY_INDENT, "--spring-constant %.6gN/m", k.value);
     if (k.standard_error > 0)
         thermal_set_print(t, THERMAL_KEY_COMPARE, "--spring-constant-error %.2g",
@@ -298,7 +401,7 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         lever l = {.note = ""};
-        status = measure(job, work, &files->file[i], &l, &failure);
+        status = measure_lever(job, work, &files->file[i], &l, &failure);
         if (status == WT_OK) {
             put_lever(&t, &files->file[i], &l);
             levers[n++] = l;
@@ -332,6 +435,16 @@ wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_tabl
         return wt_fail(err, WT_E_ARG, "no job of thermal noise");
     flow_files files = {NULL, 0, NULL};
     wt_status status = param_check(wt_thermal_job_params(), job, err);
+    if (status == WT_OK && isnan(job->length.value) != isnan(job->width.value)) {
+        status =
+            wt_fail(err, WT_E_ARG, "%s without %s", isnan(job->width.value) ? "length" : "width",
+                    isnan(job->width.value) ? "width" : "length");
+        wt_error_advice(err, "Sader's method takes both: --length 225um --width 40um");
+    }
+    if (status == WT_OK && !isnan(job->length.value) && !isnan(job->sader_coefficient.value)) {
+        status = wt_fail(err, WT_E_ARG, "length and width beside a coefficient of Sader's method");
+        wt_error_advice(err, "give --length and --width, or --sader-coefficient");
+    }
     if (status == WT_OK && !(isnan(job->from) || isnan(job->to) || job->from < job->to))
         status = range_error("fit-to", job->to, "more than fit-from", err);
     if (status == WT_OK)

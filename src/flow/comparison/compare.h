@@ -95,17 +95,32 @@ typedef struct compare_row {
     double holm;
 } compare_row;
 
+/* What else than the rubber would make the ratio. */
+typedef struct compare_unsaid {
+    double log_ratio, least; /* what is to be explained, and what of it takes the answer away */
+    char would_explain[640]; /* in words: what each cause would have to be */
+    char plausible[480];     /* those that may well be so, "" = none */
+    char settled_by[400];    /* and what would show */
+} compare_unsaid;
+wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                              const compare_row *row, compare_unsaid *unsaid,
+                              wt_error *err) WT_NODISCARD;
+/* Of ln |E*| of the DMA against temperature, at the mean frequency of the bulk [1/K]; 0 where that
+ * or the DMA are not known there. */
+wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
+                                    const wt_job *work, double *slope, wt_error *err) WT_NODISCARD;
+
 /* The answer to "does the track differ?", and what would give one. */
 typedef struct compare_verdict {
-    char differs[320], settled_by[320];
+    char differs[640], settled_by[480];
     bool twisted; /* the ratio depends on the rate */
     bool silent;  /* there is no ratio to be told */
 } compare_verdict;
 
 /* `row` is that of all rates, `rates` those of one each. */
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
-                              const compare_known *known, const compare_row *row,
-                              const compare_row *rates, size_t n_rates);
+                              const compare_known *known, const compare_unsaid *unsaid,
+                              const compare_row *row, const compare_row *rates, size_t n_rates);
 
 wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
                              wt_table **table, wt_error *err) WT_NODISCARD;

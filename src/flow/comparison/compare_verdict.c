@@ -7,14 +7,17 @@
 
 #include <math.h>
 
-/* Scatter of ln E between spots where none is measured. */
-static const double scatter_assumed = 0.15, level = 0.05;
+/* Scatter of ln E between spots where none is measured, for the number of spots that is advised.
+ * Chosen: twice as much asks for four times the spots. */
+static const double scatter_assumed = 0.15;
+/* The customary one, and that of the intervals. */
+static const double level = 0.05;
 
 typedef struct verdict_words {
     char text[48];
 } verdict_words;
 
-static verdict_words percent(double share)
+static verdict_words percent_words(double share)
 {
     verdict_words w;
     clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
@@ -53,7 +56,7 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
     SAY(v->settled_by,
         "%s%s in each group would show a difference of %s in four of five trials where spots "
         "scatter by %s%s; more curves on a spot do not help",
-        third, number, percent(fabs(expm1(difference))).text, percent(scatter).text,
+        third, number, percent_words(fabs(expm1(difference))).text, percent_words(scatter).text,
         measured ? ", as they do here" : " (assumed)");
 }
 
@@ -176,7 +179,7 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
     SAY(v->differs,
         "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
         "not hold, for it is not known: %s",
-        percent(job->margin).text, k->lacks);
+        percent_words(job->margin).text, k->lacks);
     if (k->loss_not_known)
         SAY(v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
@@ -186,8 +189,8 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
 }
 
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
-                              const compare_known *known, const compare_row *row,
-                              const compare_row *rates, size_t n_rates)
+                              const compare_known *known, const compare_unsaid *unsaid,
+                              const compare_row *row, const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
@@ -202,16 +205,23 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     const bool within = low > -margin && high < margin;
     if (within && known->lacks[0] != '\0') {
         say_lacking(job, known, &v);
+    } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
+        SAY(v.differs, "cannot say: the wear track %s, but this may be as well: %s",
+            within     ? "seems to differ by less than the margin"
+            : high < 0 ? "seems softer"
+                       : "seems stiffer",
+            unsaid->plausible);
+        SAY(v.settled_by, "%s", unsaid->settled_by);
     } else if (low > 0 || high < 0) {
         SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
             within ? ", by less than the margin" : "");
     } else if (within) {
         SAY(v.differs, "no: the wear track differs from the bulk by less than %s, the margin set",
-            percent(job->margin).text);
+            percent_words(job->margin).text);
     } else {
         SAY(v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
-            percent(job->margin).text);
+            percent_words(job->margin).text);
         const double known_error = known->offset.standard_error;
         if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
             SAY(v.settled_by, "%s",

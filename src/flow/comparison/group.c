@@ -167,6 +167,38 @@ static double shown_error(const table_view *t, indentation_key key)
     return indentation_words(t, key) == NULL ? 0 : indentation_value(t, key).value;
 }
 
+/* The cube root of a mean of squares is nearly normal (Wilson and Hilferty 1931). */
+static void read_misfits(const table_view *t, bool each_place, named *names, wt_group_data *d)
+{
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const double lack = indentation_get(t, row, INDENTATION_LACK_OF_FIT);
+        if (!isfinite(lack))
+            continue;
+        names[d->n_fitted] = name_of(t, row, d->n_fitted, each_place, d);
+        d->lack_of_fit[d->n_fitted++] = cbrt(lack);
+    }
+    number_spots(names, d->n_fitted, d->fitted_spot);
+}
+
+/* What a curve shows of a pull, and how far it was pressed. */
+static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data *d)
+{
+    d->pull[i] = fmax(indentation_get(t, row, INDENTATION_ADHESION_FORCE),
+                      indentation_get(t, row, INDENTATION_PULL_OFF_FORCE));
+    d->max_force[i] = indentation_get(t, row, INDENTATION_MAX_FORCE);
+    d->max_indentation[i] = indentation_get(t, row, INDENTATION_MAX_INDENTATION);
+}
+
+/* NaN where it is not there. */
+static double plain_number(const table_view *t, indentation_key key)
+{
+    double value = (double)NAN;
+    const char *words = indentation_words(t, key);
+    if (words != NULL && !wt_number_parse(words, strlen(words), '.', &value))
+        value = (double)NAN;
+    return value;
+}
+
 /* What its curves share. */
 static void read_common(const table_view *t, wt_group_data *d)
 {
@@ -180,6 +212,8 @@ static void read_common(const table_view *t, wt_group_data *d)
     }
     d->loss_error = shown_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
+    d->pooled_misfit = plain_number(t, INDENTATION_KEY_POOLED_MISFIT);
+    d->pooled_misfit_chance = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
 }
 
 wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,
@@ -201,9 +235,15 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
     d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
     d.spectrum_factor = malloc(allocated * sizeof *d.spectrum_factor);
     d.digest = malloc(allocated * sizeof *d.digest);
+    d.pull = malloc(allocated * sizeof *d.pull);
+    d.lack_of_fit = malloc(allocated * sizeof *d.lack_of_fit);
+    d.fitted_spot = malloc(allocated * sizeof *d.fitted_spot);
+    d.max_force = malloc(allocated * sizeof *d.max_force);
+    d.max_indentation = malloc(allocated * sizeof *d.max_indentation);
     if (names == NULL || row_of == NULL || d.modulus == NULL || d.spot == NULL ||
         d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.spectrum_factor == NULL ||
-        d.digest == NULL)
+        d.digest == NULL || d.pull == NULL || d.lack_of_fit == NULL || d.fitted_spot == NULL ||
+        d.max_force == NULL || d.max_indentation == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else
         status = find_rows(&t, &d, row_of, err);
@@ -218,9 +258,11 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
             indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
         d.spectrum_factor[i] = indentation_get(&t, row_of[i], INDENTATION_SPECTRUM_FACTOR);
         gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
+        read_signs(&t, row_of[i], i, &d);
     }
     if (status == WT_OK) {
         number_spots(names, d.group.n, d.spot);
+        read_misfits(&t, each_place, names, &d);
         d.group.modulus = d.modulus;
         d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
         d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
@@ -246,5 +288,10 @@ void wt_group_data_clear(wt_group_data *data)
     free(data->equivalent_frequency);
     free(data->spectrum_factor);
     free(data->digest);
+    free(data->pull);
+    free(data->lack_of_fit);
+    free(data->fitted_spot);
+    free(data->max_force);
+    free(data->max_indentation);
     *data = (wt_group_data){0};
 }

@@ -2,6 +2,8 @@
  * of every curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
+#include "base/array.h"
+#include "base/normal.h"
 #include "base/param.h"
 #include "flow/indentation/indent.h"
 #include "flow/work/cost.h"
@@ -9,12 +11,13 @@
 
 #include "data/force_curve.h"
 #include "data/tables/tables.h"
+#include "model/tip.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Below it noise does not make such a misfit. */
+/* Below it noise does not make such a misfit: customary, and wt_dwell tells no errors there. */
 static const double least_chance = 0.01;
 
 void wt_dwell_tables_clear(wt_dwell_tables *tables)
@@ -37,6 +40,14 @@ typedef struct dwell_task {
     dwell_curve curve; /* the latest */
 } dwell_task;
 
+/* A force that pulls has no modulus, nor has a depth at which the law does not hold. */
+static double point_modulus(const dwell_task *task, const wt_dwell_point *p, double modulus)
+{
+    const bool tells = p->force > 0 && modulus > 0 && p->indentation > 0 &&
+                       contact_law_holds(&task->job->tip, p->indentation);
+    return tells ? modulus : (double)NAN;
+}
+
 static void put_points(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                        const wt_dwell *dwell)
 {
@@ -48,8 +59,8 @@ static void put_points(dwell_task *task, const flow_file *file, const wt_force_c
         dwell_points_put(t, DWELL_POINTS_TIME, p->time);
         dwell_points_put(t, DWELL_POINTS_FORCE, p->force);
         dwell_points_put(t, DWELL_POINTS_INDENTATION, p->indentation);
-        dwell_points_put(t, DWELL_POINTS_MODULUS, p->modulus);
-        dwell_points_put(t, DWELL_POINTS_FITTED, p->fitted);
+        dwell_points_put(t, DWELL_POINTS_MODULUS, point_modulus(task, p, p->modulus));
+        dwell_points_put(t, DWELL_POINTS_FITTED, point_modulus(task, p, p->fitted));
         dwell_points_put_text(t, DWELL_POINTS_FILE, file->name);
         dwell_points_put(t, DWELL_POINTS_CURVE, (double)curve->index);
     }
@@ -71,14 +82,6 @@ static void put_moduli(dwell_task *task, const flow_file *file, const wt_force_c
     dwell_moduli_put(t, DWELL_MODULI_LOSS, m->loss.value);
     dwell_moduli_put(t, DWELL_MODULI_LOSS_STANDARD_ERROR, m->loss.standard_error);
     dwell_moduli_put(t, DWELL_MODULI_LOSS_COMMON, m->loss_common_error);
-}
-
-/* A modulus that is not positive and has no error is no modulus: what was fitted is another thing.
- */
-static bool is_possible(const wt_dwell_moduli *m)
-{
-    return (m->storage.value > 0 || isfinite(m->storage.standard_error)) &&
-           (m->loss.value > 0 || isfinite(m->loss.standard_error));
 }
 
 /* Into the row of the dwell. */
@@ -103,23 +106,30 @@ static void begin_row(dwell_task *task, const flow_file *file, const wt_force_cu
     dwell_put_text(t, DWELL_NOTE, note);
 }
 
-static const char *note_of(const wt_dwell *d)
+/* What is odd of a dwell, or why it has no moduli. */
+static void note_of(const wt_dwell *d, char note[256])
 {
-    bool all = true;
+    const char *misfit =
+        d->misfit_chance < least_chance
+            ? "a rubber of a broad spectrum does not describe it; no errors are told"
+        : isnan(d->misfit_chance)
+            ? "whether a rubber of a broad spectrum describes it could not be "
+              "tested; no errors are told"
+            : "";
+    bool all = true, pushes = true;
     for (size_t i = 0; i < d->n; i++)
-        all = all && is_possible(&d->moduli[i]);
-    if (!d->found)
-        return d->why_not;
-    if (d->misfit_chance < least_chance)
-        return all ? "a rubber of a broad spectrum does not describe it; no errors are told"
-                   : "a rubber of a broad spectrum does not describe it; no errors are told; "
-                     "moduli that are not positive were left out";
-    if (isnan(d->misfit_chance))
-        return all ? "whether a rubber of a broad spectrum describes it could not be tested; no "
-                     "errors are told"
-                   : "whether a rubber of a broad spectrum describes it could not be tested; no "
-                     "errors are told; moduli that are not positive were left out";
-    return all ? "" : "moduli that are not positive were left out";
+        all = all && dwell_is_modulus(&d->moduli[i]);
+    for (size_t i = 0; i < d->n_points; i++)
+        pushes = pushes && d->point[i].force > 0;
+    const char *const parts[] = {d->found ? misfit : d->why_not,
+                                 all ? "" : "moduli that are not positive were left out",
+                                 pushes ? "" : "the force falls below the baseline in it"};
+    note[0] = '\0';
+    for (size_t i = 0; i < COUNT_OF(parts); i++) {
+        const size_t used = strlen(note);
+        snprintf(note + used, 256 - used, "%s%s", used > 0 && parts[i][0] != '\0' ? "; " : "",
+                 parts[i]);
+    }
 }
 
 static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
@@ -127,7 +137,9 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
 {
     table_writer *t = &task->rows;
     const char *kind = d->n_points == 0 ? "" : d->creep ? "creep" : "relaxation";
-    begin_row(task, file, curve, s, kind, note_of(d));
+    char note[256];
+    note_of(d, note);
+    begin_row(task, file, curve, s, kind, note);
     if (d->n_points == 0)
         return;
     dwell_put(t, DWELL_LOAD_TIME, d->load_time);
@@ -141,10 +153,10 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
     put_points(task, file, curve, d);
     if (!d->found)
         return;
-    if (is_possible(&d->moduli[d->n / 2]))
+    if (dwell_is_modulus(&d->moduli[d->n / 2]))
         put_row_moduli(t, &d->moduli[d->n / 2]);
     for (size_t i = 0; i < d->n; i++)
-        if (is_possible(&d->moduli[i]))
+        if (dwell_is_modulus(&d->moduli[i]))
             put_moduli(task, file, curve, s, kind, &d->moduli[i]);
 }
 

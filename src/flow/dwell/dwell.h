@@ -28,6 +28,7 @@ typedef struct dwell_modulated {
     const char *note;                     /* static */
 } dwell_modulated;
 
+/* Modulations of one curve that there is room for; JPK has as many segments as a person sets. */
 enum { DWELL_MOST_MODULATED = 32 };
 typedef struct dwell_curve {
     wt_dwell dwell; /* of all held segments together, sines taken out */
@@ -40,6 +41,10 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                           const wt_force_curve *curve, const wt_segment *approach,
                           const wt_segment *first, const wt_indent_fit *fit, dwell_curve *to,
                           wt_error *err) WT_NODISCARD;
+/* E' is positive, and E'' positive or around 0 by its error: no rubber has others, and what gives
+ * them is another thing than was fitted. An E'' around 0 is left in, for the means of many curves
+ * would be too large without it. */
+bool dwell_is_modulus(const wt_dwell_moduli *moduli);
 /* A dwell or a modulation with samples. */
 bool dwell_is_held(const wt_segment *segment);
 

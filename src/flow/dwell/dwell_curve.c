@@ -2,13 +2,17 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
 
+#include "base/normal.h"
+
 #include "data/force_curve.h"
+#include "model/tip.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double pi = 3.14159265358979323846;
-/* Frequencies of one drive, and an amplitude that is small beside the indentation. */
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
+/* Frequencies of one drive in contact and in air, relative; and an amplitude that is small beside
+ * the indentation: of a force as depth^(3/2) a fifth changes the sine by 0.1 %. */
 static const double same_drive = 0.01, small = 0.2;
 
 typedef struct history {
@@ -46,7 +50,7 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
     return true;
 }
 
-static wt_status reserve(history *h, const wt_force_curve *curve, wt_error *err)
+static wt_status reserve_history(history *h, const wt_force_curve *curve, wt_error *err)
 {
     size_t n = 0, longest = 0;
     for (size_t i = 0; i < curve->n_segments; i++) {
@@ -107,9 +111,15 @@ static double slope_at(const wt_contact_table *contact, double depth, double poi
     return slope / (1 - poisson * poisson);
 }
 
-static wt_status tell(const wt_contact_table *contact, double poisson, double spring_constant,
-                      const wt_indent_fit *fit, const dwell_curve *c, dwell_modulated *m,
-                      wt_error *err)
+bool dwell_is_modulus(const wt_dwell_moduli *m)
+{
+    return m->storage.value > 0 &&
+           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
+}
+
+static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
+                             double spring_constant, const wt_indent_fit *fit, const dwell_curve *c,
+                             dwell_modulated *m, wt_error *err)
 {
     const wt_dwell *d = &c->dwell;
     const bool placed = d->found;
@@ -121,6 +131,10 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
     m->indentation = tip_position(z, m->above, spring_constant);
     if (!(m->indentation > 0) || !(m->above > 0)) {
         m->note = "not in contact, or it pulls";
+        return WT_OK;
+    }
+    if (!contact_law_holds(contact_table_tip(contact), m->indentation)) {
+        m->note = "deeper than the contact law of the tip holds";
         return WT_OK;
     }
     const double slope = slope_at(contact, m->indentation, poisson);
@@ -139,20 +153,23 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
                   ? "the amplitude is more than a fifth of the indentation"
               : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
                             : "";
-    m->found = true;
     const wt_status status = wt_modulation_moduli(&m->sine, air != NULL ? &air->sine : NULL,
                                                   spring_constant, slope, &m->moduli, err);
     const double share =
         described ? slope_at(contact, m->indentation + common, poisson) / slope - 1 : common;
     m->moduli.storage_common_error = fabs(share * m->moduli.storage.value);
     m->moduli.loss_common_error = fabs(share * m->moduli.loss.value);
+    m->found = dwell_is_modulus(&m->moduli);
+    if (!m->found)
+        m->note = "E' or E'' is not positive: no modulus; the lag of the instrument may be larger "
+                  "than that of the sample (a modulation in air tells)";
     return status;
 }
 
 /* Approach and held segments, without their sines. */
-static wt_status collect(const wt_force_curve *curve, const wt_segment *approach,
-                         const wt_segment *first, double direction, history *h,
-                         wt_dwell_history *of, dwell_curve *to, wt_error *err)
+static wt_status collect_history(const wt_force_curve *curve, const wt_segment *approach,
+                                 const wt_segment *first, double direction, history *h,
+                                 wt_dwell_history *of, dwell_curve *to, wt_error *err)
 {
     const wt_segment *const end = curve->segments + curve->n_segments, *s = first;
     wt_status status = WT_OK;
@@ -184,7 +201,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
     const double k = curve->cantilever.spring_constant;
     history h = {0};
     *to = (dwell_curve){.dwell.why_not = "no time, height or force in it"};
-    wt_status status = reserve(&h, curve, err);
+    wt_status status = reserve_history(&h, curve, err);
     if (status != WT_OK)
         return status;
     double *const room = h.time;
@@ -199,12 +216,12 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                            .baseline_tilt = fit->baseline_tilt};
     status = find_air(curve, approach, fit->direction, &h, to, err);
     if (status == WT_OK)
-        status = collect(curve, approach, first, fit->direction, &h, &of, to, err);
+        status = collect_history(curve, approach, first, fit->direction, &h, &of, to, err);
     if (status == WT_OK && of.n_dwell > 0)
         status = wt_dwell_fit(contact, &of, &to->dwell, err);
     for (size_t i = 0; status == WT_OK && i < to->n; i++) {
         if (to->modulated[i].sine.found)
-            status = tell(contact, poisson, k, fit, to, &to->modulated[i], err);
+            status = tell_moduli(contact, poisson, k, fit, to, &to->modulated[i], err);
         else
             to->modulated[i].note = to->modulated[i].sine.why_not;
     }

@@ -83,10 +83,10 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
         values[i] = scaling.multiplier *
                     (is_ramp ? ramp(f, at) : nanoscope_count(f, signal->channel, stored, at));
     }
-    const size_t missing = samples_mend(values, n);
-    if (missing > 0)
+    /* The same words for each curve, so that the log counts them in one line. */
+    if (samples_mend(values, n) > 0)
         wt_parselog_add(base->log, WT_WARNING, base->name, signal->name,
-                        "%zu samples of curve %zu were not measured", missing, source->curve);
+                        "samples that were not measured are missing");
     return WT_OK;
 }
 

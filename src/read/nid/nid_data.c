@@ -33,8 +33,8 @@ static wt_status bad_key(const nid_header *header, const char *section, const ch
     return WT_E_CORRUPT;
 }
 
-static wt_status expect(const nid_header *header, const char *section, const char *key,
-                        const char *value, wt_error *err)
+static wt_status expect_value(const nid_header *header, const char *section, const char *key,
+                              const char *value, wt_error *err)
 {
     const char *found = nid_get(header, section, key);
     if (found != NULL && strcmp(found, value) == 0)
@@ -61,11 +61,11 @@ static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error
         return bad_key(header, s, "Version", "a whole number", err);
     c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
     c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
-    wt_status status = expect(header, s, "SaveMode", "Binary", err);
+    wt_status status = expect_value(header, s, "SaveMode", "Binary", err);
     if (status == WT_OK)
-        status = expect(header, s, "SaveSign", "Signed", err);
+        status = expect_value(header, s, "SaveSign", "Signed", err);
     if (status == WT_OK)
-        status = expect(header, s, "SaveOrder", "Intel", err);
+        status = expect_value(header, s, "SaveOrder", "Intel", err);
     return status;
 }
 
@@ -226,10 +226,43 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
         snprintf(unit, size, "%s", si);
 }
 
+/* Lines from first on that have one value throughout: they were not measured, for the z-axis of a
+ * scan has noise. */
+static size_t flat_lines(const wt_image *image, size_t first, size_t end)
+{
+    size_t n = 0;
+    for (size_t line = first; line < end; line++) {
+        const double *values = image->values + line * image->n_columns;
+        size_t i = 1;
+        while (i < image->n_columns && values[i] == values[0])
+            i++;
+        n += i == image->n_columns ? 1 : 0;
+    }
+    return n;
+}
+
+/* CurLine is the line at which the scan ended, whichever way it went, and of a complete one either
+ * end of the image: what is missing the lines themselves say. */
+static void warn_stopped(const nid_file *file, const nid_channel *c, wt_parselog *log,
+                         const wt_image *image)
+{
+    const double current = nid_number(&file->header, c->section, "CurLine");
+    const size_t n = image->n_rows;
+    if (!(current >= 0 && current + 1 < (double)n))
+        return;
+    const size_t at = (size_t)current, above = flat_lines(image, at + 1, n),
+                 below = flat_lines(image, 0, at);
+    const size_t missing = above == n - at - 1 ? above : at > 0 && below == at ? below : 0;
+    if (missing > 0 && flat_lines(image, 0, n) < n)
+        wt_parselog_add(log, WT_WARNING, file->name, c->section,
+                        "scan was stopped at line %zu: %zu of %zu lines were not measured", at,
+                        missing, n);
+}
+
 static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
                             wt_image *image, wt_error *err)
 {
-    double factor = 1, current = (double)NAN;
+    double factor = 1;
     const char *unit = nid_si_unit(c->unit, &factor);
     if (unit[0] == '\0' && c->unit[0] != '\0') {
         unit = c->unit;
@@ -246,15 +279,12 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
     read_axis(&file->header, c->section, 0, &image->width, &image->x_min, image->x_unit,
               sizeof image->x_unit);
     read_axis(&file->header, c->section, 1, &image->height, &image->y_min, NULL, 0);
-    current = nid_number(&file->header, c->section, "CurLine");
-    if (current >= 0 && current + 1 < (double)c->lines)
-        wt_parselog_add(log, WT_WARNING, file->name, c->section,
-                        "scan was stopped: line %.0f of %zu is the last that was measured",
-                        current + 1, c->lines);
     wt_status status = WT_OK;
     for (size_t line = 0; status == WT_OK && line < c->lines; line++)
         status =
             nid_decode(file, c, line, c->points, factor, image->values + line * c->points, err);
+    if (status == WT_OK)
+        warn_stopped(file, c, log, image);
     return status;
 }
 

@@ -28,7 +28,7 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
-static void trim(text_span *cell)
+static void trim_cell(text_span *cell)
 {
     while (cell->length > 0 && is_blank(cell->text[0])) {
         cell->text++;
@@ -51,11 +51,11 @@ static bool append(text_cells *cells, const char *text, size_t length)
         cells->capacity = capacity;
     }
     text_span cell = {text, length};
-    trim(&cell);
+    trim_cell(&cell);
     if (cell.length >= 2 && cell.text[0] == '"' && cell.text[cell.length - 1] == '"') {
         cell.text++;
         cell.length -= 2;
-        trim(&cell);
+        trim_cell(&cell);
     }
     cells->cells[cells->n++] = cell;
     return true;
@@ -94,12 +94,31 @@ static bool split_at(text_cells *cells, const char *line, size_t length, char ma
     }
 }
 
+/* Of a cell between marks like the one at `from` the place behind the second, if a blank or the end
+ * follows; 0 if there is none. */
+static size_t quoted_end(const char *line, size_t from, size_t length)
+{
+    const char mark = line[from];
+    if (mark != '\'' && mark != '"')
+        return 0;
+    const char *close = memchr(line + from + 1, mark, length - from - 1);
+    const size_t end = close != NULL ? (size_t)(close - line) + 1 : 0;
+    return end > from + 2 && (end == length || is_blank(line[end])) ? end : 0;
+}
+
 static bool split_whitespace(text_cells *cells, const char *line, size_t length)
 {
     for (size_t i = 0; i < length;) {
         while (i < length && is_blank(line[i]))
             i++;
         size_t from = i;
+        const size_t quoted = i < length ? quoted_end(line, i, length) : 0;
+        if (quoted > 0) {
+            if (!append(cells, line + from + 1, quoted - from - 2))
+                return false;
+            i = quoted;
+            continue;
+        }
         while (i < length && !is_blank(line[i]))
             i++;
         if (i > from && !append(cells, line + from, i - from))

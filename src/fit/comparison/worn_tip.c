@@ -1,0 +1,79 @@
+/* What a tip of another radius than the stated one does to a modulus: the curve that it makes,
+ * fitted by the law of the stated tip with modulus and contact point.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/fit.h"
+
+#include <math.h>
+
+/* Depths of the curve, and halvings of the bracket of a contact point: to 1e-6 of the depth, which
+ * moves neither number by 1e-4. */
+enum { NODES = 64, STEPS = 30 };
+
+/* Noise of the force moves the tip, too, so that a residual counts less by 1 + (stiffness of the
+ * contact over that of the lever); samples are even along the piezo, which goes so much farther
+ * than the tip. */
+typedef struct worn_curve {
+    const wt_contact_table *stated;
+    double depth;                       /* nodes rise evenly to it */
+    double force[NODES], travel[NODES]; /* 1 + that ratio */
+} worn_curve;
+
+/* Sum of squares that is left with the contact point `shift` late, and the modulus. */
+static double squares_left(const worn_curve *c, double shift, double *modulus)
+{
+    double at[NODES], g[NODES], gg = 0, gf = 0, ff = 0;
+    for (int i = 0; i < NODES; i++)
+        at[i] = c->depth * (i + 1) / NODES - shift;
+    wt_contact_table_eval(c->stated, at, NODES, g, NULL);
+    for (int i = 0; i < NODES; i++) {
+        const double weight = 1 / c->travel[i];
+        gg += weight * g[i] * g[i];
+        gf += weight * g[i] * c->force[i];
+        ff += weight * c->force[i] * c->force[i];
+    }
+    *modulus = gf / gg;
+    return fmax(0, ff - gf * gf / gg);
+}
+
+wt_status wt_worn_tip_fit(const wt_tip *tip, double radius, double depth, double bending,
+                          wt_worn_tip *fit, wt_error *err)
+{
+    const double section = 0.5 * (3 - sqrt(5)); /* of the golden section search */
+    wt_contact_table *table = NULL;
+    wt_tip worn = *tip;
+    worn.radius = radius;
+    worn.transition_radius = wt_tip_tangent_transition(radius, tip->half_angle);
+    wt_status status = wt_contact_table_new(tip, 1e-3 * depth, 2 * depth, &table, err);
+    if (status != WT_OK)
+        return status;
+    worn_curve c = {.stated = table, .depth = depth};
+    double samples = 0, slope, largest;
+    wt_contact_function(&worn, depth, &largest, &slope);
+    for (int i = 0; i < NODES; i++) {
+        wt_contact_function(&worn, depth * (i + 1) / NODES, &c.force[i], &slope);
+        c.travel[i] = 1 + bending * slope / largest;
+        samples += c.travel[i];
+    }
+    double low = -depth / 2, high = depth / 2, modulus;
+    double a = low + section * (high - low), b = high - section * (high - low);
+    double of_a = squares_left(&c, a, &modulus), of_b = squares_left(&c, b, &modulus);
+    for (int step = 0; step < STEPS; step++) {
+        if (of_a < of_b) {
+            high = b;
+            b = a;
+            of_b = of_a;
+            a = low + section * (high - low);
+            of_a = squares_left(&c, a, &modulus);
+        } else {
+            low = a;
+            a = b;
+            of_a = of_b;
+            b = high - section * (high - low);
+            of_b = squares_left(&c, b, &modulus);
+        }
+    }
+    const double left = squares_left(&c, 0.5 * (low + high), &modulus);
+    *fit = (wt_worn_tip){log(modulus), sqrt(left / samples) / largest};
+    wt_contact_table_free(table);
+    return WT_OK;
+}
