@@ -12,21 +12,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Most and least blocks of the part, and how many samples each shall have; the fit through their
- * means has three parameters. Samples of a curve at least, and which share of them is its far end;
- * the share of the baseline that is taken for its tilt, which must be as long as the part. The
- * least rise, in standard deviations of the noise. */
-enum {
-    BLOCKS = 10,
-    LEAST_BLOCKS = 6,
-    BLOCK_SAMPLES = 2,
-    PARAMETERS = 3,
-    LINE = 2, /* parameters of it */
-    CURVE_LEAST = 40,
-    FAR_SHARE = 10,
-    LEAST_UNITS = 3
-};
-static const double baseline_share = 0.6, least_rise = 20, level = 0.975;
+/* Ten blocks hold noise that lasts a tenth of the part; six leave three degrees of freedom to a
+ * parabola, whose quantile is then 3.2 and not 12.7. Two samples in a block, or its mean is none.
+ */
+enum { BLOCKS = 10, LEAST_BLOCKS = 6, BLOCK_SAMPLES = 2, PARAMETERS = 3, LINE = 2 /* of those */ };
+/* A heuristic: of fewer samples a tenth, the far end, is too short for a median. */
+enum { CURVE_LEAST = 40, FAR_SHARE = 10 };
+/* Of two units the quantile of Student's t is 12.7, and curves tell more. */
+enum { LEAST_UNITS = 3 };
+/* A heuristic: the last part of the baseline may hold attraction. */
+static const double baseline_share = 0.6;
+/* Standard deviations of the noise, which noise alone does not reach; a heuristic of what a slope
+ * is worth measuring by. */
+static const double least_rise = 20;
+static const double level = 0.975; /* of Student's t: intervals of 95 % */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)
@@ -61,7 +60,7 @@ static double mean(const double *values, size_t n)
     return sum / (double)n;
 }
 
-static void turn(double *values, size_t n)
+static void turn_round(double *values, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         const double kept = values[i];
@@ -70,7 +69,7 @@ static void turn(double *values, size_t n)
     }
 }
 
-static void take(samples *s, const double *position, const double *signal, size_t n)
+static void take_samples(samples *s, const double *position, const double *signal, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (isfinite(position[i]) && isfinite(signal[i])) {
@@ -79,8 +78,8 @@ static void take(samples *s, const double *position, const double *signal, size_
         }
     const size_t end = s->n / FAR_SHARE;
     if (end > 0 && mean(s->v, end) > mean(s->v + s->n - end, end)) {
-        turn(s->z, s->n);
-        turn(s->v, s->n);
+        turn_round(s->z, s->n);
+        turn_round(s->v, s->n);
     }
 }
 
@@ -263,7 +262,7 @@ static void measure_part(const samples *s, const part *p, double rise, wt_contac
     c->change_error *= own / c->slope;
 }
 
-static void measure(samples *s, const wt_slope_options *options, wt_contact_slope *c)
+static void measure_slope(samples *s, const wt_slope_options *options, wt_contact_slope *c)
 {
     if (s->n < CURVE_LEAST) {
         snprintf(c->why_not, sizeof c->why_not, "%zu samples, at least %d are needed", s->n,
@@ -326,8 +325,8 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
     if (room == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
     samples s = {.z = room, .v = room + n + 1, .scratch = room + 2 * (n + 1)};
-    take(&s, position, signal, n);
-    measure(&s, options, slope);
+    take_samples(&s, position, signal, n);
+    measure_slope(&s, options, slope);
     free(room);
     return WT_OK;
 }

@@ -16,11 +16,23 @@
 
 /* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
 enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
-enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
-/* Qualities to start with; the range: widths of the peak to either side, within these shares of the
- * resonance. */
+/* A bound against a loop without end. */
+enum { STEPS = 200 };
+/* The windows in use make up to three neighbouring bins share noise. */
+enum { LAGS = 3 };
+/* Six points for each parameter, a heuristic. */
+enum { LEAST_POINTS = 24 };
+/* Blocks by which slow departures are tested: five for each parameter; and the bins whose mean a
+ * single outlier does not make the peak. Heuristics. */
+enum { BLOCKS = 20, PEAK_SMOOTH = 3 };
+/* Qualities to start with, from where there is no peak to those in vacuum; a step moves the width
+ * by half of it. */
 static const double least_quality = 0.7, most_quality = 1e6, quality_step = 1.5;
+/* The range: 40 widths to either side hold 99 % of the oscillator and enough of the floor, but not
+ * the next mode, at 6.3 times the resonance, nor the noise that rises towards low frequencies. */
 static const double range_widths = 40, range_low = 0.25, range_high = 3;
+/* Intervals of 95 %; residuals beyond three standard deviations are not of the scatter that they
+ * are held against. */
 static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826,
                     pi = 3.14159265358979323846;
 
@@ -59,7 +71,7 @@ static double deviance(const noise *v, const double theta[P])
 }
 
 /* Solves a x = b for a positive definite a; false if it is not. */
-static bool solve(double a[P][P], const double b[P], double x[P])
+static bool solve_positive(double a[P][P], const double b[P], double x[P])
 {
     double l[P][P] = {{0}};
     for (int i = 0; i < P; i++)
@@ -104,7 +116,7 @@ static void information(const noise *v, const double theta[P], double fisher[P][
 }
 
 /* Scoring with damping; true when no step is left. */
-static bool climb(const noise *v, double theta[P])
+static bool maximise_likelihood(const noise *v, double theta[P])
 {
     double best = deviance(v, theta), damping = 1e-3;
     for (int step = 0; step < STEPS; step++) {
@@ -112,7 +124,7 @@ static bool climb(const noise *v, double theta[P])
         information(v, theta, fisher, score);
         for (int a = 0; a < P; a++)
             fisher[a][a] *= 1 + damping;
-        if (!solve(fisher, score, move))
+        if (!solve_positive(fisher, score, move))
             return false;
         for (int a = 0; a < P; a++) {
             next[a] = theta[a] + move[a];
@@ -170,7 +182,7 @@ static bool covariance(const noise *v, const double theta[P], const double *grad
     for (int a = 0; a < P; a++) {
         double unit[P] = {0};
         unit[a] = 1;
-        if (!solve(fisher, unit, inverse[a]))
+        if (!solve_positive(fisher, unit, inverse[a]))
             return false;
     }
     for (int a = 0; a < P; a++)
@@ -214,7 +226,7 @@ static double slow_chance(const double *r, size_t n, double *room)
     return gsl_cdf_chisq_Q(squares, BLOCKS - P);
 }
 
-static bool judge(const noise *v, const double theta[P], wt_thermal *t, double *room)
+static bool judge_oscillator(const noise *v, const double theta[P], wt_thermal *t, double *room)
 {
     double *const r = room, *const gradient = room + v->n;
     double correlation[LAGS + 1], cov[P][P];
@@ -262,7 +274,7 @@ static double low_level(const double *p, size_t n, double *room)
 }
 
 /* Start with the quality that suits the spectrum about the peak best. */
-static void start(const noise *v, double f0, double ground, double theta[P])
+static void start_at_peak(const noise *v, double f0, double ground, double theta[P])
 {
     double best = (double)INFINITY, area = 0;
     for (size_t i = 1; i < v->n; i++)
@@ -278,7 +290,7 @@ static void start(const noise *v, double f0, double ground, double theta[P])
     }
 }
 
-static noise cut(const double *f, const double *p, size_t n, double from, double to)
+static noise cut_range(const double *f, const double *p, size_t n, double from, double to)
 {
     size_t first = 0, end = n;
     while (first < n && !(f[first] >= from))
@@ -288,35 +300,36 @@ static noise cut(const double *f, const double *p, size_t n, double from, double
     return (noise){f + first, p + first, end - first};
 }
 
-static bool refuse(wt_thermal *t, const char *why)
+static bool say_why_not(wt_thermal *t, const char *why)
 {
     t->why_not = why;
     return false;
 }
 
-static bool fit(const double *f, const double *p, size_t n, double from, double to, wt_thermal *t,
-                double *room)
+static bool fit_oscillator(const double *f, const double *p, size_t n, double from, double to,
+                           wt_thermal *t, double *room)
 {
     if (n < LEAST_POINTS)
-        return refuse(t, "too few points");
+        return say_why_not(t, "too few points");
     const double f0 = f[find_peak(f, p, n)], ground = low_level(p, n, room);
     double theta[P] = {0};
-    const noise about = cut(f, p, n, range_low * f0, range_high * f0);
-    start(&about, f0, ground, theta);
+    const noise about = cut_range(f, p, n, range_low * f0, range_high * f0);
+    start_at_peak(&about, f0, ground, theta);
     const double width = f0 / exp(theta[QUALITY]);
     t->from = !isnan(from) ? from : fmax(range_low * f0, f0 - range_widths * width);
     t->to = !isnan(to) ? to : fmin(range_high * f0, f0 + range_widths * width);
-    const noise v = cut(f, p, n, t->from, t->to);
+    const noise v = cut_range(f, p, n, t->from, t->to);
     t->n = v.n;
     if (v.n < LEAST_POINTS)
-        return refuse(t, "too few points in the range of the fit");
+        return say_why_not(t, "too few points in the range of the fit");
     if (f0 < v.f[0] || f0 > v.f[v.n - 1])
-        return refuse(t, "the largest peak lies outside of the range of the fit");
-    if (!climb(&v, theta))
-        return refuse(t, "no oscillator on a white floor fits");
+        return say_why_not(t, "the largest peak lies outside of the range of the fit");
+    if (!maximise_likelihood(&v, theta))
+        return say_why_not(t, "no oscillator on a white floor fits");
     if (exp(theta[RESONANCE]) < v.f[0] || exp(theta[RESONANCE]) > v.f[v.n - 1])
-        return refuse(t, "the resonance lies outside of the range of the fit");
-    return judge(&v, theta, t, room) || refuse(t, "the spectrum does not bound the oscillator");
+        return say_why_not(t, "the resonance lies outside of the range of the fit");
+    return judge_oscillator(&v, theta, t, room) ||
+           say_why_not(t, "the spectrum does not bound the oscillator");
 }
 
 wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n, double from,
@@ -347,7 +360,7 @@ wt_status wt_thermal_fit(const double *frequency, const double *density, size_t 
             f[m] = frequency[i];
             p[m++] = density[i];
         }
-    thermal->found = fit(f, p, m, from, to, thermal, room + 2 * (n + 1));
+    thermal->found = fit_oscillator(f, p, m, from, to, thermal, room + 2 * (n + 1));
     free(room);
     return WT_OK;
 }

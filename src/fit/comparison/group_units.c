@@ -14,7 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rates of one class differ by less than this [ln]: half a decade. Without a slope it is left. */
+/* Rates of one class differ by less than this [ln]: half a decade, a heuristic: people choose rates
+ * that are farther apart. Without a slope it is left. */
 static const double same_rate = 0.5 * M_LN10;
 
 /* The curves of one spot at one rate. */

@@ -6,10 +6,17 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* Means that the fit goes through: four for each thing that they tell (baseline, contact, dwell,
+ * drift), so that a fit takes milliseconds whatever the samples. A heuristic. */
 enum { FREE_BINS = 16, PRESSED_BINS = 64, HELD_BINS = WT_DWELL_POINTS, RETRACT_BINS = 8 };
-enum { MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS, LEAST_BASELINE = 32 };
+enum {
+    MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS,
+    LEAST_BASELINE = 32
+}; /* two samples in each of the free ones */
 /* By which part of the dwell its first mean is shorter; where the contact of the approach begins
- * for its means, before the contact point, in parts of its length; the free part of a retract. */
+ * for its means, before the contact point, in parts of its length; the free part of a retract.
+ * Heuristics: the force falls fastest at the beginning, the fit moves the contact point, and the
+ * first half of what was let go may still pull. */
 static const double first_share = 1e-3, margin = 0.2, free_share = 0.5;
 
 static void open_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
@@ -85,7 +92,8 @@ static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
 
 /* Noise as white noise and processes of the first order whose times are octaves; those slower than
  * the baseline tells are as strong as the slowest that it does. */
-enum { OCTAVES = 24, ROUNDS = 400 };
+enum { OCTAVES = 24 }; /* 2^24 samples: longer than any curve */
+enum { ROUNDS = 400 }; /* a heuristic */
 typedef struct noise {
     double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; [s] */
     size_t n;
@@ -197,7 +205,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
 }
 
 /* Covariance of the means of a noise that decays over a time, over its variance. */
-static double shared(const dwell_nodes *n, size_t i, size_t k, double time)
+static double shared_noise(const dwell_nodes *n, size_t i, size_t k, double time)
 {
     const double x = (n->to[i] - n->from[i]) / time, y = (n->to[k] - n->from[k]) / time;
     if (i == k)
@@ -215,7 +223,7 @@ static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
             const bool pressed = i >= n->first_pressed && i < n->first_free;
             double c = 0;
             for (size_t j = 0; j < v->n; j++)
-                c += v->slow[j] * shared(n, i, k, v->time[j]);
+                c += v->slow[j] * shared_noise(n, i, k, v->time[j]);
             c += i == k ? (v->white + (pressed ? v->extra : 0)) / n->count[i] : 0;
             gsl_matrix_set(n->factor, i, k, c);
             gsl_matrix_set(n->factor, k, i, c);

@@ -22,13 +22,20 @@
 
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
 enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
-enum { SUBSTEPS = 4, MOST_TERMS = 64, TERMS_PER_DECADE = 4, MAX_STEPS = 60, PER_DECADE = 4 };
-/* Standard deviations of slope, bend and bumps; how far the series goes beyond what was measured.
- */
+/* Steps of the history between means, terms and told frequencies a decade, heuristics: a spectrum
+ * that a dwell tells is smooth over a quarter of a decade. A bound against a loop without end. */
+enum { SUBSTEPS = 4, MOST_TERMS = 64, TERMS_PER_DECADE = 4, PER_DECADE = 4, MAX_STEPS = 60 };
+/* Standard deviations of slope, bend and bumps of the spectra of rubbers, and how far the series
+ * goes beyond what was measured, 1.5 decades, where a term no longer moves the force. Heuristics of
+ * what rubbers have. */
 static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2, beyond = 30;
 /* Of ripples on the spectrum that are looked for, in ln tau. */
 static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
-static const double derivative_step = 1e-5, converged = 1e-8, fell = 0.95, least_chance = 0.01;
+static const double derivative_step = 1e-5; /* between rounding and curvature */
+static const double converged = 1e-8; /* of the sum of squares: far below one standard error */
+/* Lee and Radok's integral does not hold where the contact shrinks; creep back by drift is less. */
+static const double fell = 0.95;
+static const double least_chance = 0.01; /* customary; below it no errors are told */
 
 typedef struct dwell_task {
     const wt_contact_table *table;
@@ -194,8 +201,8 @@ static double cost_of(dwell_task *t, const double *p, double *residual)
 }
 
 /* J'J with what is known beforehand, and J'r. */
-static void normal(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
-                   double jr[N_PARAMETERS])
+static void set_up_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
+                             double jr[N_PARAMETERS])
 {
     const size_t n = t->nodes.n;
     for (size_t a = 0; a < N_PARAMETERS; a++) {
@@ -216,13 +223,13 @@ static void normal(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PAR
 
 /* Levenberg and Marquardt in the first n parameters; the sum of squares, NaN where nothing came of
  * it. */
-static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
-                  double jj[N_PARAMETERS][N_PARAMETERS])
+static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
+                             double jj[N_PARAMETERS][N_PARAMETERS])
 {
     double cost = cost_of(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
     for (int step = 0; step < MAX_STEPS; step++) {
         double damped[N_PARAMETERS][N_PARAMETERS], next[N_PARAMETERS], there;
-        normal(t, p, jj, jr);
+        set_up_equations(t, p, jj, jr);
         do {
             for (size_t a = 0; a < N_PARAMETERS; a++) {
                 for (size_t b = 0; b < N_PARAMETERS; b++)
@@ -250,7 +257,7 @@ static double fit(dwell_task *t, size_t n, double p[N_PARAMETERS],
         if (gain <= converged * cost)
             break;
     }
-    normal(t, p, jj, jr);
+    set_up_equations(t, p, jj, jr);
     return cost;
 }
 
@@ -415,8 +422,8 @@ static double chance_of_two(double misfit, double ripples)
     return chance * (2 - chance);
 }
 
-static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAMETERS][N_PARAMETERS],
-                 wt_dwell *to)
+static void tell_dwell(dwell_task *t, const double *p, double cost,
+                       double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double freedom = (double)(n->n - N_PARAMETERS);
@@ -443,7 +450,7 @@ static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAME
 }
 
 /* Of an elastic sample, which is where the search begins. */
-static void begin(dwell_task *t, double p[N_PARAMETERS])
+static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
 {
     const wt_dwell_history *h = t->history;
     const dwell_nodes *n = &t->nodes;
@@ -469,7 +476,7 @@ static void begin(dwell_task *t, double p[N_PARAMETERS])
     p[TILT] = h->baseline_tilt.value / t->unit[TILT];
 }
 
-static const char *lacks(const wt_dwell_history *h)
+static const char *unusable(const wt_dwell_history *h)
 {
     const size_t n = h->n_approach + h->n_dwell + h->n_retract;
     if (!(h->spring_constant > 0) || !(h->modulus > 0) || !isfinite(h->contact_point) ||
@@ -484,7 +491,7 @@ static const char *lacks(const wt_dwell_history *h)
     return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
 }
 
-static void make(dwell_task *t, pool *memory, wt_dwell *to)
+static void fit_history(dwell_task *t, pool *memory, wt_dwell *to)
 {
     const wt_dwell_history *h = t->history;
     const double depth = h->position[h->n_approach - 1] - h->contact_point;
@@ -501,11 +508,11 @@ static void make(dwell_task *t, pool *memory, wt_dwell *to)
     t->pressed = pool_numbers(memory, t->nodes.n);
     if (to->why_not[0] != '\0' || memory->failed)
         return;
-    begin(t, p);
+    begin_elastic(t, p);
     make_terms(t);
-    (void)fit(t, BUMP, p, jj);
-    const double cost = fit(t, N_PARAMETERS, p, jj);
-    tell(t, p, cost, jj, to);
+    (void)fit_parameters(t, BUMP, p, jj);
+    const double cost = fit_parameters(t, N_PARAMETERS, p, jj);
+    tell_dwell(t, p, cost, jj, to);
 }
 
 wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
@@ -516,11 +523,11 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     dwell_task t = {.table = table, .history = history};
     pool memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
-    dwell->why_not = lacks(history);
+    dwell->why_not = unusable(history);
     gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
     if (status == WT_OK && dwell->why_not[0] == '\0')
-        make(&t, &memory, dwell);
+        fit_history(&t, &memory, dwell);
     if (status == WT_OK && memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
     pool_free(&memory);

@@ -134,7 +134,7 @@ bool spot_covers(const spot_field *f, double x, double y, double radius)
 
 /* ---- between the pixels ---------------------------------------------------------------------- */
 
-enum { NODES = 6 };
+enum { NODES = 6 }; /* of a polynomial of degree 5 */
 
 /* Of the polynomial through the pixels -2 .. 3, at 0 <= t < 1. */
 static void weights(double t, double w[NODES])
@@ -225,7 +225,7 @@ static wt_status cut_patch(const spot_field *f, double x, double y, double radiu
  * points in r^2. NaN if more than a tenth is not known. */
 static double mean_depth(const patch *p, double radius)
 {
-    enum { MORE_RINGS = 8 };
+    enum { MORE_RINGS = 8 }; /* for discs of a few pixels */
     const double across = radius / fmin(p->field.dx, p->field.dy), gauss = 0.5 / sqrt(3);
     const size_t rings = 2 * ((size_t)ceil(across) + MORE_RINGS),
                  spokes = (size_t)ceil(2 * M_PI * across) + 2 * MORE_RINGS;

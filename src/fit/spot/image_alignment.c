@@ -8,7 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Pixels along an image where the search begins; parts along an axis; fewest of all parts. */
+/* Pixels along an image where the search begins: all shifts of those are tried, 4096 times 4096
+ * products. Parts along an axis, and how many of them must tell a shift for a drift with an error.
+ * A bound against a loop without end, and how far a finer step may go back, which a coarse pixel is
+ * in. Heuristics. */
 enum { COARSE = 64, SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6, MOST_STEPS = 20, NEAR = 3 };
 
 /* A part of the first image, pixels from..to, without a disc. */

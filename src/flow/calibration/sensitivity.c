@@ -70,8 +70,8 @@ typedef struct sensitivity_task {
     size_t n;
 } sensitivity_task;
 
-static wt_status measure(const sensitivity_task *task, const wt_force_curve *curve,
-                         wt_quantity signal, item *it, wt_error *err)
+static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve *curve,
+                              wt_quantity signal, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
     it->of_file = curve->cantilever.sensitivity;
@@ -134,7 +134,7 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
         }
         task->items = items;
         items[task->n] = (item){.file = file, .unit = unit};
-        status = measure(task, &curve, signal, &items[task->n], err);
+        status = measure_ways(task, &curve, signal, &items[task->n], err);
         task->n++;
     }
     wt_force_curve_clear(&curve);
@@ -183,7 +183,7 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has(const item *it, size_t way)
+static bool has_slope(const item *it, size_t way)
 {
     return it->there[way] && it->way[way].found;
 }
@@ -209,13 +209,13 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way))
+        if (has_slope(&items[i], way))
             values[m++] = inverse(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
     const usual_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
+        if (has_slope(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
             items[i].outlier = true;
 }
 
@@ -383,7 +383,7 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        const bool usable = row < WAYS ? has(it, row) : has(it, 0) && has(it, 1);
+        const bool usable = row < WAYS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1);
         if (usable && !it->outlier)
             add_value(c, over_ways(it, row, of), it->unit);
     }
@@ -394,7 +394,8 @@ static const item *first_of(const sensitivity_task *task, size_t row)
 {
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        if (!it->outlier && (row < WAYS ? has(it, row) : has(it, 0) && has(it, 1)))
+        if (!it->outlier &&
+            (row < WAYS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1)))
             return it;
     }
     return NULL;
@@ -474,7 +475,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
  * parabola through the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 };
+    enum { NODES = 200 }; /* of midpoints: the sums are good to 1e-5 */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;
@@ -537,7 +538,8 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
 {
     size_t left_out = 0;
     for (size_t i = 0; i < task->n; i++)
-        left_out += task->items[i].outlier || !(has(&task->items[i], 0) || has(&task->items[i], 1));
+        left_out += task->items[i].outlier ||
+                    !(has_slope(&task->items[i], 0) || has_slope(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);

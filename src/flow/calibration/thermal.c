@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double boltzmann = 1.380649e-23; /* [J/K], exact */
-static const double room_temperature = 298.15;
+static const double boltzmann = 1.380649e-23;  /* [J/K], exact */
+static const double room_temperature = 298.15; /* where none is said, with a warning */
 /* Of a rectangular lever read at its end: the first mode has 0.971 of the thermal energy, and the
  * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
  * 0.817. Butt and Jaschke 1995. */
@@ -251,8 +251,8 @@ static void compare_spring_constants(const wt_job *work, const flow_file *file, 
                     l->contradiction);
 }
 
-static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_file *file, lever *l,
-                         wt_error *err)
+static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
+                               lever *l, wt_error *err)
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
@@ -401,7 +401,7 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         lever l = {.note = ""};
-        status = measure(job, work, &files->file[i], &l, &failure);
+        status = measure_lever(job, work, &files->file[i], &l, &failure);
         if (status == WT_OK) {
             put_lever(&t, &files->file[i], &l);
             levers[n++] = l;

@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Draws of the material behind the error of its change with temperature and rate. */
+/* Draws of the material behind the error of its change with temperature and rate: that error is
+ * good to 9 % then. */
 enum { DRAWS = 64 };
 
 static double square(double x)
@@ -18,7 +19,7 @@ static double square(double x)
     return x * x;
 }
 
-static void include(compare_known *k, const char *sign, const char *words)
+static void include_words(compare_known *k, const char *sign, const char *words)
 {
     const size_t used = strlen(k->includes);
     snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
@@ -29,13 +30,13 @@ static void add_error(compare_known *k, double error, const char *words)
 {
     if (isnan(error)) {
         const size_t used = strlen(k->lacks);
-        include(k, ", but not, for it is not known: ", words);
+        include_words(k, ", but not, for it is not known: ", words);
         snprintf(k->lacks + used, sizeof k->lacks - used, "%s%s", used > 0 ? ", " : "", words);
     }
     if (!(error > 0))
         return;
     k->offset.standard_error = hypot(k->offset.standard_error, error);
-    include(k, ", ", words);
+    include_words(k, ", ", words);
 }
 
 static bool are_two(const compare_pair *p, wt_levers levers)
@@ -79,7 +80,7 @@ static bool has_tip_error(const wt_group_data *d)
     return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
 }
 
-static void cancel(compare_known *k, const char *words)
+static void cancel_words(compare_known *k, const char *words)
 {
     const size_t used = strlen(k->cancels);
     snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
@@ -101,7 +102,7 @@ static void add_source(const compare_pair *p, const wt_compare_job *job, wt_comm
     const double error = fmax(bulk.error > 0 ? bulk.error : 0, track.error > 0 ? track.error : 0);
     if (!(error > 0))
         return;
-    cancel(k, words);
+    cancel_words(k, words);
     if (source != WT_COMMON_SPRING_CONSTANT)
         add_error(k, fabs(track.gain - bulk.gain) * error, words);
 }
@@ -122,7 +123,7 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
         if (k->two_levers)
             add_error(k, job->tip_error * M_SQRT2, "tips");
         else
-            cancel(k, "tip");
+            cancel_words(k, "tip");
     }
     if (!k->two_levers)
         return;

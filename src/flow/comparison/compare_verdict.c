@@ -7,8 +7,10 @@
 
 #include <math.h>
 
-/* Scatter of ln E between spots where none is measured. */
-static const double scatter_assumed = 0.15, level = 0.05;
+/* Scatter of ln E between spots where none is measured, for the number of spots alone; a heuristic:
+ * filled rubbers scatter by 5 to 25 %. */
+static const double scatter_assumed = 0.15;
+static const double level = 0.05; /* customary */
 
 typedef struct verdict_words {
     char text[48];

@@ -9,8 +9,15 @@
 #include <stdlib.h>
 
 static const double pi = 3.14159265358979323846;
-/* Frequencies of one drive, and an amplitude that is small beside the indentation. */
-static const double same_drive = 0.01, small = 0.2;
+/* Frequencies of one drive: what a few periods resolve is more, and drives are farther apart. */
+static const double same_drive = 0.01;
+/* An amplitude that is small beside the indentation: the curvature of a contact changes the
+ * stiffness at the drive by less than 1 % up to there. */
+static const double small_amplitude = 0.2;
+
+/* Steps that a segment of the same clock may begin after the last sample. A heuristic: instruments
+ * lose a few while they turn, and another clock begins anew. */
+static const double most_gap = 100;
 
 typedef struct history {
     double *time, *position, *force, *scratch;
@@ -36,7 +43,7 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
     double shift = 0;
     if (to->n > 1) {
         const double last = to->time[to->n - 1], step = last - to->time[to->n - 2];
-        if (!(time[0] > last && time[0] < last + 100 * step))
+        if (!(time[0] > last && time[0] < last + most_gap * step))
             shift = last + step - time[0];
     }
     for (size_t i = 0; i < s->n_points; i++) {
@@ -108,9 +115,9 @@ static double slope_at(const wt_contact_table *contact, double depth, double poi
     return slope / (1 - poisson * poisson);
 }
 
-static wt_status tell(const wt_contact_table *contact, double poisson, double spring_constant,
-                      const wt_indent_fit *fit, const dwell_curve *c, dwell_modulated *m,
-                      wt_error *err)
+static wt_status tell_modulation(const wt_contact_table *contact, double poisson,
+                                 double spring_constant, const wt_indent_fit *fit,
+                                 const dwell_curve *c, dwell_modulated *m, wt_error *err)
 {
     const wt_dwell *d = &c->dwell;
     const bool placed = d->found;
@@ -140,7 +147,7 @@ static wt_status tell(const wt_contact_table *contact, double poisson, double sp
     m->amplitude = hypot(a[0] - a[2] / spring_constant, a[1] - a[3] / spring_constant);
     m->note = !placed      ? "the contact point is that of an elastic fit"
               : !described ? "the dwell is not described, nor is the contact point"
-              : m->amplitude > small * m->indentation
+              : m->amplitude > small_amplitude * m->indentation
                   ? "the amplitude is more than a fifth of the indentation"
               : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
                             : "";
@@ -212,7 +219,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
         status = wt_dwell_fit(contact, &of, &to->dwell, err);
     for (size_t i = 0; status == WT_OK && i < to->n; i++) {
         if (to->modulated[i].sine.found)
-            status = tell(contact, poisson, k, fit, to, &to->modulated[i], err);
+            status = tell_modulation(contact, poisson, k, fit, to, &to->modulated[i], err);
         else
             to->modulated[i].note = to->modulated[i].sine.why_not;
     }

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one. */
+/* Frequencies that differ by less are one: less than moduli tell apart, more than files round to.
+ */
 static const double same_frequency = 1e-3;
 
 typedef struct place {
