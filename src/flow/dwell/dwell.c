@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
 #include "base/array.h"
-#include "base/normal.h"
 #include "base/param.h"
 #include "flow/indentation/indent.h"
 #include "flow/work/cost.h"
@@ -39,12 +38,6 @@ typedef struct dwell_task {
     size_t n_dwells;
     dwell_curve curve; /* the latest */
 } dwell_task;
-
-bool dwell_is_modulus(const wt_dwell_moduli *m)
-{
-    return m->storage.value > 0 &&
-           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
-}
 
 /* A force that pulls has no modulus, nor has a depth at which the law does not hold. */
 static double point_modulus(const dwell_task *task, const wt_dwell_point *p, double modulus)

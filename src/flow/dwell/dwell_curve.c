@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
 
+#include "base/normal.h"
 #include "data/force_curve.h"
 #include "model/tip.h"
 
@@ -27,6 +28,12 @@ typedef struct history {
 bool dwell_is_held(const wt_segment *s)
 {
     return (s->kind == WT_SEGMENT_DWELL || s->kind == WT_SEGMENT_MODULATION) && s->n_points > 1;
+}
+
+bool dwell_is_modulus(const wt_dwell_moduli *m)
+{
+    return m->storage.value > 0 &&
+           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
 }
 
 /* Samples of a segment behind those of a history, with times that go on; false where it lacks time,
