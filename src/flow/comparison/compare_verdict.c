@@ -6,6 +6,7 @@
 #include "base/number.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Scatter of ln E between spots where none is measured, for the number of spots alone; a heuristic:
  * filled rubbers scatter by 5 to 25 %. */
@@ -92,8 +93,8 @@ static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict
 }
 
 /* What keeps the ratio itself from being known. */
-static bool judge_conditions(const compare_pair *p, const compare_known *k, const compare_row *row,
-                             compare_verdict *v)
+static bool find_no_ratio(const compare_pair *p, const compare_known *k, const compare_row *row,
+                          compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     v->silent = true;
@@ -117,8 +118,8 @@ static bool judge_conditions(const compare_pair *p, const compare_known *k, cons
 }
 
 /* What leaves it without an interval. */
-static bool judge_error(const compare_pair *p, const wt_compare_job *job, const compare_known *k,
-                        const compare_row *row, compare_verdict *v)
+static bool find_no_interval(const compare_pair *p, const wt_compare_job *job,
+                             const compare_known *k, const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     if (c->unsettled == WT_ONE_SPOT) {
@@ -146,7 +147,8 @@ static bool judge_error(const compare_pair *p, const wt_compare_job *job, const 
 }
 
 /* A ratio for each rate: each is judged by itself, with p corrected for their number. */
-static void judge_twist(const compare_row *rates, size_t n, double interaction, compare_verdict *v)
+static void decide_by_rate(const compare_row *rates, size_t n, double interaction,
+                           compare_verdict *v)
 {
     bool softer = false, stiffer = false;
     for (size_t i = 0; i < n; i++) {
@@ -187,6 +189,14 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
         SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
 }
 
+/* What else may well make the ratio keeps the answer back. */
+static void say_unsaid(const compare_unsaid *unsaid, const char *seems, compare_verdict *v)
+{
+    SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
+        unsaid->plausible);
+    SAY(v->settled_by, "%s", unsaid->settled_by);
+}
+
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
                               const compare_known *known, const compare_unsaid *unsaid,
                               const compare_row *row, const compare_row *rates, size_t n_rates)
@@ -194,10 +204,12 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
     compare_verdict v = {0};
-    if (judge_conditions(p, known, row, &v) || judge_error(p, job, known, row, &v))
+    if (find_no_ratio(p, known, row, &v) || find_no_interval(p, job, known, row, &v))
         return v;
     if (c->interaction_p < level) {
-        judge_twist(rates, n_rates, c->interaction_p, &v);
+        decide_by_rate(rates, n_rates, c->interaction_p, &v);
+        if (strncmp(v.differs, "yes", 3) == 0 && unsaid->plausible[0] != '\0')
+            say_unsaid(unsaid, "seems to differ, by a ratio that depends on the rate", &v);
         return v;
     }
     const double low = log(c->ratio_low), high = log(c->ratio_high);
@@ -205,12 +217,11 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     if (within && known->lacks[0] != '\0') {
         say_lacking(job, known, &v);
     } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
-        SAY(v.differs, "cannot say: the wear track %s, but this may be as well: %s",
-            within     ? "seems to differ by less than the margin"
-            : high < 0 ? "seems softer"
-                       : "seems stiffer",
-            unsaid->plausible);
-        SAY(v.settled_by, "%s", unsaid->settled_by);
+        say_unsaid(unsaid,
+                   high < 0  ? "seems softer"
+                   : low > 0 ? "seems stiffer"
+                             : "seems to differ by less than the margin",
+                   &v);
     } else if (low > 0 || high < 0) {
         SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
             within ? ", by less than the margin" : "");
