@@ -12,17 +12,12 @@
  *
  * What stays as it is, from one version to the next:
  * - While MAJOR is 0 a new MINOR may break programs; from 1 on only a new MAJOR may. A new PATCH
- *   never does. soname and CMake package say the same: libweartrack.so.0.MINOR and then .MAJOR,
- *   find_package(weartrack 0.MINOR). A program needs a library that is at least as new as the
- *   headers it was built with.
- * - A structure that the caller fills ends in `reserved`. A new field takes whole elements of it,
- *   so sizes and offsets stay. Begin with its `_defaults` function, which is in the library and
- *   also sets the fields that a program does not know yet; a structure without one begins with
- *   zeros, `wt_tip tip = {0}`, and zero in a new field is what was done before it came. Leave
- *   `reserved` alone, and name the fields in an initialiser.
- * - Any other structure (results, wt_error, wt_estimate and the like) keeps its fields. An
- *   enumeration grows at its end only.
- * Sizes and offsets are kept for 64-bit systems; tests/arch/layout.c holds them.
+ *   never does: it leaves structures and enumerations as they are. soname and CMake package say the
+ *   same: libweartrack.so.0.MINOR and then .MAJOR, find_package(weartrack 0.MINOR). A program needs
+ *   a library that is at least as new as the headers it was built with.
+ * - A structure that the caller fills begins with its `_defaults` function; one without begins with
+ *   zeros, `wt_tip tip = {0}`. Name the fields in an initialiser. So a program that is built anew
+ *   does with fields that it does not know what was done before they came.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -258,6 +253,11 @@ typedef struct wt_estimate {
     const char *unit;       /* SI unit, static text */
 } wt_estimate;
 
+/* A number with its 95 % interval; standard_error is half its width over 1.96. */
+typedef struct wt_interval {
+    double value, standard_error, low, high;
+} wt_interval;
+
 /* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
  * standard error; without it the standard error is 0 (not stated). */
 WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
@@ -329,7 +329,6 @@ typedef struct wt_provenance_input {
     uint64_t bytes;
     char sha256[65];      /* "": not asked for */
     uint64_t fingerprint; /* of the bytes: those of copies are equal; 0 = not known */
-    uint64_t reserved[7];
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;

@@ -20,7 +20,6 @@ typedef struct wt_channel {
     char name[64];  /* as exported, UTF-8 */
     char unit[32];  /* as exported, before conversion; "" if the file does not say */
     double *values; /* [n_points] of the segment, SI; NaN = missing sample */
-    uint64_t reserved[8];
 } wt_channel;
 
 typedef enum wt_segment_kind {
@@ -46,7 +45,6 @@ typedef struct wt_segment {
     double setpoint;  /* [N] or NaN */
     double velocity;  /* piezo velocity [m/s], NaN if unknown */
     double frequency; /* of a modulation [Hz] as the file says it, NaN if unknown */
-    uint64_t reserved[7];
 } wt_segment;
 
 typedef struct wt_cantilever {
@@ -54,7 +52,6 @@ typedef struct wt_cantilever {
     double sensitivity;         /* deflection sensitivity InvOLS [m/V], NaN if unknown */
     bool spring_constant_given; /* the user's value replaced (or supplied) the file's */
     bool sensitivity_given;
-    uint64_t reserved[8];
 } wt_cantilever;
 
 /* The segments of one position. A zero-initialised curve is empty and may be given to a reader,
@@ -67,7 +64,6 @@ typedef struct wt_force_curve {
     size_t n_segments;
     wt_segment *segments;
     size_t capacity; /* segments allocated; private to wt_force_curve_* */
-    uint64_t reserved[8];
 } wt_force_curve;
 
 WT_API void wt_force_curve_clear(wt_force_curve *curve); /* frees all; the curve is empty again */
@@ -117,7 +113,6 @@ typedef struct wt_isotherm {
     double *loss_factor;       /* [n] where it was measured without a modulus, else NULL */
     char *sample;              /* what it was measured on, as the file calls it; NULL: no name */
     double given_log_b;        /* log10 of the vertical shift, if it is given */
-    uint64_t reserved[3];
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, heated or cooled once. */
@@ -131,7 +126,6 @@ typedef struct wt_ramp {
     double *strain;          /* [n] or NULL */
     double *loss_factor;     /* [n] where it was measured without a modulus, else NULL */
     char *sample;            /* as that of an isotherm */
-    uint64_t reserved[5];
 } wt_ramp;
 
 /* Moduli against the amplitude of the strain at one frequency and temperature, raised or lowered
@@ -146,7 +140,6 @@ typedef struct wt_strain_sweep {
     double *loss_modulus;    /* [n] Pa */
     char source[128];        /* file and step it came from */
     char *sample;            /* as that of an isotherm */
-    uint64_t reserved[7];
 } wt_strain_sweep;
 
 /* Isotherms in the order of rising temperature (equal temperatures stay separate), temperature
@@ -159,7 +152,6 @@ typedef struct wt_sweep {
     wt_ramp *ramps;
     size_t n_strain_sweeps;
     wt_strain_sweep *strain_sweeps;
-    uint64_t reserved[4];
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Arrays that a sweep may have beside those of the moduli. */
@@ -189,7 +181,6 @@ typedef struct wt_power_spectrum {
     size_t n;
     double *wavenumber; /* [n] rad/m, rising */
     double *density;    /* [n] C(q): m^4 (2D: h_rms^2 = 2 pi int q C dq) or m^3 (1D) */
-    uint64_t reserved[8];
 } wt_power_spectrum;
 WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
 
@@ -208,7 +199,6 @@ typedef struct wt_noise_spectrum {
     double resonance, quality; /* [Hz], 1 */
     double sensitivity;        /* [m/V] */
     bool amplitudes;           /* the file holds square roots, whose squares these are */
-    uint64_t reserved[8];
 } wt_noise_spectrum;
 WT_API void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum);
 
@@ -223,7 +213,6 @@ typedef struct wt_prony {
     double *relaxation_time;             /* [n] s, falling or rising, > 0 */
     double *modulus;                     /* [n] Pa, >= 0 */
     double frequency_min, frequency_max; /* measured range [rad/s], NaN if unknown */
-    uint64_t reserved[8];
 } wt_prony;
 WT_API void wt_prony_clear(wt_prony *prony);
 /* Fills an empty series with n terms, all zero; what is not known is NaN. */
@@ -356,6 +345,9 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* `name` is used in errors. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
+/* The same of the tables alone that wt_result_headlines takes. */
+WT_API wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
+                                         wt_result **result, wt_error *err) WT_NODISCARD;
 
 /* A map of force curves in such a file: written curve by curve, so that memory hardly grows with
  * it. The path is borrowed until the end. */

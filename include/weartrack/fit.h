@@ -108,7 +108,6 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* of the contact only indentations from this on [m] */
     double fit_force_from;          /* and forces from this on [N] */
     double fit_force_fraction_from; /* and from this share of the largest on */
-    uint64_t reserved[1];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -233,11 +232,6 @@ typedef enum wt_depth_verdict {
     WT_DEPTH_OTHERWISE, /* there is a residual, but not that of a modulus that changes with depth */
 } wt_depth_verdict;
 
-/* With its 95 % interval; standard_error is half its width over 1.96. */
-typedef struct wt_interval {
-    double value, standard_error, low, high;
-} wt_interval;
-
 enum { WT_DEPTHS = 5 };
 typedef struct wt_curve_depth {
     size_t n, n_units; /* curves; spots, or curves where fewer than three spots are */
@@ -273,7 +267,6 @@ typedef struct wt_group {
     const long *rate_class; /* [n], with `rate`: what of both groups is the same nominal rate */
     size_t n;
     size_t n_rejected;
-    uint64_t reserved[6];
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -430,7 +423,6 @@ typedef struct wt_dwell_history {
     double contact_point, modulus; /* of a fit of the approach, to begin with; [m], [Pa] */
     double baseline_offset;        /* likewise [N] */
     wt_estimate baseline_tilt;     /* likewise [N/m] */
-    uint64_t reserved[4];
 } wt_dwell_history;
 
 /* A mean of the dwell. */
@@ -502,7 +494,6 @@ WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_
 /* The part of the contact by which the slope is measured: shares of the rise of the signal. */
 typedef struct wt_slope_options {
     double from, to;
-    uint64_t reserved[6];
 } wt_slope_options;
 WT_API wt_slope_options wt_slope_defaults(void);
 WT_API const wt_params *wt_slope_params(void);
@@ -610,7 +601,6 @@ typedef struct wt_master_options {
     bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
     wt_shift_by shift_by;    /* default MODULI */
     wt_reference_at reference_at;
-    uint64_t reserved[7];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);

@@ -54,7 +54,6 @@ typedef struct wt_job {
     wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
     wt_sweep
         *dma; /* of wt_run, whose jobs share the DMA files of the case: read into this once; NULL */
-    uint64_t reserved[4];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
@@ -72,6 +71,9 @@ typedef struct wt_tables_role {
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                 wt_tables_role role, wt_result **tables,
                                 wt_error *err) WT_NODISCARD;
+/* The same for wt_result_headlines: of an HDF5 result no other tables. */
+WT_API wt_status wt_tables_read_headlines(const char *path, wt_result **tables,
+                                          wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 /* What the failure of a file or sample comes to: a row of the failures, whose message does not name
  * it again, and WT_OK; or, where there are none or the work cannot go on, its error and `status`.
@@ -106,7 +108,6 @@ typedef struct wt_file_set {
     wt_read_options read;
     const char *spot; /* force files: the place on the sample all these curves come from; NULL: each
                          file is a spot, or each grid position if the whole group is one file */
-    uint64_t reserved[8];
 } wt_file_set;
 WT_API const wt_params *wt_file_set_params(void);
 
@@ -116,7 +117,6 @@ typedef struct wt_convert_job {
     unsigned kind; /* WT_KIND_* of a file that holds several; 0: the first that has data, in the
                       order force, sweep, spectrum, image */
     wt_read_options read;
-    uint64_t reserved[8];
 } wt_convert_job;
 WT_API wt_convert_job wt_convert_job_defaults(void);
 WT_API const wt_params *wt_convert_job_params(void);
@@ -158,7 +158,6 @@ typedef struct wt_indent_job {
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL = none (default) */
     wt_estimate temperature;        /* of the curves [K]; NaN = the rubber's reference */
     struct wt_curve_set *keep;      /* takes the accepted curves; NULL (default) */
-    uint64_t reserved[2];
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
@@ -191,7 +190,6 @@ WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
 
 typedef struct wt_dwell_tables {
     wt_table *dwell, *dwell_points, *dwell_moduli;
-    uint64_t reserved[3];
 } wt_dwell_tables;
 WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
 /* The first dwell behind the approach of every curve, with tip and options of an indentation.
@@ -211,13 +209,11 @@ typedef struct wt_spot_job {
     const char *after;     /* file with the image after the indentation; NULL = none */
     wt_read_options read;  /* of both; begin with wt_read_defaults() */
     bool map;              /* makes the table spot_map, too */
-    uint64_t reserved[7];
 } wt_spot_job;
 WT_API wt_spot_job wt_spot_job_defaults(void);
 WT_API const wt_params *wt_spot_job_params(void);
 typedef struct wt_spot_tables {
     wt_table *spot, *spot_map; /* spot_map: NULL unless asked for */
-    uint64_t reserved[2];
 } wt_spot_tables;
 WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
 /* Of the image `path` before the indentation: roughness over the contact against the depth, and
@@ -238,13 +234,11 @@ typedef struct wt_sensitivity_job {
     wt_ways ways; /* which ways the answer is of */
     double
         most_bend; /* change of the slope within the part, of the slope, that is still straight */
-    uint64_t reserved[6];
 } wt_sensitivity_job;
 WT_API wt_sensitivity_job wt_sensitivity_job_defaults(void);
 WT_API const wt_params *wt_sensitivity_job_params(void);
 typedef struct wt_sensitivity_tables {
     wt_table *sensitivity, *sensitivity_curves;
-    uint64_t reserved[4];
 } wt_sensitivity_tables;
 WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 /* WT_E_EMPTY if no file gives a curve. Where the surface gives way or the signal is not straight
@@ -266,7 +260,6 @@ typedef struct wt_thermal_job {
     wt_estimate length, width; /* of a rectangular lever [m]; NaN: not known */
     wt_medium medium;          /* about the lever */
     wt_estimate sader_coefficient; /* A of k = A Q f^1.3 [N/m per kHz^1.3]; NaN: not known */
-    uint64_t reserved[6];
 } wt_thermal_job;
 WT_API wt_thermal_job wt_thermal_job_defaults(void);
 WT_API const wt_params *wt_thermal_job_params(void);
@@ -356,7 +349,6 @@ typedef struct wt_master_job {
     const wt_table *shifts; /* columns temperature, log_a and, if it has that, log_b of shifts that
                                are not fitted, borrowed; or NULL */
     wt_reduction reduction; /* with parameters of its own */
-    uint64_t reserved[3];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
 WT_API const wt_params *wt_master_job_params(void);
@@ -380,7 +372,6 @@ typedef struct wt_zener {
     double e0, eg; /* [Pa] */
     double tau;    /* [s] */
     double alpha;
-    uint64_t reserved[4];
 } wt_zener;
 
 /* The rubber as the later stages know it: moduli at one reference temperature and how to go to
@@ -414,7 +405,6 @@ typedef enum wt_moduli { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli;
 typedef struct wt_rubber_options {
     wt_moduli moduli; /* of isotherms: the series, or the points of the master curve */
     wt_extrapolation extrapolation; /* outside the points of any table; default hold */
-    uint64_t reserved[4];
 } wt_rubber_options;
 WT_API wt_rubber_options wt_rubber_options_defaults(void);
 WT_API const wt_params *wt_rubber_options_params(void);
@@ -455,7 +445,6 @@ typedef struct wt_common_law_job {
     double reference; /* temperature of the law [K]; NaN: that of the first sample it is of */
     wt_common common; /* default WT_COMMON_NONE: not asked for */
     double margin;    /* difference of laws that does not matter [decade]; default 0.1 */
-    uint64_t reserved[4];
 } wt_common_law_job;
 WT_API wt_common_law_job wt_common_law_job_defaults(void);
 WT_API const wt_params *wt_common_law_job_params(void);
@@ -472,14 +461,12 @@ typedef struct wt_ramp_job {
     const double *temperature; /* rising [K]; owned by the caller */
     size_t n_temperatures;
     size_t peak_points; /* of a plain parabola; 0 (default): as wt_peak_find chooses */
-    uint64_t reserved[8];
 } wt_ramp_job;
 WT_API wt_ramp_job wt_ramp_job_defaults(void);
 WT_API const wt_params *wt_ramp_job_params(void);
 typedef struct wt_ramp_tables {
     wt_table *ramp, *glass_transition;
     wt_table *moduli_at; /* NULL without temperatures */
-    uint64_t reserved[5];
 } wt_ramp_tables;
 WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
 WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
@@ -489,12 +476,10 @@ WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ram
 typedef struct wt_payne_job {
     const wt_file_set *sets;
     size_t n_sets;
-    uint64_t reserved[8];
 } wt_payne_job;
 WT_API wt_payne_job wt_payne_job_defaults(void);
 typedef struct wt_payne_tables {
     wt_table *payne, *payne_sweep;
-    uint64_t reserved[4];
 } wt_payne_tables;
 WT_API void wt_payne_tables_clear(wt_payne_tables *tables);
 WT_API wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
@@ -505,7 +490,6 @@ typedef struct wt_rubber_tables {
     const wt_table *prony;
     const wt_table *shift_factors;                 /* NULL: no other temperature */
     const wt_table *material_draws, *series_draws; /* NULL: the errors are not known */
-    uint64_t reserved[4];
 } wt_rubber_tables;
 WT_API wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double poisson_ratio,
                                        wt_rubber *rubber, wt_error *err) WT_NODISCARD;
@@ -527,7 +511,6 @@ typedef struct wt_solid_options {
     wt_solid_units units;
     wt_solid_temperature temperature;
     double poisson_ratio; /* at all times; default 0.5: incompressible */
-    uint64_t reserved[6];
 } wt_solid_options;
 WT_API wt_solid_options wt_solid_options_defaults(void);
 WT_API const wt_params *wt_solid_options_params(void);
@@ -574,7 +557,6 @@ typedef struct wt_compare_job {
     double margin;            /* relative difference that does not matter; default 0.2 */
     bool rates;               /* default true: table of the modulus against rate */
     bool groups_only;         /* no comparison of the two groups */
-    uint64_t reserved[8];
 } wt_compare_job;
 WT_API wt_compare_job wt_compare_job_defaults(void);
 WT_API const wt_params *wt_compare_job_params(void);
@@ -603,7 +585,6 @@ typedef struct wt_compared {
     const char *name;
     const wt_rubber *rubber;
     const wt_table *shift_factors; /* whether superposition holds; NULL: not known */
-    uint64_t reserved[4];
 } wt_compared;
 
 typedef struct wt_materials_job {
@@ -613,14 +594,12 @@ typedef struct wt_materials_job {
     double frequency;    /* over temperature [rad/s]; NaN: 10 Hz, if all have it */
     double sample_error; /* of the modulus by the dimensions of a sample, relative */
     double margin;       /* relative difference that does not matter; default 0.2 */
-    uint64_t reserved[8];
 } wt_materials_job;
 WT_API wt_materials_job wt_materials_job_defaults(void);
 WT_API const wt_params *wt_materials_job_params(void);
 
 typedef struct wt_materials_tables {
     wt_table *materials, *material_ratio;
-    uint64_t reserved[4];
 } wt_materials_tables;
 WT_API void wt_materials_tables_clear(wt_materials_tables *tables);
 /* Moduli and their ratios where all was measured: each at the other's temperatures by its own shift
@@ -636,7 +615,6 @@ typedef struct wt_surface {
     double q0, qr, q1, hurst;   /* of the self-affine law; q0, q1 cut a spectrum (NaN = its ends) */
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
-    uint64_t reserved[8];
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a
@@ -658,14 +636,12 @@ typedef struct wt_softness {
     double *loss_error;    /* [n] of g; likewise */
     size_t n_sweeps;       /* of which it is the mean; 0: a table that was given */
     double temperature;    /* mean of theirs [K]; NaN: not known */
-    uint64_t reserved[5];
 } wt_softness;
 WT_API void wt_softness_clear(wt_softness *softness);
 /* Which of several strain sweeps. */
 typedef struct wt_softness_choice {
     double temperature; /* those measured nearest to it [K]; NaN: they are of one */
     const char *sample; /* those of this one; NULL: they are of one */
-    uint64_t reserved[4];
 } wt_softness_choice;
 WT_API wt_softness_choice wt_softness_choice_defaults(void);
 /* From the table payne_sweep: f and g are storage_ratio and loss_ratio; of several sweeps their
@@ -697,7 +673,6 @@ typedef struct wt_sliding {
     double reference_velocity;   /* of the answer and the layer [m/s]; NaN = middle of the list */
     const wt_softness *softness; /* borrowed; NULL = none */
     double strain_factor;        /* as in wt_friction_options; default 1 */
-    uint64_t reserved[6];
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -710,7 +685,6 @@ typedef struct wt_layer_known {
     bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
     double calibration_share;  /* of the variance of the ratio that is of spring constants and the
                                   like, not of the scatter of spots; default 0 */
-    uint64_t reserved[5];
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 
@@ -759,7 +733,6 @@ typedef struct wt_layer_job {
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
     double velocity; /* at which the track was worn [m/s]; NaN = the reference velocity */
-    uint64_t reserved[7];
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 WT_API const wt_params *wt_layer_job_params(void);
@@ -823,7 +796,6 @@ typedef struct wt_coverage_job {
     const wt_curve_set *curves[2];
     bool ratio_of_groups; /* the ratio of `known` is that of the groups: of the trial in each trial
                            */
-    uint64_t reserved[3];
 } wt_coverage_job;
 WT_API wt_coverage_job wt_coverage_job_defaults(void); /* trials 0 */
 WT_API const wt_params *wt_coverage_job_params(void);
@@ -840,7 +812,6 @@ WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work
 typedef struct wt_accuracy_job {
     const char *part; /* name of one numerical part; NULL (default): all */
     size_t repeats;   /* how often each point is timed; default 9 */
-    uint64_t reserved[8];
 } wt_accuracy_job;
 WT_API wt_accuracy_job wt_accuracy_job_defaults(void);
 WT_API const wt_params *wt_accuracy_job_params(void);
@@ -876,7 +847,6 @@ typedef struct wt_run_options {
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
     const char *const *columns; /* of plain tables, as wt_formats_add_columns takes them */
     size_t n_columns;
-    uint64_t reserved[5];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 WT_API const wt_params *wt_run_params(void);

@@ -21,7 +21,6 @@ extern "C" {
 typedef struct wt_layer_state {
     double thickness;     /* [m], 0 = none */
     double modulus_ratio; /* E_layer / E_bulk, > 0 */
-    uint64_t reserved[8];
 } wt_layer_state;
 
 /* How the moduli soften with strain (Payne effect): E' becomes f E', E'' becomes g E''. f and g are
@@ -33,7 +32,6 @@ typedef struct wt_softening {
     double *strain;  /* [n] amplitude, 1 = 100 %, > 0 and rising */
     double *storage; /* [n] f, from 1e-3 to 1e3 */
     double *loss;    /* [n] g, likewise */
-    uint64_t reserved[4];
 } wt_softening;
 
 /* WT_E_ARG or WT_E_RANGE naming the point that is wrong. */
@@ -48,7 +46,6 @@ typedef struct wt_friction_options {
     struct angular_law *series; /* of the library: that of the material, borrowed; default NULL */
     const wt_softening *softening; /* borrowed while the workspace is made; NULL (default) = none */
     double strain_factor;          /* of the softening, > 0; default 1 */
-    uint64_t reserved[5];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
@@ -122,7 +119,6 @@ typedef struct wt_energy_source {
     double *wavenumber;     /* [n] rad/m */
     double *power;          /* [n] W/m^2 */
     double numerical_error; /* relative, of wt_energy_tail at any depth; 0 = exact */
-    uint64_t reserved[8];
 } wt_energy_source;
 WT_API void wt_energy_source_clear(wt_energy_source *source);
 /* From the hysteresis integrand at one velocity: J_i = j(q_i) dq_i, sum = mu_hys sigma0 v. */
@@ -145,7 +141,6 @@ typedef struct wt_layer_parameters {
     bool incubation;     /* damage transport (exact, with incubation) instead of the rate balance */
     bool without_errors; /* no numerical error that costs more than its number: NaN */
     bool balance_only;   /* of a balance no incubation time: NaN */
-    uint64_t reserved[8];
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 WT_API const wt_params *wt_layer_params(void);

@@ -36,7 +36,6 @@ typedef struct wt_tip {
     bool unbonded;            /* it slides on that base */
     double half_angle_error;  /* standard errors [rad] and [m]; 0 = not stated (default). No law */
     double radius_error;      /* uses them: they are common to all curves of a group */
-    uint64_t reserved[4];
 } wt_tip;
 
 /* b = R cos(theta): the sphere tangent to the faces (default of the field's programs). */
@@ -98,7 +97,6 @@ typedef struct wt_shift_law {
     wt_wlf wlf;               /* its reference temperature is that of the law, of every kind */
     double activation_energy; /* [J/mol] */
     double joint;             /* Arrhenius below it [K] */
-    uint64_t reserved[4];
 } wt_shift_law;
 /* log10 aT, 0 at the reference temperature. NaN where the law has no value. */
 WT_API double wt_shift_law_log_a(const wt_shift_law *law, double temperature);
@@ -134,7 +132,6 @@ typedef struct wt_material_law {
     void (*angular_loss)(const wt_material *material, const double *omega, size_t n, double *j2);
     /* Below the first of the breaks E' and E'' are powers of the frequency. */
     bool power_below;
-    uint64_t reserved[4];
 } wt_material_law;
 
 struct wt_material {
@@ -142,7 +139,6 @@ struct wt_material {
     double poisson_ratio;                /* [0, 0.5] */
     double frequency_min, frequency_max; /* range backed by data [rad/s]; NaN = unlimited */
     void *data;                          /* of the law */
-    uint64_t reserved[8];
 };
 
 /* Outside a table: hold the end values, or go on with the end slope in log-log. Stated, never
@@ -172,7 +168,6 @@ typedef struct wt_transverse {
     double
         plane_poisson; /* nu_p: contraction in the plane under a load in it; NaN = poisson_ratio */
     double axial_poisson; /* nu_zp: in the plane under a load along the axis; NaN likewise */
-    uint64_t reserved[4];
 } wt_transverse;
 WT_API wt_transverse wt_transverse_defaults(void); /* isotropic */
 WT_API const wt_params *wt_transverse_params(void);
@@ -197,14 +192,12 @@ typedef struct wt_roughness_law {
     /* int_q0^q k^m C dk for m = 1 or 3 in closed form; NULL: integrated numerically. */
     double (*moment)(const wt_roughness *roughness, int m, double q);
     void (*free)(wt_roughness *roughness);
-    uint64_t reserved[8];
 } wt_roughness_law;
 
 struct wt_roughness {
     const wt_roughness_law *law;
     double q0, q1; /* [rad/m] */
     void *data;
-    uint64_t reserved[8];
 };
 
 /* C = c0 for q0 <= q <= qr, c0 (q/qr)^(-2(1+H)) for qr < q <= q1; -1 < H <= 3. */

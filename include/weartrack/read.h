@@ -120,7 +120,6 @@ typedef struct wt_read_options {
     const char *sample; /* of DMA sweeps of several samples: its name; "all" = they are of one
                            material, whatever they are called; NULL = none is chosen */
     wt_sample_by sample_by;
-    uint64_t reserved[2];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

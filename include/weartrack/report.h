@@ -18,7 +18,6 @@ typedef struct wt_report_options {
     bool with_provenance; /* version, command line and times on the page; default true */
     double gnuplot_time;  /* the longest that one figure may take to draw [s]; default 120 */
     unsigned threads;     /* figures drawn at a time; 0 = one per processor */
-    uint64_t reserved[6];
 } wt_report_options;
 WT_API wt_report_options wt_report_defaults(void);
 WT_API const wt_params *wt_report_params(void);

@@ -31,7 +31,7 @@ door_limits door_limits_of(size_t size)
 /* ---- behind the door ------------------------------------------------------------------------- */
 
 /* Never more than there was. */
-static bool limit(unsigned resource, size_t most)
+static bool limit_resource(unsigned resource, size_t most)
 {
     struct rlimit both;
     if (getrlimit(resource, &both) != 0)
@@ -71,9 +71,9 @@ static bool shut_in(int to, const door_call *door, const door_limits *limits, si
     for (int i = 0; i < ANSWER_FD; i++)
         (void)close(i);
     closefrom(ANSWER_FD + 1 + (door->file >= 0));
-    return limit(RLIMIT_NOFILE, n_files) && limit(RLIMIT_FSIZE, 0) && limit(RLIMIT_CORE, 0) &&
-           limit(RLIMIT_CPU, limits->cpu_time) &&
-           (data == 0 || limit(RLIMIT_DATA, data + limits->memory));
+    return limit_resource(RLIMIT_NOFILE, n_files) && limit_resource(RLIMIT_FSIZE, 0) &&
+           limit_resource(RLIMIT_CORE, 0) && limit_resource(RLIMIT_CPU, limits->cpu_time) &&
+           (data == 0 || limit_resource(RLIMIT_DATA, data + limits->memory));
 }
 
 /* The answer ends with the error, so that one without it was cut off. */
@@ -223,8 +223,8 @@ static wt_status explain(const char *what, ending how, int state, const door_lim
 }
 
 /* The error that the process reported, as far as it is one. */
-static wt_status reported(const char *what, const char *bytes, const door_limits *limits,
-                          wt_error *err)
+static wt_status reported_error(const char *what, const char *bytes, const door_limits *limits,
+                                wt_error *err)
 {
     wt_error said;
     memcpy(&said, bytes, sizeof said);
@@ -273,17 +273,17 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
 }
 
 /* Ends the process, whose answer is over, and says what became of it. */
-static wt_status judge(door_flow *flow, wt_error *err)
+static wt_status end_process(door_flow *flow, wt_error *err)
 {
     const int state = finish(flow->child, flow->how != ENDED);
     flow->child = -1;
     if (flow->how == ENDED && state == 0 && flow->length >= sizeof(wt_error))
-        return reported(flow->what, flow->bytes + flow->length - sizeof(wt_error), &flow->limits,
-                        err);
+        return reported_error(flow->what, flow->bytes + flow->length - sizeof(wt_error),
+                              &flow->limits, err);
     return explain(flow->what, flow->how, state, &flow->limits, err);
 }
 
-static wt_status unexpected(const door_flow *flow, const char *how, wt_error *err)
+static wt_status fail_unexpected(const door_flow *flow, const char *how, wt_error *err)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", flow->what, how);
     return refuse(err);
@@ -292,12 +292,12 @@ static wt_status unexpected(const door_flow *flow, const char *how, wt_error *er
 wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
 {
     if (flow->child < 0)
-        return unexpected(flow, "less", err);
+        return fail_unexpected(flow, "less", err);
     /* The error that the answer ends with must not be taken for a part of it. */
     collect(flow, n + sizeof(wt_error));
     if (flow->length < n + sizeof(wt_error)) {
-        const wt_status status = judge(flow, err);
-        return status != WT_OK ? status : unexpected(flow, "less", err);
+        const wt_status status = end_process(flow, err);
+        return status != WT_OK ? status : fail_unexpected(flow, "less", err);
     }
     memcpy(to, flow->bytes, n);
     flow->length -= n;
@@ -310,7 +310,7 @@ wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
 {
     wt_status status = WT_OK;
     if (flow->child < 0)
-        return unexpected(flow, "less", err);
+        return fail_unexpected(flow, "less", err);
     while (status == WT_OK && flow->how == COMING) {
         collect(flow, ANSWER_BUFFER + sizeof(wt_error));
         /* The error at the end is not a part of it. */
@@ -320,16 +320,16 @@ wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
         flow->taken += n;
         memmove(flow->bytes, flow->bytes + n, flow->length);
     }
-    return status == WT_OK ? judge(flow, err) : status;
+    return status == WT_OK ? end_process(flow, err) : status;
 }
 
 wt_status door_end(door_flow *flow, wt_error *err)
 {
     if (flow->child < 0)
-        return unexpected(flow, "less", err);
+        return fail_unexpected(flow, "less", err);
     collect(flow, SIZE_MAX);
-    const wt_status status = judge(flow, err);
-    return status == WT_OK && flow->length != sizeof(wt_error) ? unexpected(flow, "more", err)
+    const wt_status status = end_process(flow, err);
+    return status == WT_OK && flow->length != sizeof(wt_error) ? fail_unexpected(flow, "more", err)
                                                                : status;
 }
 
@@ -352,7 +352,7 @@ wt_status door_read(const door_call *door, const door_limits *limits, char **ans
     if (status != WT_OK)
         return status;
     collect(flow, SIZE_MAX);
-    status = judge(flow, err);
+    status = end_process(flow, err);
     if (status == WT_OK) {
         *answer = flow->bytes;
         *length = flow->length - sizeof(wt_error);

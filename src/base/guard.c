@@ -27,7 +27,7 @@ void wt_guard_start(void)
 }
 
 /* The guard is locked. */
-static wt_status remember(const struct stat *info)
+static wt_status remember_file(const struct stat *info)
 {
     if (guard.n == guard.capacity) {
         const size_t capacity = guard.capacity > 0 ? 2 * guard.capacity : 64;
@@ -58,12 +58,12 @@ wt_status wt_guard_read(const char *path, wt_error *err)
         return WT_OK;
     (void)pthread_mutex_lock(&guard.lock);
     if (guard.started)
-        status = remember(&info);
+        status = remember_file(&info);
     (void)pthread_mutex_unlock(&guard.lock);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
-static bool has(const unsigned char *block, size_t n, const char *mark)
+static bool block_holds(const unsigned char *block, size_t n, const char *mark)
 {
     return memmem(block, n, mark, strlen(mark) + 1) != NULL;
 }
@@ -92,8 +92,8 @@ static bool is_foreign(const char *path, off_t size)
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
-        own =
-            i == 0 && (has(block, n, STORE_FORMAT_ATTRIBUTE) || has(block, n, STORE_MAP_ATTRIBUTE));
+        own = i == 0 && (block_holds(block, n, STORE_FORMAT_ATTRIBUTE) ||
+                         block_holds(block, n, STORE_MAP_ATTRIBUTE));
         foreign =
             !own && (is_binary(block, n) || (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
     }

@@ -27,7 +27,7 @@ typedef struct worker {
     pthread_t thread;
 } worker;
 
-static void *work(void *argument)
+static void *worker_main(void *argument)
 {
     const worker *const w = argument;
     job *const j = w->job;
@@ -87,11 +87,11 @@ wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void 
         worker *const w = &helpers[started];
         w->job = &j;
         w->number = (unsigned)started + 1;
-        if (pthread_create(&w->thread, NULL, work, w) != 0)
+        if (pthread_create(&w->thread, NULL, worker_main, w) != 0)
             break;
         started++;
     }
-    (void)work(&self);
+    (void)worker_main(&self);
     for (size_t i = 0; i < started; i++)
         (void)pthread_join(helpers[i].thread, NULL);
     free(helpers);

@@ -69,7 +69,7 @@ static slot slot_of(const wt_params *params, size_t i, void *structure)
     return (slot){param, base + param->offset, (void *)(base + param->count_offset)};
 }
 
-static unsigned long long whole(const slot *s)
+static unsigned long long whole_number(const slot *s)
 {
     unsigned narrow = 0;
     unsigned long long wide = 0;
@@ -137,7 +137,7 @@ static wt_status out_of_range(const wt_param *param, double value, const char *f
 /* ---- from text ------------------------------------------------------------------------------- */
 
 /* A value out of range was read: the text shows it as it was written. */
-static wt_status limit(const wt_param *param, double value, const char *text, wt_error *err)
+static wt_status fail_range(const wt_param *param, double value, const char *text, wt_error *err)
 {
     if (is_within(param, value))
         return WT_OK;
@@ -150,7 +150,7 @@ static wt_status read_estimate(const wt_param *param, const char *text, wt_estim
     wt_estimate read = {0};
     wt_status status = wt_estimate_parse(text, param->quantity, &read, err);
     if (status == WT_OK)
-        status = limit(param, read.value, text, err);
+        status = fail_range(param, read.value, text, err);
     if (status == WT_OK)
         *estimate = read;
     return status;
@@ -177,7 +177,7 @@ static wt_status read_list(const slot *s, const char *text, wt_error *err)
     size_t n = 0;
     wt_status status = wt_list_parse(text, s->param->quantity, &values, &n, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = limit(s->param, values[i], text, err);
+        status = fail_range(s->param, values[i], text, err);
     if (status != WT_OK) {
         free(values);
         return status;
@@ -199,7 +199,7 @@ static wt_status read_count(const slot *s, const char *text, wt_error *err)
     }
     if (!good)
         return wt_fail(err, WT_E_ARG, "'%s' is not a whole number, or too large", text);
-    wt_status status = limit(s->param, (double)value, text, err);
+    wt_status status = fail_range(s->param, (double)value, text, err);
     if (status == WT_OK)
         put_whole(s, value);
     return status;
@@ -419,11 +419,11 @@ static wt_status check_member(const slot *s, wt_error *err)
         status = check_values(p, *(const double **)s->member, *s->count, err);
         break;
     case PARAM_COUNT:
-        status = check_values(p, &(double){(double)whole(s)}, 1, err);
+        status = check_values(p, &(double){(double)whole_number(s)}, 1, err);
         break;
     case PARAM_CHOICE:
-        if (whole(s) >= n_choices(p))
-            status = wt_fail(err, WT_E_RANGE, "%llu is none of %s", whole(s), p->value);
+        if (whole_number(s) >= n_choices(p))
+            status = wt_fail(err, WT_E_RANGE, "%llu is none of %s", whole_number(s), p->value);
         break;
     default:
         break;
@@ -465,11 +465,11 @@ static int print_member(const slot *s, char *buffer, size_t size)
     case PARAM_ESTIMATE:
         return print_number(p, *(const double *)s->member, buffer, size);
     case PARAM_COUNT:
-        return snprintf(buffer, size, "%llu", whole(s));
+        return snprintf(buffer, size, "%llu", whole_number(s));
     case PARAM_FLAG:
         return snprintf(buffer, size, "%s", *(const bool *)s->member ? "yes" : "no");
     case PARAM_CHOICE:
-        for (unsigned long long i = whole(s); i > 0; i--)
+        for (unsigned long long i = whole_number(s); i > 0; i--)
             word += strcspn(word, "|") + 1;
         return snprintf(buffer, size, "%.*s", (int)strcspn(word, "|"), word);
     case PARAM_TEXT:

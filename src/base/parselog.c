@@ -42,7 +42,7 @@ static void entry_free(log_entry *e)
     free(e);
 }
 
-static void keep(void *node)
+static void keep_entry(void *node)
 {
     (void)node; /* the entries belong to the list */
 }
@@ -61,7 +61,7 @@ void wt_parselog_free(wt_parselog *log)
 {
     if (log == NULL)
         return;
-    tdestroy(log->tree, keep);
+    tdestroy(log->tree, keep_entry);
     for (size_t i = 0; i < log->n; i++)
         entry_free(log->entries[i]);
     free(log->entries);

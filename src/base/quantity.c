@@ -14,19 +14,19 @@ static const struct {
 #undef QUANTITY_ROW
 };
 
-static size_t row(wt_quantity quantity)
+static size_t quantity_row(wt_quantity quantity)
 {
     return (size_t)quantity < (size_t)WT_Q_COUNT ? (size_t)quantity : (size_t)WT_Q_NONE;
 }
 
 const char *wt_quantity_id(wt_quantity quantity)
 {
-    return quantities[row(quantity)].id;
+    return quantities[quantity_row(quantity)].id;
 }
 
 const char *wt_quantity_unit(wt_quantity quantity)
 {
-    return quantities[row(quantity)].unit;
+    return quantities[quantity_row(quantity)].unit;
 }
 
 bool wt_quantity_find(const char *id, wt_quantity *quantity)
@@ -45,7 +45,7 @@ typedef struct unit_words {
     double most;
 } unit_words;
 
-static const unit_words *words(wt_quantity quantity)
+static const unit_words *unit_words_of(wt_quantity quantity)
 {
     static const unit_words by_unit[] = {{"1", "0.5", 1e30},
                                          {"s", "10s", 1e30},
@@ -80,22 +80,22 @@ static const unit_words *words(wt_quantity quantity)
 
 const char *quantity_example(wt_quantity quantity)
 {
-    return quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "5K" : words(quantity)->example;
+    return quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "5K" : unit_words_of(quantity)->example;
 }
 
 double quantity_most(wt_quantity quantity)
 {
-    return words(quantity)->most;
+    return unit_words_of(quantity)->most;
 }
 
 bool quantity_is_possible(wt_quantity quantity, double value)
 {
-    return fabs(value) <= words(quantity)->most;
+    return fabs(value) <= unit_words_of(quantity)->most;
 }
 
 wt_status quantity_impossible(wt_quantity quantity, const char *found, wt_error *err)
 {
-    const unit_words *w = words(quantity);
+    const unit_words *w = unit_words_of(quantity);
     (void)wt_fail(err, WT_E_RANGE, "beyond anything that there is");
     const bool bare = strcmp(w->unit, "1") == 0;
     wt_error_expected(err, "at most %g%s%s", w->most, bare ? "" : " ", bare ? "" : w->unit);

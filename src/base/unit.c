@@ -39,14 +39,14 @@ typedef struct visit {
     ut_error_message_handler handler;
 } visit;
 
-static visit enter(void)
+static visit enter_units(void)
 {
     starved = false;
     errno = 0;
     return (visit){clocale_enter(), ut_set_error_message_handler(note_message)};
 }
 
-static void leave(visit before)
+static void leave_units(visit before)
 {
     if (errno == ENOMEM)
         starved = true;
@@ -64,7 +64,7 @@ static void add_spelling(const char *spelling, const char *name)
 
 static void make_units(void)
 {
-    const visit before = enter();
+    const visit before = enter_units();
     units = ut_read_xml(NULL);
     if (units != NULL) {
         add_spelling("deg", "degree");
@@ -75,7 +75,7 @@ static void make_units(void)
         (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
         ut_free(byte);
     }
-    leave(before);
+    leave_units(before);
     if (starved) {
         ut_free_system(units);
         units = NULL;
@@ -271,7 +271,7 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         wt_error_advice(err, "install it, or name it in the variable UDUNITS2_XML_PATH");
         return WT_E_INTERNAL;
     }
-    const visit before = enter();
+    const visit before = enter_units();
     if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
         char amplitude[UNIT_MAX];
         memcpy(amplitude, text, sizeof amplitude);
@@ -287,7 +287,7 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         if (!good && quantity == WT_Q_FREQUENCY)
             angular = convert(text, "rad/s", &f, &o);
     }
-    leave(before);
+    leave_units(before);
     const bool failed = starved;
     (void)pthread_mutex_unlock(&lock);
     if (failed)

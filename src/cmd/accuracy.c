@@ -96,6 +96,5 @@ int cmd_accuracy(int argc, char **argv)
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     }
 done:
-    wt_table_free(table);
     return cmd_session_free(&s);
 }

@@ -126,13 +126,17 @@ bool cmd_read_formats(cmd_session *s);
 bool cmd_begin_reading(cmd_session *s, const char *format);
 /* Both for the files of the call, which become those of the set. */
 bool cmd_begin_files(cmd_session *s, wt_file_set *set);
+/* All that comes before the one job of a subcommand over the files of the call, a stage of its
+ * name; false if there is nothing to do. */
+bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts,
+                   wt_file_set *set, int argc, char **argv);
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */
 wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user);
 /* Says what failed, the remarks and, unless `made` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status made);
 /* The same after writing the tables, in this order, and the record behind them, if they were made;
- * those that are NULL are left out. Takes those that it writes. */
+ * those that are NULL are left out. Takes them all. */
 void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n);
 /* Returns the exit status. */
 int cmd_session_free(cmd_session *s);

@@ -77,7 +77,6 @@ static void compare_groups(compare_call *call, const char *master)
                                       &tables.modulus_budget, &tables.modulus_rate,
                                       &tables.dma_comparison};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
-    wt_compare_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
 }
@@ -113,7 +112,6 @@ static void compare_dwells(compare_call *call, const char *master)
         made = wt_compare_dwells(job, &s->work, &made_table, &s->err);
     wt_table **const made_tables[] = {&made_table};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
-    wt_table_free(made_table);
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
 }

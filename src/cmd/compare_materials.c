@@ -36,7 +36,7 @@ bool compare_reads_isotherms(const compare_call *call)
     return any;
 }
 
-static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
+static wt_status fit_material(compare_call *call, compare_input *input, wt_error *err)
 {
     wt_master_tables tables = {0};
     wt_error failure = WT_ERROR_INIT;
@@ -68,7 +68,7 @@ static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
 static wt_status read_material(compare_call *call, compare_input *input, wt_error *err)
 {
     if (is_measured(input))
-        return fit(call, input, err);
+        return fit_material(call, input, err);
     if (input->tables != NULL)
         return cmd_rubber_of(input->tables, input->path, call->set.read.sample,
                              call->master.poisson_ratio, &input->rubber, err);
@@ -127,6 +127,5 @@ void compare_materials(compare_call *call)
         made = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
     wt_table **const made_tables[] = {&tables.material_ratio, &tables.materials};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
-    wt_materials_tables_clear(&tables);
     free(of);
 }

@@ -18,7 +18,7 @@ static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *e
     return status == WT_OK ? wt_map_put(d->map, curve, err) : status;
 }
 
-static wt_status take(void *user, wt_table *table, wt_error *err)
+static wt_status take_table(void *user, wt_table *table, wt_error *err)
 {
     destination *d = user;
     const cmd_common *common = &d->session->common;
@@ -53,10 +53,10 @@ int cmd_convert(int argc, char **argv)
         const bool store = cmd_is_store(s.common.output);
         wt_status made = cmd_provenance(s.result, &s.err);
         if (made == WT_OK)
-            made = wt_convert_file(&job, s.files[0], &s.work, take, store ? take_curve : NULL, &d,
-                                   &s.err);
+            made = wt_convert_file(&job, s.files[0], &s.work, take_table, store ? take_curve : NULL,
+                                   &d, &s.err);
         if (made == WT_OK)
-            made = cmd_record(&s, take, &d);
+            made = cmd_record(&s, take_table, &d);
         if (d.sink.stream != NULL)
             made = cmd_sink_close(&d.sink, made, &s.err);
         else if (made == WT_OK && d.map != NULL)

@@ -21,16 +21,11 @@ int cmd_dwell(int argc, char **argv)
         {wt_indent_job_params(), &job, "tip poisson-ratio sample-thickness unbonded", 0},
         {wt_read_params(), &set.read, "spring-constant sensitivity units format", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_dwell_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
+    wt_dwell_tables made = {0};
+    wt_table **const tables[] = {&made.dwell, &made.dwell_moduli, &made.dwell_points};
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "dwell");
-    const wt_status made = wt_dwell_make(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.dwell, &tables.dwell_moduli, &tables.dwell_points};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_dwell_tables_clear(&tables);
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_dwell_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

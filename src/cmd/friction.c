@@ -48,10 +48,5 @@ int cmd_friction(int argc, char **argv)
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
-    wt_friction_tables_clear(&tables);
-    wt_table_free(contact_area);
-    wt_table_free(directions);
-    wt_table_free(softening);
-    wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

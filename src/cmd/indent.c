@@ -57,8 +57,7 @@ int cmd_indent(int argc, char **argv)
         job.rubber = &rubber;
     }
     char stage[64];
-    snprintf(stage, sizeof stage, "indentation_%s%s", job.group,
-             own.master != NULL ? "_with_material" : "");
+    snprintf(stage, sizeof stage, "indentation_%s", job.group);
     wt_cost_stage(s.cost, stage);
     if (made == WT_OK)
         made = wt_indent_group(&job, &s.work, &tables, &s.err);
@@ -75,9 +74,6 @@ int cmd_indent(int argc, char **argv)
                                       &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
-    wt_table_free(groups);
-    wt_table_free(budget);
-    wt_indent_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
     return cmd_session_free(&s);

@@ -35,7 +35,7 @@ int cmd_layer(int argc, char **argv)
             wt_cost_stage(s.session.cost, "softening");
             made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
         }
-        wt_cost_stage(s.session.cost, "what_if_layer");
+        wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
                                    &s.session.err);
@@ -43,9 +43,5 @@ int cmd_layer(int argc, char **argv)
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
-    wt_layer_tables_clear(&tables);
-    wt_table_free(energy_density);
-    wt_table_free(softening);
-    wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

@@ -38,7 +38,7 @@ void cmd_end_without_memory(void)
 
 #ifndef OTHER_ALLOCATOR
 
-static void *given(void *memory, size_t size)
+static void *given_memory(void *memory, size_t size)
 {
     static const char words[] =
         "weartrack: out of memory: nothing is written; close other programs, "
@@ -50,7 +50,7 @@ static void *given(void *memory, size_t size)
 }
 
 /* The function of that name that this one stands before; NULL while the loader looks for it. */
-static void *next(void **kept, const char *name)
+static void *next_function(void **kept, const char *name)
 {
     static _Thread_local bool looking;
     if (*kept == NULL && !looking) {
@@ -74,7 +74,7 @@ typedef union function {
 void *malloc(size_t size)
 {
     static function real;
-    return next(&real.found, "malloc") != NULL ? given(real.one(size), size) : NULL;
+    return next_function(&real.found, "malloc") != NULL ? given_memory(real.one(size), size) : NULL;
 }
 
 void *calloc(size_t n, size_t size)
@@ -82,13 +82,15 @@ void *calloc(size_t n, size_t size)
     static function real;
     /* Where the product overflows there is no such memory. */
     const size_t all = size > 0 && n > SIZE_MAX / size ? SIZE_MAX : n * size;
-    return next(&real.found, "calloc") != NULL ? given(real.two(n, size), all) : NULL;
+    return next_function(&real.found, "calloc") != NULL ? given_memory(real.two(n, size), all)
+                                                        : NULL;
 }
 
 void *realloc(void *old, size_t size)
 {
     static function real;
-    return next(&real.found, "realloc") != NULL ? given(real.grow(old, size), size) : NULL;
+    return next_function(&real.found, "realloc") != NULL ? given_memory(real.grow(old, size), size)
+                                                         : NULL;
 }
 
 #endif

@@ -95,7 +95,7 @@ static place place_of(const found_file *found)
                                              : UNUSED;
 }
 
-static void look(new_case *c, entry *e)
+static void look_at_entry(new_case *c, entry *e)
 {
     const wt_read_options options = wt_read_defaults();
     wt_table *facts = NULL;
@@ -126,13 +126,13 @@ static wt_status add_files(new_case *c, const char *pattern)
     c->entries = grown;
     for (size_t i = 0; i < n; i++) {
         grown[c->n] = (entry){.path = paths[i]};
-        look(c, &grown[c->n++]);
+        look_at_entry(c, &grown[c->n++]);
     }
     free(paths);
     return WT_OK;
 }
 
-static size_t count(const new_case *c, place where)
+static size_t count_entries(const new_case *c, place where)
 {
     size_t n = 0;
     for (size_t i = 0; i < c->n; i++)
@@ -204,7 +204,7 @@ static void put_files(FILE *out, const new_case *c, place where, const char *ele
 static bool put_section(FILE *out, const new_case *c, place where, const char *begin,
                         const char *element, const char *end)
 {
-    if (count(c, where) == 0)
+    if (count_entries(c, where) == 0)
         return false;
     fputs(begin, out);
     put_files(out, c, where, element);
@@ -214,7 +214,7 @@ static bool put_section(FILE *out, const new_case *c, place where, const char *b
 
 static void put_indentation(FILE *out, const new_case *c)
 {
-    if (count(c, TRACK) + count(c, BULK) == 0) {
+    if (count_entries(c, TRACK) + count_entries(c, BULK) == 0) {
         fputs("\n  <!-- no force curves: no section indentation -->\n", out);
         return;
     }
@@ -240,7 +240,7 @@ static void put_material(FILE *out, const new_case *c)
 
 static void put_roughness(FILE *out, const new_case *c)
 {
-    if (count(c, ROUGHNESS) == 1) {
+    if (count_entries(c, ROUGHNESS) == 1) {
         put_section(out, c, ROUGHNESS, "\n  <roughness>\n    <spectrum>\n", "file",
                     "    </spectrum>\n  </roughness>\n");
         return;
@@ -274,9 +274,9 @@ static void put_rest(FILE *out, const new_case *c)
           "    <observed-thickness>" FILL_IN ", such as 3um</observed-thickness>\n"
           "  </layer> -->\n",
           out);
-    if (count(c, BULK) > 0 && count(c, TRACK) > 0)
+    if (count_entries(c, BULK) > 0 && count_entries(c, TRACK) > 0)
         fprintf(out, "\n  <compare>\n    <track-to-bulk/>\n    <by-rate/>\n%s  </compare>\n",
-                count(c, DMA) > 0 ? "    <indentation-to-dma/>\n" : "");
+                count_entries(c, DMA) > 0 ? "    <indentation-to-dma/>\n" : "");
     for (size_t i = 0; i < c->n; i++) {
         const entry *e = &c->entries[i];
         if (e->place != UNUSED)

@@ -20,16 +20,11 @@ int cmd_payne(int argc, char **argv)
     cmd_part parts[] = {{wt_read_params(), &set.read,
                          "units format sheet temperature deformation sample sample-by", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_payne_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
+    wt_payne_tables made = {0};
+    wt_table **const tables[] = {&made.payne, &made.payne_sweep};
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "payne");
-    const wt_status made = wt_payne_make(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.payne, &tables.payne_sweep};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_payne_tables_clear(&tables);
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_payne_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

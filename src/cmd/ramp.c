@@ -20,16 +20,11 @@ int cmd_ramp(int argc, char **argv)
         {wt_ramp_job_params(), &job, NULL, 0},
         {wt_read_params(), &set.read, "units format sheet deformation strain sample sample-by", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_ramp_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
+    wt_ramp_tables made = {0};
+    wt_table **const tables[] = {&made.glass_transition, &made.moduli_at, &made.ramp};
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "ramp");
-    const wt_status made = wt_ramp_make(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.glass_transition, &tables.moduli_at, &tables.ramp};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_ramp_tables_clear(&tables);
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_ramp_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

@@ -23,13 +23,23 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* The answer is the data of this subcommand: it goes to standard output. */
+/* The answer is the data of this subcommand: it goes to standard output. What is folded on the page
+ * is counted here. */
 static void print_answer(const wt_result *result)
 {
     const wt_table *answer = wt_result_find(result, "answer");
     const char *last = "";
+    size_t folded = 0;
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
+        if (strcmp(wt_table_text(answer, i, ANSWER_KIND), "folded") == 0) {
+            const bool more = i + 1 < wt_table_n_rows(answer) &&
+                              strcmp(wt_table_text(answer, i + 1, ANSWER_KIND), "folded") == 0;
+            folded++;
+            if (!more)
+                printf("  %zu more: on the page and in the table answer.\n", folded);
+            continue;
+        }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;
@@ -72,7 +82,7 @@ typedef struct run_call {
 } run_call;
 
 /* Everything that can be refused is refused before the work begins. */
-static wt_status prepare(run_call *r)
+static wt_status prepare_run(run_call *r)
 {
     const char *path = r->s.files[0], *output = r->s.common.output;
     wt_error *err = &r->s.err;
@@ -94,7 +104,7 @@ static wt_status prepare(run_call *r)
     return r->own.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
 }
 
-static wt_status compute(run_call *r, size_t *n_failed)
+static wt_status compute_run(run_call *r, size_t *n_failed)
 {
     cmd_session *s = &r->s;
     r->run.progress = cmd_progress_start(s);
@@ -114,7 +124,7 @@ static wt_status compute(run_call *r, size_t *n_failed)
     return status;
 }
 
-static wt_status draw(run_call *r)
+static wt_status draw_page(run_call *r)
 {
     r->report.threads = r->run.threads;
     r->run.progress = cmd_progress_start(&r->s);
@@ -140,11 +150,11 @@ static wt_status run_case(run_call *r, bool style_given)
     if (status == WT_OK && !style_given)
         r->report.style = wt_case_style(r->the_case);
     if (status == WT_OK)
-        status = prepare(r);
+        status = prepare_run(r);
     if (status == WT_OK)
         status = cmd_try_output(r->result_name, &r->s.err);
     if (status == WT_OK)
-        status = compute(r, &n_failed);
+        status = compute_run(r, &n_failed);
     if (status != WT_OK)
         return status;
     print_answer(r->s.result);
@@ -153,7 +163,7 @@ static wt_status run_case(run_call *r, bool style_given)
         cmd_say("result: %s\n", r->result_name);
     if (n_failed > 0)
         r->s.status = CMD_FAILED;
-    return r->own.no_report ? WT_OK : draw(r);
+    return r->own.no_report ? WT_OK : draw_page(r);
 }
 
 static bool check_output(run_call *r)

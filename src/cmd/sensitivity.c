@@ -20,16 +20,11 @@ int cmd_sensitivity(int argc, char **argv)
     cmd_part parts[] = {{wt_sensitivity_job_params(), &job, NULL, 0},
                         {wt_read_params(), &set.read, "spring-constant units format", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_sensitivity_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
+    wt_sensitivity_tables made = {0};
+    wt_table **const tables[] = {&made.sensitivity, &made.sensitivity_curves};
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "sensitivity");
-    const wt_status made = wt_sensitivity_make(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.sensitivity, &tables.sensitivity_curves};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_sensitivity_tables_clear(&tables);
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_sensitivity_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

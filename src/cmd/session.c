@@ -63,6 +63,15 @@ bool cmd_begin_files(cmd_session *s, wt_file_set *set)
     return cmd_begin_reading(s, set->read.format);
 }
 
+bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts,
+                   wt_file_set *set, int argc, char **argv)
+{
+    if (!cmd_parse(s, usage, parts, n_parts, argc, argv) || !cmd_begin_files(s, set))
+        return false;
+    wt_cost_stage(s->cost, usage->name);
+    return true;
+}
+
 /* Names that no file has are most likely misspelled. */
 static void say_columns(cmd_session *s)
 {
@@ -114,11 +123,12 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
 {
     cmd_progress_end(s);
     for (size_t i = 0; i < n; i++) {
-        wt_table *table = *tables[i];
-        if (made != WT_OK || table == NULL)
-            continue; /* it stays with the one who has it */
+        wt_table *const table = *tables[i];
         *tables[i] = NULL;
-        made = wt_result_add(s->result, table, &s->err);
+        if (made == WT_OK && table != NULL)
+            made = wt_result_add(s->result, table, &s->err);
+        else
+            wt_table_free(table);
     }
     if (made == WT_OK && s->cost != NULL) {
         wt_table *cost = NULL;

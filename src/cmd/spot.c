@@ -19,16 +19,14 @@ int cmd_spot(int argc, char **argv)
                         {wt_spot_job_params(), &job, NULL, 0},
                         {wt_read_params(), &job.read, "format", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_spot_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
-        !cmd_begin_reading(&s, job.read.format))
-        goto done;
-    job.tip = indent.tip;
-    wt_cost_stage(s.cost, "spot");
-    const wt_status status = wt_spot_make(&job, s.files[0], &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.spot, &tables.spot_map};
-    cmd_finish(&s, status, made_tables, job.map ? COUNT_OF(made_tables) : 1);
-done:
-    wt_spot_tables_clear(&tables);
+    wt_spot_tables made = {0};
+    wt_table **const tables[] = {&made.spot, &made.spot_map};
+    if (cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) &&
+        cmd_begin_reading(&s, job.read.format)) {
+        job.tip = indent.tip;
+        wt_cost_stage(s.cost, "spot");
+        const wt_status status = wt_spot_make(&job, s.files[0], &s.work, &made, &s.err);
+        cmd_finish(&s, status, tables, COUNT_OF(tables));
+    }
     return cmd_session_free(&s);
 }

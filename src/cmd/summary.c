@@ -9,7 +9,7 @@ static size_t read_all(cmd_session *s, wt_table **headlines)
     for (size_t i = 0; i < s->n_files; i++) {
         const char *path = s->files[i];
         wt_result *result = NULL;
-        wt_status read = cmd_tables_read(path, &result, &s->err);
+        wt_status read = wt_tables_read_headlines(path, &result, &s->err);
         if (read == WT_OK)
             read = wt_result_headlines(result, &headlines[n_read], &s->err);
         if (read == WT_OK) {

@@ -17,8 +17,8 @@ static const wt_param rows[] = {
 CMD_OPTIONS(own_params, own_options, rows)
 
 /* The table of that name; without a name the only one. */
-static wt_status choose(const wt_result *result, const char *path, const char *name,
-                        const wt_table **table, wt_error *err)
+static wt_status choose_table(const wt_result *result, const char *path, const char *name,
+                              const wt_table **table, wt_error *err)
 {
     const size_t n = wt_result_n_tables(result);
     *table = name != NULL ? wt_result_find(result, name)
@@ -59,7 +59,8 @@ int cmd_table(int argc, char **argv)
     }
     wt_status read = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (read == WT_OK && !own.list)
-        read = choose(s.result, s.files[0], s.n_files > 1 ? s.files[1] : NULL, &table, &s.err);
+        read =
+            choose_table(s.result, s.files[0], s.n_files > 1 ? s.files[1] : NULL, &table, &s.err);
     if (read == WT_OK && own.list)
         read = wt_result_contents(s.result, &made, &s.err);
     else if (read == WT_OK && own.keys)

@@ -18,16 +18,11 @@ int cmd_thermal(int argc, char **argv)
     cmd_part parts[] = {{wt_thermal_job_params(), &job, NULL, 0},
                         {wt_read_params(), &set.read, "sensitivity units format", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_table *table = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
+    wt_table *made = NULL;
+    wt_table **const tables[] = {&made};
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "thermal");
-    const wt_status made = wt_thermal_make(&job, &s.work, &table, &s.err);
-    wt_table **const made_tables[] = {&table};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_table_free(table);
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_thermal_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

@@ -56,7 +56,8 @@ static void leave(void *scope)
     hdf5_leave(scope);
 }
 
-static door_call call(const hdf5_bytes *from, hdf5_reading *const *reading, hdf5_scope *scope)
+static door_call door_call_of(const hdf5_bytes *from, hdf5_reading *const *reading,
+                              hdf5_scope *scope)
 {
     return (door_call){.what = "HDF5",
                        .reading = read_file,
@@ -73,7 +74,7 @@ wt_status hdf5_door_read(const hdf5_bytes *from, const door_limits *limits, hdf5
                          char **answer, size_t *length, wt_error *err)
 {
     hdf5_scope scope;
-    const door_call door = call(from, &reading, &scope);
+    const door_call door = door_call_of(from, &reading, &scope);
     return door_read(&door, limits, answer, length, err);
 }
 
@@ -81,6 +82,6 @@ wt_status hdf5_door_begin(const hdf5_bytes *from, const door_limits *limits, hdf
                           door_flow **flow, wt_error *err)
 {
     hdf5_scope scope;
-    const door_call door = call(from, &reading, &scope);
+    const door_call door = door_call_of(from, &reading, &scope);
     return door_begin(&door, limits, flow, err);
 }

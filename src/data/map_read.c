@@ -213,7 +213,7 @@ static long grid_place(double value)
     return (long)counted(value, INT32_MAX);
 }
 
-static double positive(double value)
+static double positive_or_nan(double value)
 {
     return value > 0 && isfinite(value) ? value : (double)NAN;
 }
@@ -227,8 +227,8 @@ static void set_curve(const map_reader *r, size_t row, wt_force_curve *curve)
     curve->grid_x = grid_place(map_curves_get(v, row, MAP_CURVES_GRID_X));
     curve->grid_y = grid_place(map_curves_get(v, row, MAP_CURVES_GRID_Y));
     curve->cantilever.spring_constant =
-        positive(map_curves_get(v, row, MAP_CURVES_SPRING_CONSTANT));
-    curve->cantilever.sensitivity = positive(map_curves_get(v, row, MAP_CURVES_SENSITIVITY));
+        positive_or_nan(map_curves_get(v, row, MAP_CURVES_SPRING_CONSTANT));
+    curve->cantilever.sensitivity = positive_or_nan(map_curves_get(v, row, MAP_CURVES_SENSITIVITY));
 }
 
 wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **segments, size_t *n,

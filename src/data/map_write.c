@@ -2,7 +2,7 @@
 #include "data/hdf5_scope.h"
 #include "data/map.h"
 #include "data/store_file.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -101,6 +101,8 @@ static void empty_block(double *block)
         block[i] = (double)NAN;
 }
 
+TABLE_ROW(map_channels, MAP_CHANNELS, const char *quantity, *name, *unit;)
+
 /* One that comes late is NaN so far. */
 static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
 {
@@ -118,10 +120,7 @@ static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
         good = append(c->dataset, i, c->block, MAP_BLOCK);
     hdf5_leave(&scope);
     w->names.err = w->err;
-    table_row(&w->names);
-    map_channels_put_text(&w->names, MAP_CHANNELS_QUANTITY, wt_quantity_id(c->quantity));
-    map_channels_put_text(&w->names, MAP_CHANNELS_NAME, as->name);
-    map_channels_put_text(&w->names, MAP_CHANNELS_UNIT, as->unit);
+    TABLE_ADD(map_channels, &w->names, wt_quantity_id(c->quantity), as->name, as->unit);
     return good ? w->names.status : store_failed(w->file, w->err);
 }
 
@@ -170,6 +169,10 @@ static wt_status put_samples(wt_map_writer *w, const wt_segment *segment)
     return status;
 }
 
+TABLE_ROW(map_curves, MAP_CURVES, wt_force_curve curve; double grid_x, grid_y, checksum;)
+
+TABLE_ROW(map_segments, MAP_SEGMENTS, const char *kind; wt_segment of;)
+
 static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32_t *sum)
 {
     wt_status status = WT_OK;
@@ -185,13 +188,7 @@ static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32
         if (c != NULL)
             *sum = map_checksum(*sum, c->values, segment->n_points);
     }
-    table_row(&w->segments);
-    map_segments_put_text(&w->segments, MAP_SEGMENTS_SEGMENT, wt_segment_kind_name(segment->kind));
-    map_segments_put(&w->segments, MAP_SEGMENTS_NUMBER, (double)segment->index);
-    map_segments_put(&w->segments, MAP_SEGMENTS_SAMPLES, (double)segment->n_points);
-    map_segments_put(&w->segments, MAP_SEGMENTS_DURATION, segment->duration);
-    map_segments_put(&w->segments, MAP_SEGMENTS_VELOCITY, segment->velocity);
-    map_segments_put(&w->segments, MAP_SEGMENTS_SETPOINT, segment->setpoint);
+    TABLE_ADD(map_segments, &w->segments, wt_segment_kind_name(segment->kind), *segment);
     return status == WT_OK ? put_samples(w, segment) : status;
 }
 
@@ -215,16 +212,8 @@ wt_status wt_map_put(wt_map_writer *w, const wt_force_curve *curve, wt_error *er
         status = put_segment(w, &curve->segments[s], &sum);
     if (status != WT_OK)
         return w->failed = status;
-    table_row(&w->curves);
-    map_curves_put(&w->curves, MAP_CURVES_CURVE, (double)curve->index);
-    map_curves_put(&w->curves, MAP_CURVES_SEGMENTS, (double)curve->n_segments);
-    map_curves_put(&w->curves, MAP_CURVES_POSITION_X, curve->x);
-    map_curves_put(&w->curves, MAP_CURVES_POSITION_Y, curve->y);
-    map_curves_put(&w->curves, MAP_CURVES_GRID_X, (double)curve->grid_x);
-    map_curves_put(&w->curves, MAP_CURVES_GRID_Y, (double)curve->grid_y);
-    map_curves_put(&w->curves, MAP_CURVES_SPRING_CONSTANT, curve->cantilever.spring_constant);
-    map_curves_put(&w->curves, MAP_CURVES_SENSITIVITY, curve->cantilever.sensitivity);
-    map_curves_put(&w->curves, MAP_CURVES_CHECKSUM, (double)sum);
+    TABLE_ADD(map_curves, &w->curves, *curve, (double)curve->grid_x, (double)curve->grid_y,
+              (double)sum);
     w->failed = w->curves.status != WT_OK ? w->curves.status : w->segments.status;
     return w->failed;
 }

@@ -15,6 +15,18 @@ typedef enum schema_kind {
     SCHEMA_PLAIN /* a key that is a number without errors, as text */
 } schema_kind;
 
+/* What the member of a row's structure is that a column or key shows. */
+typedef enum schema_form {
+    FORM_NONE, /* it is put by a call */
+    FORM_NUMBER,
+    FORM_COUNT,    /* size_t */
+    FORM_YES_NO,   /* bool */
+    FORM_ESTIMATE, /* its errors go into the columns of the errors, if it has them */
+    FORM_INTERVAL, /* the same for the ends */
+    FORM_WORDS,    /* const char *; NULL is "" in a column */
+    FORM_LETTERS   /* char [] */
+} schema_form;
+
 /* A column or a key. */
 typedef struct schema_field {
     const char *name;      /* of a key: ends in '_' where the group follows */
@@ -25,6 +37,10 @@ typedef struct schema_field {
     const char *label;    /* on the page; NULL = the long name, of a key the name in words */
     const char *headline; /* of a key: among the main results; NULL = not one of them */
     bool optional;        /* a table may be without it */
+    int precision;        /* of a plain key: significant digits of its text, 0 = 6 */
+    const char *member;   /* what it shows; NULL: it is put by a call */
+    schema_form form;     /* of the member and where it is; only in the list of */
+    size_t offset;        /* data/tables/rows.h, which knows the structure */
     /* of a column: */
     unsigned standard_error; /* columns with the errors of this one, 0 = none */
     unsigned numerical_error;

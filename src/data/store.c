@@ -3,32 +3,7 @@
 #include "data/tables/tables.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-wt_status store_digest(const wt_result *result, const wt_table *inputs, char hex[65], wt_error *err)
-{
-    wt_status status = WT_OK;
-    char *text = NULL;
-    size_t length = 0, case_length = 0;
-    const char *const case_file = wt_result_case(result, &case_length);
-    FILE *const out = open_memstream(&text, &length);
-    if (out == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++)
-        status = wt_stream_write(out, wt_result_table(result, i), NULL, err);
-    if (status == WT_OK && inputs != NULL)
-        status = wt_stream_write(out, inputs, NULL, err);
-    if (status == WT_OK && case_file != NULL)
-        (void)fwrite(case_file, 1, case_length, out);
-    const bool written = !ferror(out);
-    if (fclose(out) != 0 || (status == WT_OK && !written))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        wt_digest(text, length, hex);
-    free(text);
-    return status;
-}
 
 wt_status wt_provenance_table(const wt_provenance *provenance, const char *name, wt_table **table,
                               wt_error *err)

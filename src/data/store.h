@@ -7,14 +7,16 @@
 #include "data/hdf5_door.h"
 #include "data/table.h"
 
-/* Version of the layout, in the root attribute "weartrack_format": a file with a map of force
- * curves has the second, so that a program that knows only the first does not lose the curves. */
-enum { STORE_FORMAT = 1, STORE_FORMAT_MAP = 2 };
+/* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
+ * curves has one of its own, so that a program that knows none does not lose the curves. The first
+ * two had one digest of all tables, as text. */
+enum { STORE_FORMAT_TEXT = 1, STORE_FORMAT_TEXT_MAP, STORE_FORMAT, STORE_FORMAT_MAP };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"
 #define STORE_CREATED_ATTRIBUTE "created"
-#define STORE_DIGEST_ATTRIBUTE "content_sha256"
+#define STORE_DIGESTS_ATTRIBUTE "table_sha256"
+#define STORE_TEXT_DIGEST_ATTRIBUTE "content_sha256" /* of the first two layouts */
 #define STORE_TABLES_ATTRIBUTE "table_order"
 #define STORE_TITLE_ATTRIBUTE "title"
 #define STORE_COLUMNS_ATTRIBUTE "column_order"
@@ -25,25 +27,25 @@ enum { STORE_FORMAT = 1, STORE_FORMAT_MAP = 2 };
 #define STORE_CASE_DATASET "case"
 #define STORE_INPUTS_TABLE "provenance/inputs"
 
-/* Digest of what a store holds: its tables as text streams in their order, the list of inputs the
- * same way (NULL if there is none), and the case file. The layout of HDF5 keeps no checksum over
- * the values, so a flipped bit would otherwise be a wrong number. */
-wt_status store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
-                       wt_error *err);
-
-/* What comes through the door: the bytes that the digest is of, the command, and at the end this.
- */
+/* What comes through the door: tables as bytes (table_bytes.h), with has_origin that of the inputs
+ * behind them, the case file, the command, a digest for each of these tables and for the case file,
+ * and at the end this. The layout of HDF5 keeps no checksum over the values, so a flipped bit would
+ * otherwise be a wrong number. */
+enum { STORE_DIGEST_SIZE = 65 };
 typedef struct store_tail {
-    char digest[65];    /* that the file says */
-    uint8_t has_origin; /* the last table is the list of inputs, and there is a command */
-    uint64_t case_length, command_length;
+    char text_digest[STORE_DIGEST_SIZE]; /* of the first two layouts: of all, instead; else "" */
+    uint8_t has_origin;                  /* the inputs, and a command */
+    uint64_t n_tables, case_length, command_length;
 } store_tail;
 wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hdf5_reading */
+/* The same of the tables that headlines are made of. */
+wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
+bool store_has_headlines(const char *table);
 /* The samples of a map, data/map.h: blocks of all channels. A hdf5_reading, too. */
 wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err);
-/* As wt_store_read_memory, also from a descriptor. */
-wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
-                           wt_error *err);
+/* As wt_store_read_memory, also from a descriptor; by store_pass or store_pass_headlines. */
+wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
+                           wt_result **result, wt_error *err);
 /* Makes a result of that; not a byte of it is trusted. */
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
 

@@ -1,9 +1,10 @@
-/* The HDF5 file of a result to text, behind the door (hdf5_door.h). The file may be damaged or made
- * to do harm: types, ranks and lengths are checked before memory is taken, no link leads out of the
- * file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The HDF5 file of a result to bytes, behind the door (hdf5_door.h). The file may be damaged or
+ * made to do harm: types, ranks and lengths are checked before memory is taken, no link leads out
+ * of the file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/hdf5_scope.h"
 #include "data/map.h"
 #include "data/store.h"
+#include "data/table_bytes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -368,23 +369,11 @@ static wt_table *read_table(reader *r, const char *name)
     return table;
 }
 
-/* Prints a table as a text stream. */
 static bool pass_table(reader *r, const char *name)
 {
     wt_table *const table = read_table(r, name);
-    const bool good = table != NULL && taken(r, wt_stream_write(r->out, table, NULL, r->err));
+    const bool good = table != NULL && taken(r, table_bytes_write(r->out, table, r->err));
     wt_table_free(table);
-    return good;
-}
-
-static bool pass_tables(reader *r)
-{
-    char **names = NULL;
-    size_t n = 0;
-    bool good = read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX, &names, &n);
-    for (size_t i = 0; good && i < n; i++)
-        good = pass_table(r, names[i]);
-    wt_strings_free(names, n);
     return good;
 }
 
@@ -417,20 +406,19 @@ static bool pass_case(reader *r, uint64_t *passed)
     return good;
 }
 
-static bool check_format(reader *r)
+static bool check_format(reader *r, int *format)
 {
-    int format = 0;
     size_t n = 0;
     const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
-        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
+        H5Aread(attribute, H5T_NATIVE_INT, format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format != STORE_FORMAT && format != STORE_FORMAT_MAP) {
+    } else if (*format < STORE_FORMAT_TEXT || *format > STORE_FORMAT_MAP) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
-        wt_error_found(r->err, "%d", format);
+        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_TEXT, STORE_FORMAT_MAP);
+        wt_error_found(r->err, "%d", *format);
         wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
     }
     hdf5_close(type);
@@ -438,28 +426,79 @@ static bool check_format(reader *r)
     return r->status == WT_OK;
 }
 
+/* What a file says of all that is in it. */
+typedef struct store_words {
+    char **tables, **digests;
+    size_t n_tables, n_digests;
+    char *command, *text_digest; /* or NULL */
+} store_words;
+
+static bool read_store_words(reader *r, store_words *w)
+{
+    int format = 0;
+    bool good = check_format(r, &format) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE,
+                                                       RESULT_TABLES_MAX, &w->tables, &w->n_tables);
+    if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
+        good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL;
+    if (good && format < STORE_FORMAT)
+        return (w->text_digest = read_text(r, r->file, STORE_TEXT_DIGEST_ATTRIBUTE)) != NULL;
+    good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
+                              &w->digests, &w->n_digests);
+    const size_t n = w->n_tables + (w->command != NULL) +
+                     (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) > 0);
+    return good && (w->n_digests == n ||
+                    corrupt(r, STORE_DIGESTS_ATTRIBUTE, "not as many digests as there are tables"));
+}
+
+static void pass_digest(const reader *r, const char *digest)
+{
+    char padded[STORE_DIGEST_SIZE] = "";
+    (void)snprintf(padded, sizeof padded, "%s", digest);
+    (void)fwrite(padded, sizeof padded, 1, r->out);
+}
+
+/* Tables of all names, or those that `wanted` names, without origin and case then. */
+static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
+{
+    store_words w = {.tables = NULL};
+    store_tail tail = {.n_tables = 0};
+    bool good = read_store_words(r, &w);
+    if (w.text_digest != NULL)
+        wanted = NULL; /* the digest is of all */
+    for (size_t i = 0; good && i < w.n_tables; i++)
+        if (wanted == NULL || wanted(w.tables[i])) {
+            good = pass_table(r, w.tables[i]);
+            tail.n_tables++;
+        }
+    tail.has_origin = wanted == NULL && w.command != NULL;
+    good = good && (!tail.has_origin || pass_table(r, STORE_INPUTS_TABLE)) &&
+           (wanted != NULL || pass_case(r, &tail.case_length));
+    if (good && tail.has_origin)
+        tail.command_length = fwrite(w.command, 1, strlen(w.command), r->out);
+    for (size_t i = 0; good && i < w.n_digests; i++)
+        if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
+            pass_digest(r, w.digests[i]);
+    if (w.text_digest != NULL)
+        (void)snprintf(tail.text_digest, sizeof tail.text_digest, "%s", w.text_digest);
+    if (good)
+        (void)fwrite(&tail, sizeof tail, 1, r->out);
+    wt_strings_free(w.tables, w.n_tables);
+    wt_strings_free(w.digests, w.n_digests);
+    free(w.command);
+    free(w.text_digest);
+    return r->status;
+}
+
 wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err)
 {
     reader r = {.file = file, .file_size = size, .out = out, .err = err};
-    store_tail tail = {.command_length = 0};
-    char *digest = NULL, *command = NULL;
-    bool good = check_format(&r);
-    if (good && H5Aexists(file, STORE_COMMAND_ATTRIBUTE) != 0) {
-        command = read_text(&r, file, STORE_COMMAND_ATTRIBUTE);
-        good = command != NULL;
-    }
-    good = good && pass_tables(&r) && (command == NULL || pass_table(&r, STORE_INPUTS_TABLE)) &&
-           pass_case(&r, &tail.case_length) &&
-           (digest = read_text(&r, file, STORE_DIGEST_ATTRIBUTE)) != NULL;
-    if (good) {
-        (void)snprintf(tail.digest, sizeof tail.digest, "%s", digest);
-        tail.has_origin = command != NULL;
-        tail.command_length = command != NULL ? fwrite(command, 1, strlen(command), out) : 0;
-        (void)fwrite(&tail, sizeof tail, 1, out);
-    }
-    free(command);
-    free(digest);
-    return r.status;
+    return pass_store(&r, NULL);
+}
+
+wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    reader r = {.file = file, .file_size = size, .out = out, .err = err};
+    return pass_store(&r, store_has_headlines);
 }
 
 /* Prints samples [from, from + n) of an array. */

@@ -1,6 +1,7 @@
-/* The HDF5 store to results: what comes through the door must be whole and agree with its digest.
+/* The HDF5 store to results: what comes through the door must be whole and agree with its digests.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/store.h"
+#include "data/table_bytes.h"
 
 #include "base/provenance.h"
 
@@ -28,57 +29,107 @@ static wt_status take_command(const char *text, size_t length, wt_provenance *pr
     return status;
 }
 
-/* The tables of the stream; the list of inputs belongs to the provenance. */
-static wt_status take_tables(const char *text, size_t length, bool has_origin, wt_result *result,
-                             wt_error *err)
+static wt_status check_digest(const char *bytes, const char *end, const char *expected,
+                              const char *place, wt_error *err)
 {
+    char digest[STORE_DIGEST_SIZE];
+    wt_digest(bytes, (size_t)(end - bytes), digest);
+    return memcmp(digest, expected, sizeof digest) == 0
+               ? WT_OK
+               : corrupt(err, place, "the content does not agree with its digest");
+}
+
+/* The parts of what came through the door. */
+typedef struct store_parts {
+    const char *tables, *case_file, *command, *digests; /* each ends where the next begins */
+    store_tail tail;
+} store_parts;
+
+static bool part_answer(const char *bytes, size_t length, store_parts *p)
+{
+    store_tail *const t = &p->tail;
+    if (length < sizeof *t)
+        return false;
+    length -= sizeof *t;
+    memcpy(t, bytes + length, sizeof *t);
+    const size_t n = t->n_tables + t->has_origin + (t->case_length > 0);
+    const size_t digests = t->text_digest[0] == '\0' ? n * STORE_DIGEST_SIZE : 0;
+    if (t->n_tables > RESULT_TABLES_MAX || digests > length ||
+        t->command_length > length - digests ||
+        t->case_length > length - digests - t->command_length)
+        return false;
+    p->tables = bytes;
+    p->digests = bytes + length - digests;
+    p->command = p->digests - t->command_length;
+    p->case_file = p->command - t->case_length;
+    return true;
+}
+
+/* The tables; the list of inputs belongs to the provenance. Prints them as text, too, unless `text`
+ * is NULL. */
+static wt_status take_tables(const store_parts *p, FILE *text, wt_result *result, wt_error *err)
+{
+    const char *at = p->tables, *digest = p->digests;
     wt_status status = WT_OK;
-    FILE *const in = fmemopen((void *)(uintptr_t)text, length, "r");
-    if (in == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    while (status == WT_OK) {
+    for (uint64_t i = 0; status == WT_OK && i < p->tail.n_tables + p->tail.has_origin; i++) {
+        const char *const from = at;
         wt_table *table = NULL;
-        status = wt_stream_read(in, "", &table, err);
-        if (status == WT_OK && has_origin && strcmp(table->name, STORE_INPUTS_TABLE) == 0) {
-            status = store_inputs_read(table, wt_result_provenance(result), err);
-            wt_table_free(table);
-        } else if (status == WT_OK) {
+        status = table_bytes_read(&at, p->case_file, &table, err);
+        if (status == WT_OK && text != NULL)
+            status = wt_stream_write(text, table, NULL, err);
+        else if (status == WT_OK)
+            status = check_digest(from, at, digest, table->name, err);
+        digest += STORE_DIGEST_SIZE;
+        if (status == WT_OK && i < p->tail.n_tables) {
             status = wt_result_add(result, table, err);
+            continue;
         }
+        if (status == WT_OK)
+            status = store_inputs_read(table, wt_result_provenance(result), err);
+        wt_table_free(table);
     }
-    (void)fclose(in);
     if (status == WT_E_ARG)
         status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
-    return status == WT_END ? WT_OK : status;
+    if (status == WT_OK && text == NULL && p->tail.case_length > 0)
+        status = check_digest(p->case_file, p->command, digest, STORE_CASE_DATASET, err);
+    return status;
+}
+
+/* Of the first two layouts, whose digest is of the tables as text and the case file. */
+static wt_status take_by_text(const store_parts *p, wt_result *result, wt_error *err)
+{
+    char *bytes = NULL;
+    size_t length = 0;
+    FILE *const text = open_memstream(&bytes, &length);
+    if (text == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = take_tables(p, text, result, err);
+    (void)fwrite(p->case_file, 1, p->tail.case_length, text);
+    if (fclose(text) != 0)
+        status = WT_E_MEMORY;
+    if (status == WT_OK)
+        status = check_digest(bytes, bytes + length, p->tail.text_digest,
+                              STORE_TEXT_DIGEST_ATTRIBUTE, err);
+    free(bytes);
+    return status;
 }
 
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err)
 {
-    store_tail tail;
-    char digest[65];
-    if (length < sizeof tail)
+    store_parts p;
+    if (!part_answer(bytes, length, &p))
         return corrupt(err, "", "the content is not whole");
-    length -= sizeof tail;
-    memcpy(&tail, bytes + length, sizeof tail);
-    if (tail.command_length > length || tail.case_length > length - tail.command_length)
-        return corrupt(err, "", "the content is not whole");
-    length -= tail.command_length;
-    wt_digest(bytes, length, digest);
-    if (memcmp(digest, tail.digest, sizeof digest) != 0)
-        return corrupt(err, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
-    wt_status status = tail.has_origin ? take_command(bytes + length, tail.command_length,
-                                                      wt_result_provenance(result))
-                                       : WT_OK;
-    length -= tail.case_length;
+    wt_status status = p.tail.text_digest[0] == '\0' ? take_tables(&p, NULL, result, err)
+                                                     : take_by_text(&p, result, err);
+    if (status == WT_OK && p.tail.has_origin)
+        status = take_command(p.command, p.tail.command_length, wt_result_provenance(result));
     if (status == WT_OK)
-        status = wt_result_set_case(result, bytes + length, tail.case_length, err);
-    if (status == WT_OK)
-        status = take_tables(bytes, length, tail.has_origin, result, err);
+        status = wt_result_set_case(result, p.case_file, p.tail.case_length, err);
     return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;
 }
 
-wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
-                           wt_error *err)
+wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
+                           wt_result **result, wt_error *err)
 {
     const door_limits limits = door_limits_of(from->size);
     size_t n = 0;
@@ -86,7 +137,7 @@ wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result *
     wt_result *const read = wt_result_new();
     wt_status status = read != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = hdf5_door_read(from, &limits, store_pass, &answer, &n, err);
+        status = hdf5_door_read(from, &limits, pass, &answer, &n, err);
     if (status == WT_OK)
         status = store_take(answer, n, read, err);
     free(answer);
@@ -104,7 +155,14 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
 {
     /* No bytes are bytes in memory, too. */
     const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
-    return store_read_bytes(&from, name, result, err);
+    return store_read_bytes(&from, store_pass, name, result, err);
+}
+
+wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
+                                  wt_result **result, wt_error *err)
+{
+    const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
+    return store_read_bytes(&from, store_pass_headlines, name, result, err);
 }
 
 wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
@@ -123,7 +181,7 @@ wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
         status = wt_fail(err, WT_E_FORMAT, "an empty file");
     } else {
         const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, path, result, err);
+        status = store_read_bytes(&from, store_pass, path, result, err);
     }
     if (status != WT_OK)
         wt_error_file(err, path);

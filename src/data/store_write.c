@@ -1,6 +1,7 @@
 /* Results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/hdf5_scope.h"
 #include "data/store_file.h"
+#include "data/table_bytes.h"
 #include "data/tables/tables.h"
 
 #include <stdlib.h>
@@ -221,29 +222,46 @@ static bool put_origin(const writer *w, const wt_provenance *provenance, const w
            store_put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
 }
 
+/* As many texts as there are tables, and two more: of each table, the inputs and the case file. */
+static wt_status make_digests(const wt_result *result, const wt_table *inputs,
+                              char (*digests)[STORE_DIGEST_SIZE], size_t *n, wt_error *err)
+{
+    size_t case_length = 0;
+    const char *const case_file = wt_result_case(result, &case_length);
+    wt_status status = WT_OK;
+    for (*n = 0; status == WT_OK && *n < wt_result_n_tables(result); ++*n)
+        status = table_bytes_digest(wt_result_table(result, *n), digests[*n], err);
+    if (status == WT_OK && inputs != NULL)
+        status = table_bytes_digest(inputs, digests[(*n)++], err);
+    if (status == WT_OK && case_file != NULL)
+        wt_digest(case_file, case_length, digests[(*n)++]);
+    return status;
+}
+
 static bool put_result(const writer *w, const wt_result *result, const wt_table *inputs,
-                       const char *digest)
+                       char (*digests)[STORE_DIGEST_SIZE], size_t n_digests)
 {
     const int format =
         wt_result_find(result, map_curves_schema.name) != NULL ? STORE_FORMAT_MAP : STORE_FORMAT;
     const size_t n = wt_result_n_tables(result);
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
-    const char **const names = calloc(n + 1, sizeof *names);
-    bool good = names != NULL &&
-                put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE, H5T_NATIVE_INT,
-                              w->scalar, &format) &&
-                store_put_text(w, w->file, STORE_DIGEST_ATTRIBUTE, digest);
+    const char **const words = calloc(n_digests + 1, sizeof *words);
+    bool good = words != NULL && put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE,
+                                               H5T_NATIVE_INT, w->scalar, &format);
     for (size_t i = 0; good && i < n; i++)
-        names[i] = wt_table_name(wt_result_table(result, i));
-    good = good && store_put_words(w->file, STORE_TABLES_ATTRIBUTE, names, n);
+        words[i] = wt_table_name(wt_result_table(result, i));
+    good = good && store_put_words(w->file, STORE_TABLES_ATTRIBUTE, words, n);
+    for (size_t i = 0; good && i < n_digests; i++)
+        words[i] = digests[i];
+    good = good && store_put_words(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
     if (inputs != NULL)
         good = good && put_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
         good = put_table(w, wt_result_table(result, i));
     if (case_file != NULL)
         good = good && put_case(w, case_file, case_length);
-    free(names);
+    free(words);
     return good;
 }
 
@@ -334,18 +352,20 @@ wt_status store_begin(const char *path, store_file **file, wt_error *err)
 
 wt_status store_end(store_file *w, const wt_result *result, bool with_provenance, wt_error *err)
 {
-    char digest[65];
+    size_t n_digests = 0;
     wt_table *inputs = NULL;
-    wt_status status = WT_OK;
-    if (with_provenance)
+    char(*const digests)[STORE_DIGEST_SIZE] =
+        calloc(wt_result_n_tables(result) + 2, sizeof *digests);
+    wt_status status = digests != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK && with_provenance)
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)
-        status = store_digest(result, inputs, digest, err);
+        status = make_digests(result, inputs, digests, &n_digests, err);
     if (status == WT_OK) {
         hdf5_scope scope;
         hdf5_enter(&scope);
-        bool good = put_result(w, result, inputs, digest);
+        bool good = put_result(w, result, inputs, digests, n_digests);
         good = H5Fclose(w->file) >= 0 && good && w->to.failed == 0;
         w->file = -1;
         hdf5_leave(&scope);
@@ -358,6 +378,7 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
     if (status != WT_OK)
         wt_error_file(err, w->path);
     wt_table_free(inputs);
+    free(digests);
     free_file(w);
     return status;
 }

@@ -30,7 +30,7 @@ static void reader_free(reader *r)
 }
 
 /* Says where; column counts from 1, 0 = the whole line. */
-static void at(const reader *r, size_t column, wt_error *err)
+static void set_place(const reader *r, size_t column, wt_error *err)
 {
     char of_table[96] = "", of_column[96] = "";
     if (r->named)
@@ -69,7 +69,7 @@ static wt_status next_line(reader *r, wt_error *err)
     if (good != r->length || memchr(r->line, '\0', r->length) != NULL) {
         (void)wt_fail(err, WT_E_CORRUPT, "the line is not UTF-8 text");
         wt_error_expected(err, "a text stream of weartrack");
-        at(r, 0, err);
+        set_place(r, 0, err);
         return WT_E_CORRUPT;
     }
     return WT_OK;
@@ -82,7 +82,7 @@ static wt_status corrupt(const reader *r, size_t column, const char *message, co
     wt_error_expected(err, "%s", expected);
     if (found != NULL)
         wt_error_found(err, "\"%s\"", found);
-    at(r, column, err);
+    set_place(r, column, err);
     return WT_E_CORRUPT;
 }
 
@@ -94,7 +94,7 @@ static wt_status refused(const reader *r, size_t column, wt_status status, wt_er
         if (err != NULL)
             err->status = status;
     }
-    at(r, column, err);
+    set_place(r, column, err);
     return status;
 }
 
@@ -257,7 +257,7 @@ static wt_status read_row(reader *r, wt_error *err)
         status = wt_fail(err, WT_E_CORRUPT, "the row does not fit the header line");
         wt_error_expected(err, "%zu cells parted by tabs", table->n_columns);
         wt_error_found(err, "%zu", n_cells);
-        at(r, 0, err);
+        set_place(r, 0, err);
     }
     return status;
 }
@@ -294,7 +294,7 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
             status = wt_fail(err, WT_E_CORRUPT, "the stream ends before the table does");
             wt_error_expected(err, "a line \"##\" alone at its end");
             wt_error_advice(err, "the program that wrote it may have failed: look at its message");
-            at(&r, 0, err);
+            set_place(&r, 0, err);
         }
     }
     if (status == WT_OK && !header)

@@ -1,7 +1,8 @@
 /* The headlines of results, and one row for each result. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/array.h"
-#include "data/tables/tables.h"
+#include "data/findings.h"
+#include "data/store.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,51 +35,65 @@ static void put_text(table_writer *t, const char *name, const char *words)
     put(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
+static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
+                     double high, const char *unit)
+{
+    if (isnan(low) && isnan(high))
+        return;
+    put_number(t, stem, suffixes[0], low, unit);
+    put_number(t, stem, suffixes[1], high, unit);
+}
+
+/* A number with its interval and what the choices of the model make of it. */
+static void put_finding(table_writer *t, const char *name, const finding *f)
+{
+    static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
+    put_ends(t, name, interval, f->low, f->high, f->number.unit);
+    put_ends(t, name, range, f->range.low, f->range.high, f->number.unit);
+}
+
 /* The keys that are declared as headlines. */
-static void put_keys(table_writer *t, const table_view *view)
+static void put_keys(table_writer *t, const finding_tables *found, const table_view *view)
 {
     const table_schema *schema = view->schema;
     for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
         const schema_field *key = &schema->keys[i];
+        finding f;
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
             continue;
         if (key->kind == SCHEMA_TEXT)
             put_text(t, key->name, view_key_text(view, schema, i));
         else
             put(t, key->name, view_key(view, schema, i), key->headline);
+        if (finding_of_key(found, key, &f))
+            put_finding(t, key->name, &f);
     }
 }
 
-static void put_groups(table_writer *t, const table_view *groups)
+static void put_groups(table_writer *t, const finding_tables *found)
 {
+    const table_view *groups = &found->groups;
     for (size_t row = 0; row < groups->n_rows; row++) {
         char stem[SCHEMA_NAME_SIZE];
+        const finding f = finding_of_group(found, row);
         const char *group = modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP);
-        (void)snprintf(stem, sizeof stem, "modulus_%s", group);
-        put_number(t, stem, "", modulus_groups_get(groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN),
-                   "Pa");
-        put_number(t, stem, "_low", modulus_groups_get(groups, row, MODULUS_GROUPS_LOW), "Pa");
-        put_number(t, stem, "_high", modulus_groups_get(groups, row, MODULUS_GROUPS_HIGH), "Pa");
+        (void)snprintf(stem, sizeof stem, "%s_%s", f.name, group);
+        put_number(t, stem, "", f.number.value, f.number.unit);
+        put_finding(t, stem, &f);
         put_number(t, "accepted_", group, modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
         put_number(t, "rejected_", group,
                    modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
     }
 }
 
-/* The row over all rates has no limits of the rate. */
-static void put_ratio(table_writer *t, const table_view *view)
+static void put_ratio(table_writer *t, const finding_tables *found)
 {
-    for (size_t row = 0; row < view->n_rows; row++) {
-        if (!isnan(comparison_get(view, row, COMPARISON_RATE_LOW)))
-            continue;
-        put_number(t, "modulus_ratio", "", comparison_get(view, row, COMPARISON_RATIO), "1");
-        put_number(t, "modulus_ratio", "_low", comparison_get(view, row, COMPARISON_RATIO_LOW),
-                   "1");
-        put_number(t, "modulus_ratio", "_high", comparison_get(view, row, COMPARISON_RATIO_HIGH),
-                   "1");
-        put_number(t, "welch_p", "", comparison_get(view, row, COMPARISON_WELCH_P), "1");
+    const finding f = finding_of_ratio(found);
+    if (found->comparison.n_rows == 0)
         return;
-    }
+    put_number(t, f.name, "", f.number.value, f.number.unit);
+    put_finding(t, f.name, &f);
+    put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
 }
 
 /* The first sentence of the answer to the first question. */
@@ -100,36 +115,45 @@ static void put_verdict(table_writer *t, const table_view *view)
     }
 }
 
+/* The tables that have headlines beside those of the findings; behind the first ones all are keys.
+ */
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 4 };
+static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
+                                                      [NOTES] = &notes_schema,
+                                                      [FAILURES] = &failures_schema,
+                                                      [WITH_KEYS] = &shift_factors_schema,
+                                                      &glass_transition_schema,
+                                                      &friction_schema,
+                                                      &layer_schema};
+
+bool store_has_headlines(const char *table)
+{
+    for (size_t i = 0; i < N_TABLES; i++)
+        if (strcmp(sources[i]->name, table) == 0)
+            return true;
+    return findings_are_of(table);
+}
+
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
-    const table_schema *const with_keys[] = {&shift_factors_schema, &glass_transition_schema,
-                                             &friction_schema, &layer_schema, &what_if_schema};
-    enum { N_WITH_KEYS = sizeof with_keys / sizeof *with_keys };
-    table_view answer, groups, comparison, keys[N_WITH_KEYS], notes, failures;
-    wt_status status = table_bind_of(result, &answer_schema, "", &answer, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &modulus_groups_schema, "", &groups, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &comparison_schema, "", &comparison, err);
-    for (size_t i = 0; status == WT_OK && i < N_WITH_KEYS; i++)
-        status = table_bind_of(result, with_keys[i], "", &keys[i], err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &notes_schema, "", &notes, err);
-    if (status == WT_OK)
-        status = table_bind_of(result, &failures_schema, "", &failures, err);
+    finding_tables found;
+    table_view views[N_TABLES];
+    wt_status status = findings_bind(result, &found, err);
+    for (size_t i = 0; status == WT_OK && i < N_TABLES; i++)
+        status = table_bind_of(result, sources[i], "", &views[i], err);
     if (status != WT_OK)
         return status;
     double n_remarks = 0;
-    for (size_t row = 0; row < notes.n_rows; row++)
-        n_remarks += strcmp(notes_text(&notes, row, NOTES_SEVERITY), "note") != 0;
+    for (size_t row = 0; row < views[NOTES].n_rows; row++)
+        n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
     table_writer t = table_begin(&keys_schema, err);
-    put_verdict(&t, &answer);
-    put_ratio(&t, &comparison);
-    put_groups(&t, &groups);
-    for (size_t i = 0; i < N_WITH_KEYS; i++)
-        put_keys(&t, &keys[i]);
+    put_verdict(&t, &views[ANSWER]);
+    put_ratio(&t, &found);
+    put_groups(&t, &found);
+    for (size_t i = WITH_KEYS; i < N_TABLES; i++)
+        put_keys(&t, &found, &views[i]);
     put_number(&t, "remarks", "", n_remarks, "1");
-    put_number(&t, "failures", "", (double)failures.n_rows, "1");
+    put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);
 }
 

@@ -134,7 +134,7 @@ wt_status wt_table_add_text_column(wt_table *table, const char *name, const char
     return add_column(table, WT_COLUMN_TEXT, name, "", long_name, err);
 }
 
-static bool grow(wt_table *table)
+static bool grow_columns(wt_table *table)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         table_column *const column = &table->columns[i];
@@ -165,7 +165,7 @@ wt_status wt_table_add_row(wt_table *table, wt_error *err)
 {
     if (table->n_columns == 0)
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns", table->name);
-    if (!grow(table) || (table->n_blocks == 0 && !begin_block(table)))
+    if (!grow_columns(table) || (table->n_blocks == 0 && !begin_block(table)))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < table->n_columns; i++) {
         if (table->columns[i].kind == WT_COLUMN_NUMBER)

@@ -104,7 +104,7 @@ wt_status table_end(table_writer *w, wt_table **table)
 /* ---- cells and keys -------------------------------------------------------------------------- */
 
 /* Whether a cell of this column can be put. */
-static bool takes(table_writer *w, const table_schema *of, unsigned column, bool text)
+static bool takes_cell(table_writer *w, const table_schema *of, unsigned column, bool text)
 {
     if (w->status != WT_OK)
         return false;
@@ -113,19 +113,23 @@ static bool takes(table_writer *w, const table_schema *of, unsigned column, bool
         fail(w, of->name, "has no such column");
         return false;
     }
+    if (w->row & SCHEMA_BIT(column)) {
+        fail(w, of->columns[column].name, "was put twice in a row");
+        return false;
+    }
     w->row |= SCHEMA_BIT(column);
     return true;
 }
 
 void writer_number(table_writer *w, const table_schema *of, unsigned column, double value)
 {
-    if (takes(w, of, column, false))
+    if (takes_cell(w, of, column, false))
         wt_table_put(w->table, w->column[column], value);
 }
 
 void writer_text(table_writer *w, const table_schema *of, unsigned column, const char *text)
 {
-    if (takes(w, of, column, true))
+    if (takes_cell(w, of, column, true))
         w->status = wt_table_put_text(w->table, w->column[column], text, w->err);
 }
 

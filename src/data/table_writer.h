@@ -44,6 +44,11 @@ wt_status table_end(table_writer *writer, wt_table **table) WT_NODISCARD;
 
 void writer_number(table_writer *writer, const table_schema *of, unsigned column, double value);
 void writer_text(table_writer *writer, const table_schema *of, unsigned column, const char *text);
+/* A row and keys of what a structure shows; `fields` are those of `of` with forms and offsets. */
+void writer_row(table_writer *writer, const table_schema *of, const schema_field *fields,
+                const void *row);
+void writer_keys(table_writer *writer, const table_schema *of, const schema_field *fields,
+                 const void *keys);
 void writer_key(table_writer *writer, const table_schema *of, unsigned key, wt_estimate estimate);
 void writer_key_text(table_writer *writer, const table_schema *of, unsigned key, const char *text);
 void writer_key_print(table_writer *writer, const table_schema *of, unsigned key,

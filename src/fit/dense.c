@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Rows at a time: so many factors and sums stay in registers. */
 enum { BLOCK = 4 };
 
 WIDE_REGISTERS

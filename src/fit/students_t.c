@@ -10,6 +10,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
+/* Of the intervals that are told, as everywhere. */
 static const double confidence = 0.95;
 
 moments moments_of(const double *x, size_t n)

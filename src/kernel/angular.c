@@ -18,6 +18,8 @@
 /* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
  * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
 enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3 };
+/* A piece is halved down to 1/4096 of its width, or until three cuts in a row gained less than ten:
+ * then it is rounding that is left. */
 enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 /* Room for the coefficients of one degree, in whole registers. */
 enum { FIT_ROOM = 20 };
@@ -28,16 +30,20 @@ static const double law_width = 0.7, closed_width = 1;
 /* At a goal no tighter than the last, pieces twice as wide do with the same degree: 3.4^-8 is 5e-5.
  */
 static const double loose_width = 2, loose_goal = 1e-5;
-/* Two bounds closer than this are one. */
+/* Two bounds in ln w closer than this are one: their difference is rounding. */
 static const double same_bound = 1e-12;
-/* Relative error at which a series is good enough, of the tolerance, and at the best. */
+/* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
+ * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
+ * coefficient.
+ */
 static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6,
                     most_closed_goal = 1e-4;
-/* Of J1 and J2 from a sum of positive terms. */
+/* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
  * 0.29 ms both ways with 7 terms, 0.31 and 0.28 ms with 10), and is good to these. */
 enum { MANY_TERMS = 8 };
+/* Where squares and powers of omega tau are numbers. */
 static const double least_frequency = 1e-250, most_frequency = 1e250;
 
 /* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
@@ -326,27 +332,47 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
     return angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
 }
 
-wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+/* In whole multiples of piece_width: what there is, and with it what is asked for. */
+typedef struct series_range {
+    long first, last, have_first, have_last;
+} series_range;
+
+static series_range range_with(const angular_law *a, double w_min, double w_max)
+{
+    const series_list *have = &a->pieces;
+    series_range r = {(long)floor(log(w_min) / a->piece_width),
+                      (long)ceil(log(w_max) / a->piece_width), 0, 0};
+    if (r.last <= r.first)
+        r.last = r.first + 1;
+    r.have_first = r.have_last = r.last; /* nothing yet */
+    if (have->n > 0) {
+        r.have_first = lround(have->items[0].low / a->piece_width);
+        r.have_last = lround(have->items[have->n - 1].high / a->piece_width);
+        r.first = r.first < r.have_first ? r.first : r.have_first;
+        r.last = r.last > r.have_last ? r.last : r.have_last;
+    }
+    return r;
+}
+
+bool angular_covers(const angular_law *angular, double w_min, double w_max)
 {
     const wt_material_law *law = angular->material->law;
     if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
                             !(w_min >= least_frequency && w_max <= most_frequency)))
+        return true;
+    const series_range r = range_with(angular, w_min, w_max);
+    return r.first == r.have_first && r.last == r.have_last;
+}
+
+wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+{
+    if (angular_covers(angular, w_min, w_max))
         return WT_OK;
     const double piece_width = angular->piece_width;
-    long first = (long)floor(log(w_min) / piece_width);
-    long last = (long)ceil(log(w_max) / piece_width);
-    if (last <= first)
-        last = first + 1;
     const series_list *have = &angular->pieces;
-    long have_first = last, have_last = last; /* nothing yet */
-    if (have->n) {
-        have_first = lround(have->items[0].low / piece_width);
-        have_last = lround(have->items[have->n - 1].high / piece_width);
-        if (first >= have_first && last <= have_last)
-            return WT_OK;
-        first = first < have_first ? first : have_first;
-        last = last > have_last ? last : have_last;
-    }
+    const series_range range = range_with(angular, w_min, w_max);
+    const long first = range.first, last = range.last, have_first = range.have_first,
+               have_last = range.have_last;
     const wt_status status = angular->closed
                                  ? WT_OK
                                  : extend_panels(angular, exp((double)first * piece_width),
@@ -511,7 +537,7 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
 }
 
 /* From frequencies below a limit. */
-static double below(const angular_law *a, size_t limit, double w, double j1)
+static double part_below(const angular_law *a, size_t limit, double w, double j1)
 {
     double part, j2;
     if (w <= a->limit[limit])
@@ -524,9 +550,9 @@ double angular_outside(const angular_law *angular, double w, double j1)
 {
     double outside = 0;
     if (!isnan(angular->limit[0]))
-        outside += below(angular, 0, w, j1);
+        outside += part_below(angular, 0, w, j1);
     if (!isnan(angular->limit[1]))
-        outside += j1 - below(angular, 1, w, j1);
+        outside += j1 - part_below(angular, 1, w, j1);
     return fmin(fmax(outside, 0), j1);
 }
 

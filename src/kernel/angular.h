@@ -16,6 +16,9 @@
 
 typedef struct angular_law angular_law;
 
+/* The series of a material reach down from there far enough, and its squares are numbers. */
+#define ANGULAR_LEAST 1e-250
+
 /* The material is borrowed. Relative errors are to be far below `tolerance`. The law lives in the
  * pool, but what it makes later does not: to be cleared before the pool is freed. */
 wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
@@ -27,6 +30,8 @@ void angular_clear(angular_law *angular); /* NULL: nothing */
  * from then on: that moves results within the errors stated. */
 wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
+/* Whether angular_cover has nothing to do for these. */
+bool angular_covers(const angular_law *angular, double w_min, double w_max);
 /* Prepares angular_outside. */
 wt_status angular_cover_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
 /* J1 and J2 at n rising values of w inside the covered range; x = ln w. */

@@ -13,11 +13,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Width of a panel in ln omega: the poles of a Maxwell element lie pi/2 beside it, and ten nodes
+ * leave (0.35/2/pi)^20, 1e-25, of it; it is the kernel K that is steeper near w. */
 static const double widest = 0.35;
-/* ln F changes by no more over one panel. */
+/* ln F changes by no more over one panel: of exp(1.2 x) ten nodes leave less than rounding. */
 static const double steepest = 1.2;
-/* The integrals begin so far below the range in ln omega, with a power law below; less where the
- * law is one. */
+/* The integrals begin so far below the range in ln omega, with a power law below: exp(-40) of what
+ * a constant modulus gives, which weighs with c, is left; less where the law is one, for nothing
+ * is. */
 static const double deep = 40, shallow = 2.5;
 /* They begin at a whole multiple of it, so that similar ranges have the same panels. */
 static const double stride = 16;
@@ -47,7 +50,8 @@ typedef struct edge_list {
 /* The last Legendre coefficients of a panel that the rule resolves, relative to its mean: what the
  * rule leaves, which is exact to twice their degree, is of the order of their square. */
 static const double resolved = 1e-7;
-/* Panels are cut into no more parts than so many times those that their steepness asks for. */
+/* Panels are cut into no more parts than so many times those that their steepness asks for: what is
+ * no smoother at a 64th of the width is a jump. A bound of time and memory. */
 static const size_t most_parts = 64;
 
 static bool is_small(const gauss_rule *rule, const double *f, const rule_top *top)
@@ -302,7 +306,7 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     *j2 += sum2 * c;
 }
 
-enum { MIDDLE = 8 * PANEL_NODES };
+enum { MIDDLE = 8 * PANEL_NODES }; /* nodes at a time: what a stack holds lightly */
 
 /* The n <= MIDDLE nodes of panels that are each as far below w as they are wide, or further. */
 WIDE_REGISTERS

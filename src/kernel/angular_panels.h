@@ -11,7 +11,7 @@
 #include "kernel/rule.h"
 #include "weartrack/model.h"
 
-enum { PANEL_NODES = 10 };
+enum { PANEL_NODES = 10 }; /* see `widest` in angular_panels.c */
 
 /* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
  *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */

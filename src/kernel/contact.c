@@ -134,7 +134,8 @@ double contact_area_error(double variance, double variance_error)
     return moved + 16 * DBL_EPSILON * (area + moved);
 }
 
-/* Of 1 - P, relative; ten times that where G is rounded before, for y^2 is up to 27^2. */
+/* Of 1 - P, relative: some dozens of roundings of the series and of exp; ten times that where G is
+ * rounded before, for y^2 is up to 27^2. */
 static const double gap_rounding = 1e-14;
 
 double contact_gap_error(double variance, double variance_error)

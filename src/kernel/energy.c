@@ -92,7 +92,7 @@ static double slope_bracket(double s, double x)
     return -8 * (x - 1) * (x - s);
 }
 
-/* Some wavenumbers of a source at a depth. */
+/* Some wavenumbers of a source at a depth, as many as the first cache holds. */
 enum { BATCH = 64 };
 typedef struct batch {
     size_t n;
@@ -123,7 +123,7 @@ static void batch_fill(const wt_energy_source *source, size_t from, double q_min
 typedef void shape_fn(const wt_energy_source *source, const batch *b, double *value);
 
 /* g(z; q) exp(2 q z) */
-static void shape(const wt_energy_source *source, const batch *b, double *value)
+static void energy_shape(const wt_energy_source *source, const batch *b, double *value)
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
     for (size_t i = 0; i < b->n; i++)
@@ -170,7 +170,7 @@ static const double short_way = 0.01;
 
 static double short_integral(double (*bracket)(double s, double x), double s, double x, double l)
 {
-    static const double node = 0.7745966692414834;
+    static const double node = 0.7745966692414834; /* sqrt(3/5) */
     const double first = 0.5 * l * (1 - node), last = 0.5 * l * (1 + node);
     return l *
            (5 * bracket(s, x + first) * exp(-2 * first) + 8 * bracket(s, x + 0.5 * l) * exp(-l) +
@@ -212,7 +212,8 @@ static double sum_of(const wt_energy_source *source, shape_fn *of, double depth,
     return sum;
 }
 
-/* Below it the powers are taken relative to the last that is left. */
+/* Below it the powers are taken relative to the last that is left: far above where a double loses
+ * digits, 1e-308. */
 static const double least_sum = 1e-200;
 
 static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
@@ -227,7 +228,7 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
 static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
                          double sum[ENERGY_BOTH])
 {
-    static shape_fn *const of[] = {tail_shape, shape};
+    static shape_fn *const of[] = {tail_shape, energy_shape};
     wt_energy_source as[2] = {*source, *source};
     double value[BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth};
@@ -313,7 +314,7 @@ energy_course energy_course_at(const wt_energy_source *source, double depth, dou
 
 double energy_log_density(const wt_energy_source *source, double depth)
 {
-    return log_sum(source, shape, depth, 0);
+    return log_sum(source, energy_shape, depth, 0);
 }
 
 double energy_log_tail(const wt_energy_source *source, double depth)

@@ -12,7 +12,8 @@
  * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
 enum { DEPTHS = 32 };
 static const double last_depth = 710;
-/* Cells towards q0 with which the waves there, which alone count at the last depth, are resolved.
+/* Cells, each a quarter of the one before, towards q0 with which the waves there, which alone count
+ * at the last depth, are resolved.
  */
 static const size_t least_level = 6;
 

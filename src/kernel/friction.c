@@ -240,17 +240,32 @@ size_t friction_nodes(const wt_friction_workspace *ws)
     return nodes;
 }
 
-/* So many velocities are worth a series of a closed form. */
+/* So many velocities are worth a series of a closed form. Chosen for time alone. */
 enum { MANY_VELOCITIES = 8 };
-/* The series of a material reach down from there far enough. */
-#define LEAST_FREQUENCY 1e-250
 
 /* A closed form is taken as it is for a few velocities. */
-static wt_status cover(angular_law *angular, const wt_material *material, size_t n, double lowest,
-                       double highest, wt_error *err)
+static wt_status cover_frequencies(angular_law *angular, const wt_material *material, size_t n,
+                                   double lowest, double highest, wt_error *err)
 {
     const bool as_it_is = material->law->angular != NULL && n < MANY_VELOCITIES;
     return as_it_is ? WT_OK : angular_cover(angular, lowest, highest, err);
+}
+
+/* A series that is given may be read by others at the same time: where it does not reach, the
+ * workspace makes its own. */
+static wt_status leave_given(wt_friction_workspace *ws, double lowest, double highest,
+                             wt_error *err)
+{
+    angular_law *own = NULL;
+    if (ws->options.series == NULL || angular_covers(ws->angular, lowest, highest))
+        return WT_OK;
+    const wt_status status =
+        angular_new(ws->material, ws->options.tolerance, &ws->memory, &own, err);
+    if (status == WT_OK) {
+        ws->angular = own;
+        ws->options.series = NULL;
+    }
+    return status;
 }
 
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
@@ -272,8 +287,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
-    if (!material->law->angular && !(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
-        (void)range_error("velocity", lowest >= LEAST_FREQUENCY ? fastest : slowest,
+    if (!material->law->angular && !(lowest >= ANGULAR_LEAST && highest <= DBL_MAX)) {
+        (void)range_error("velocity", lowest >= ANGULAR_LEAST ? fastest : slowest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
                         material->law->name);
@@ -282,9 +297,11 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (!material->law->angular && material->law->check != NULL)
         status = material->law->check(material, lowest, highest, NULL, err);
     if (status == WT_OK)
-        status = cover(ws->angular, material, n, lowest, highest, err);
+        status = leave_given(ws, lowest, highest, err);
+    if (status == WT_OK)
+        status = cover_frequencies(ws->angular, material, n, lowest, highest, err);
     return status == WT_OK && ws->softening != NULL
-               ? cover(ws->loss, &ws->softening->loss, n, lowest, highest, err)
+               ? cover_frequencies(ws->loss, &ws->softening->loss, n, lowest, highest, err)
                : status;
 }
 
@@ -310,7 +327,7 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
 
 /* ---- velocities ------------------------------------------------------------------------------ */
 
-static wt_estimate number(double value, double error)
+static wt_estimate estimate_of(double value, double error)
 {
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
 }
@@ -354,11 +371,11 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     const double area = contact_area(pass.variance);
     const double error_area = contact_area_error(pass.variance, error_g);
     point->velocity = velocity;
-    point->stress_variance = number(pass.variance, error_g);
-    point->area_ratio = number(area, error_area);
+    point->stress_variance = estimate_of(pass.variance, error_g);
+    point->area_ratio = estimate_of(area, error_area);
     point->one_minus_area =
-        number(contact_gap(pass.variance), contact_gap_error(pass.variance, error_g));
-    point->hysteresis = number(sign * pass.hysteresis, error_mu);
+        estimate_of(contact_gap(pass.variance), contact_gap_error(pass.variance, error_g));
+    point->hysteresis = estimate_of(sign * pass.hysteresis, error_mu);
     point->nodes = pass.nodes;
     point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
                      error_mu <= tolerance * pass.hysteresis;

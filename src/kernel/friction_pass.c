@@ -33,7 +33,8 @@ static double steepness(const double *j, size_t n)
     return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
-/* S P falls no faster than G to the power of minus this. */
+/* S P falls no faster than G to the power of minus this: P = erf(1/(2 sqrt G)) as G^(-1/2), and
+ * S = gamma + (1 - gamma) P^2 as 1/G at most. */
 static const double area_power = 1.5;
 
 static double series_error(const wt_friction_workspace *ws, double low, double high,
@@ -108,7 +109,7 @@ static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, s
 }
 
 /* J1 and J2 of the softened moduli, from those of the moduli. */
-static void soften(const friction_scratch *scratch, const node_view *view)
+static void soften_moduli(const friction_scratch *scratch, const node_view *view)
 {
     if (view->f == NULL)
         return;
@@ -191,12 +192,12 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
     }
     place_omega(&view, at);
     evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
-    soften(scratch, &view);
+    soften_moduli(scratch, &view);
     fill_parts(&view, scale);
     return view;
 }
 
-static double weighted(const gauss_rule *rule, const double *f)
+static double weighted_sum(const gauss_rule *rule, const double *f)
 {
     double sum = 0;
     for (size_t i = 0; i < rule->n; i++)
@@ -248,8 +249,8 @@ typedef struct pass_allowed {
 
 /* On top of a core; `of_variance` then tells what an error of G from a panel on makes of the
  * hysteresis: that of its P there and in all panels above it. */
-static pass_allowed allow(const wt_friction_workspace *ws, friction_scratch *scratch, size_t first,
-                          size_t last, double share, const friction_pass *core)
+static pass_allowed allow_errors(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                 size_t first, size_t last, double share, const friction_pass *core)
 {
     double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
     for (size_t p = first; p < last; p++) {
@@ -274,7 +275,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
     double least = (double)INFINITY, most = 0, contact = 1;
     rule_top top_g, top_mu;
     rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance = weighted(rule, g);
+    part->variance = weighted_sum(rule, g);
     part->variance_error = error_of(ws, rule, &top_g);
     part->closed_error = 0;
     if (part->variance > CONTACT_FULL) {
@@ -287,7 +288,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         contact = integral / part->variance;
         part->closed_error = (most - least) * integral;
     }
-    part->hysteresis = contact * weighted(rule, mu);
+    part->hysteresis = contact * weighted_sum(rule, mu);
     part->hysteresis_error = contact * error_of(ws, rule, &top_mu);
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
@@ -336,8 +337,10 @@ static node_view find_core(const wt_friction_workspace *ws, friction_scratch *sc
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
+/* A panel over which G rises by no more is as smooth to the rule as any. */
 static const double steep_rise = 2;
-/* From this G on all of P shows in the hysteresis. */
+/* From this G on all of P shows in the hysteresis: 1 - P is a fifth there, and no small difference
+ * any more. */
 static const double area_begun = 0.3;
 
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
@@ -473,10 +476,10 @@ static size_t begin_panels(const wt_friction_workspace *ws, friction_scratch *sc
     for (size_t p = first; p < last; p++) {
         const scale_grid *grid = &scratch->grids[scratch->trail.spare[p].step];
         const node_view view = panel_view(scratch, grid, p, scratch->from[p]);
-        soften(scratch, &view);
+        soften_moduli(scratch, &view);
         fill_parts(&view, scale);
-        scratch->rough_g[p] = weighted(view.rule, view.rise);
-        scratch->rough_mu[p] = weighted(view.rule, view.full);
+        scratch->rough_g[p] = weighted_sum(view.rule, view.rise);
+        scratch->rough_mu[p] = weighted_sum(view.rule, view.full);
     }
     return nodes;
 }
@@ -491,7 +494,7 @@ static node_view finer_view(const wt_friction_workspace *ws, friction_scratch *s
     const node_view view = panel_view(scratch, grid, p, scratch->room * FRICTION_MAX_NODES);
     place_omega(&view, at);
     evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
-    soften(scratch, &view);
+    soften_moduli(scratch, &view);
     fill_parts(&view, scale);
     return view;
 }
@@ -522,7 +525,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
     const size_t first = plan->levels - level;
     (void)begin_panels(ws, scratch, plan, first, plan->levels, effort.step, nodes, at, scale);
     *pass = (friction_pass){.variance = part.variance, .hysteresis = part.hysteresis};
-    const pass_allowed total = allow(ws, scratch, first, last, share, pass);
+    const pass_allowed total = allow_errors(ws, scratch, first, last, share, pass);
     pass_allowed allowed = total;
     if (effort.all_along)
         allowed = (pass_allowed){share * part.variance, share * part.hysteresis};

@@ -11,8 +11,12 @@
 #include <math.h>
 #include <string.h>
 
+/* Cells towards q0: over a factor 4 the powers that the integrand is made of there are smooth to
+ * every rule. */
 static const double cell_ratio = 4;
-/* A panel right of a knot may be so many times longer than its distance from the knot before. */
+/* A panel right of a knot may be so many times longer than its distance from the knot before: in
+ * the square root of the distance its singularity is then 1/8 of the panel away, for which `closer`
+ * in rule.c allows. */
 static const double grading = 8;
 /* Knots closer than this part of a panel are one: what lies between them weighs no more than the
  * power 3/2 of it. */

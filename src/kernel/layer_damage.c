@@ -17,8 +17,8 @@
 #include <float.h>
 #include <math.h>
 
-/* Stretches are halved down to this part of their depth; what a maximum gains inside is its square.
- */
+/* Stretches are halved down to this part of their depth; what a maximum gains inside is its square,
+ * below rounding. */
 static const double least_stretch = 1e-9;
 
 typedef struct damage {

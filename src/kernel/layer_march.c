@@ -12,12 +12,15 @@
 #include <float.h>
 #include <math.h>
 
+/* Rules whose difference is the error: that of the lower one. */
 enum { LOW_NODES = 12, HIGH_NODES = 16 };
 
-/* Panel length as a part of the way to the balance, and in units of the local decay length. */
+/* Panel length as a part of the way to the balance, where the time has a logarithm, and in units of
+ * the local decay length, over which formation is smooth: more panels or fewer, and the same error,
+ * for those that do not reach it are halved. */
 static const double way_part = 0.7;
 static const double decay_part = 2;
-/* A panel whose two rules differ by more is halved. */
+/* A panel whose two rules differ by more is halved: a hundred panels are then good to 1e-10. */
 static const double panel_goal = 1e-12;
 /* Formation is left out where it is a smaller part of wear. */
 static const double log_negligible = -41.5; /* 1e-18 */
@@ -76,7 +79,7 @@ static double panel_length(const march *m)
 }
 
 /* Relative rounding error of Qf, which is the exponential of a sum of logarithms. */
-static double rounding(const layer_rates *rates, double thickness)
+static double rounding_error(const layer_rates *rates, double thickness)
 {
     const double depth = rates->q_min * thickness;
     return 16 * DBL_EPSILON * (1 + fabs(rates->log_power) + 2 * depth);
@@ -90,7 +93,8 @@ static double panel_take(const march *m, double *length, double *error, double *
     for (int i = 0; i < 60; i++) {
         const double end = m->thickness + m->direction * *length;
         const double formation = layer_formation(m->rates, end);
-        const double noise = rounding(m->rates, end) * formation / fabs(formation - m->rates->wear);
+        const double noise =
+            rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
         time = panel_time(m, m->high, m->thickness, *length, sensitivity);
         *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
         if (*error <= (panel_goal + 4 * noise) * time)
@@ -130,7 +134,7 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
                                double sensitivity)
 {
     const double rate = fabs(net_rate(m->rates, thickness));
-    const double relative = rounding(m->rates, thickness);
+    const double relative = rounding_error(m->rates, thickness);
     const double error = rate * (time_error + relative * time +
                                  (m->rates->source->numerical_error + relative) * sensitivity) +
                          4 * DBL_EPSILON * thickness;
@@ -262,7 +266,7 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
     double linear = 0;
     const wt_status status = march_begin(&m, rates, start, &target, &linear, err);
     if (status == WT_OK) {
-        const double relative = rounding(rates, fmax(start, goal.value));
+        const double relative = rounding_error(rates, fmax(start, goal.value));
         time->value = march_to(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
                                 (rates->source->numerical_error + relative) * m.sensitivity +

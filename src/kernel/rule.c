@@ -73,7 +73,9 @@ static void fill_running(gauss_rule *rule)
  * poles next to a panel let it be. The last ones look smaller than they are where they fall slowly,
  * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
  * is enough where the fall goes no further. */
-static const double caution = 40, caution_smooth = 10, caution_few = 6;
+static const double caution = 40;
+/* Of what is as smooth as a closed form, and of rules of few nodes. */
+static const double caution_smooth = 10, caution_few = 6;
 /* Knots of a law, and moduli with directions that nearly vanish, may be closer than the poles: in
  * the square root of the distance from a knot the one before it, as far off, lets a degree fall by
  * 0.22, and one 1/8 as far, the most of `grading`, by 0.41, which 0.2 for the usual panels makes

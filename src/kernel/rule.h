@@ -18,6 +18,8 @@ typedef struct gauss_rule {
     double numbers[];
 } gauss_rule;
 
+/* The largest rule; Legendre coefficients that tell how they fall, three pairs, in whole registers.
+ */
 enum { RULE_MOST = 32, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. A rule is made
  * when it is first asked for, by any thread, and kept for all. */

@@ -64,7 +64,7 @@ static const wt_material_law loss_law_closed = {.name = "loss",
 
 /* ---- strain ---------------------------------------------------------------------------------- */
 
-/* Up to there a rounded q takes digits of t that count. */
+/* Up to there a rounded q takes digits of t that count: from there on it is off by 10 roundings. */
 static const double rounding_counts = 0.1;
 
 double softening_strain(const strain_law *s, double q)
@@ -155,6 +155,8 @@ static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
     return WT_OK;
 }
 
+/* No filled rubber softens by more than a hundred times (Payne): what is beyond is a modulus in
+ * another unit. */
 static const double least_factor = 1e-3, most_factor = 1e3;
 
 wt_status wt_softening_check(const wt_softening *table, wt_error *err)

@@ -10,17 +10,24 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "model/adhesion.h"
+#include "model/root.h"
 #include "model/tip.h"
 
 #include <float.h>
 #include <math.h>
 
-/* Range of atomic forces, and the steps in which the end of the branch is looked for. */
+/* Range of atomic forces [m], an interatomic distance, in Tabor's parameter (J. Colloid Interface
+ * Sci. 58 (1977) 2): it names the regime, which goes over some decades. */
 static const double force_range = 0.3e-9;
+/* The steps in which the end of the branch is looked for, before it is found by halves: the branch
+ * has one end, which no step jumps over twice. 3000 of them are 40 decades. */
 static const double radius_step = 0.97;
-/* Between them a work of adhesion is looked for [J/m^2]. */
+enum { MAX_STEPS = 3000 };
+/* Between them a work of adhesion is looked for [J/m^2]: surfaces have 1e-3 to 1, and welded ones
+ * are no contact; beyond there is none. */
 static const double least_work = 1e-9, most_work = 1e3;
-enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
+/* Halves and false positions to the last digit of a double need some 60 and 10. */
+enum { MAX_ROUNDS = 200 };
 
 bool adhesion_applies(const wt_tip *tip)
 {
@@ -40,12 +47,23 @@ adhesive_contact adhesion_at(const adhesion *law, double a)
 }
 
 /* Rises where the branch is stable against the lever: dF/da + k ddelta/da, over k if k > 1. */
-static double restoring(const adhesion *law, double k, double a)
+static double restoring_slope(const adhesion *law, double k, double a)
 {
     const double slope = contact_at_radius(law->tip, a).slope;
     const double q = sqrt(2.0 * M_PI * law->work / law->reduced) / (2.0 * sqrt(a));
     const double sample = 2.0 * law->reduced * a * (slope - 3.0 * q), lever = slope - q;
     return isinf(k) || isinf(slope) ? lever : sample + k * lever;
+}
+
+typedef struct release_search {
+    const adhesion *law;
+    double k;
+} release_search;
+
+static bool comes_off(double a, void *user)
+{
+    const release_search *s = user;
+    return !(restoring_slope(s->law, s->k, a) > 0.0);
 }
 
 double adhesion_release(const adhesion *law, double k)
@@ -60,23 +78,18 @@ double adhesion_release(const adhesion *law, double k)
     while (contact_at_radius(law->tip, a).slope * sqrt(a) < far)
         a *= 2.0;
     double high = a;
-    for (int i = 0; i < MAX_STEPS && restoring(law, k, a) > 0.0; i++) {
+    for (int i = 0; i < MAX_STEPS && restoring_slope(law, k, a) > 0.0; i++) {
         high = a;
         a *= radius_step;
     }
     double low = a;
     /* The sign changes in a root, or by a jump at the corner of the tip. */
     const double corner = law->tip->shape == WT_TIP_CONE ? 0.0 : law->tip->transition_radius;
-    if (corner >= low && corner < high && !(restoring(law, k, corner) > 0.0) &&
-        restoring(law, k, corner * (1.0 + 1e-12)) > 0.0)
+    if (corner >= low && corner < high && !(restoring_slope(law, k, corner) > 0.0) &&
+        restoring_slope(law, k, corner * (1.0 + 1e-12)) > 0.0)
         return corner;
-    for (int i = 0; i < MAX_ROUNDS && high - low > 2.0 * DBL_EPSILON * high; i++) {
-        a = 0.5 * (low + high);
-        if (restoring(law, k, a) > 0.0)
-            high = a;
-        else
-            low = a;
-    }
+    release_search search = {law, k};
+    root_halve(comes_off, &search, &low, &high, 2.0 * DBL_EPSILON, MAX_ROUNDS);
     return 0.5 * (low + high);
 }
 
@@ -101,7 +114,7 @@ double adhesion_radius(const adhesion *law, double k, double position, double re
             high = a;
         else
             low = a;
-        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring(law, k, a);
+        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring_slope(law, k, a);
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
         if (fabs(next - a) <= 4.0 * DBL_EPSILON * a || !(high - low > 2.0 * DBL_EPSILON * high))

@@ -70,7 +70,7 @@ static double sphere_force(double radius, double t)
 
 static contact_point_values sphere(double radius, double delta)
 {
-    enum { MAX_ROUNDS = 60 };
+    enum { MAX_ROUNDS = 60 }; /* a bound of Newton's steps from above */
     const double x = delta / radius;
     double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
     for (int i = 0; i < MAX_ROUNDS; i++) {
@@ -85,7 +85,7 @@ static contact_point_values sphere(double radius, double delta)
                                   2.0 * left / (share + t * left)};
 }
 
-static contact_point_values sharp(const wt_tip *tip, double delta)
+static contact_point_values sharp_contact(const wt_tip *tip, double delta)
 {
     unsigned sides = tip->shape == WT_TIP_CONE ? 0 : tip->sides;
     double c = 2.0 / (M_PI * tip_facet_factor(sides)) * tan(tip->half_angle);
@@ -102,7 +102,7 @@ static double faces_force(const wt_tip *tip, double mcot, double s)
 
 /* The equation is solved for the depth beyond the switch, or the root near it would be lost in the
  * rounding of the depth:  delta - b^2/R = m cot(theta) b h atan(s) - b^2 s / (R (h + s)). */
-static contact_point_values faces(const wt_tip *tip, double delta)
+static contact_point_values faces_contact(const wt_tip *tip, double delta)
 {
     const double b = tip->transition_radius;
     const double cap = b * b / tip->radius, beyond = delta - cap;
@@ -161,7 +161,7 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
     case WT_TIP_PARABOLOID:
         return paraboloid(tip->radius, delta);
     case WT_TIP_CONE:
-        return sharp(tip, delta);
+        return sharp_contact(tip, delta);
     case WT_TIP_SPHERE:
         return sphere(tip->radius, delta);
     case WT_TIP_PUNCH:
@@ -170,10 +170,10 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
         break;
     }
     if (tip->transition_radius == 0.0)
-        return sharp(tip, delta);
+        return sharp_contact(tip, delta);
     if (delta < contact_switch_depth(tip))
         return paraboloid(tip->radius, delta);
-    return faces(tip, delta);
+    return faces_contact(tip, delta);
 }
 
 double thin_sample_reach(const wt_tip *tip, double delta)

@@ -5,6 +5,8 @@
  */
 #include "model/hereditary.h"
 
+#include "model/prony.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,7 +16,7 @@ static const double quickest = 0.05, slowest = 1e5;
 
 wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
 {
-    enum { N_ARRAYS = 7 };
+    enum { N_ARRAYS = 7 }; /* below */
     if (terms <= m->capacity && m->block != NULL)
         return WT_OK;
     double *block = calloc(N_ARRAYS * (terms + 1), sizeof *block);
@@ -86,11 +88,7 @@ void hereditary_add(const hereditary *m, double *memory, double change)
 
 double hereditary_modulus(const wt_prony *series, double omega)
 {
-    double storage = series->equilibrium_modulus, loss = 0.0;
-    for (size_t i = 0; i < series->n; i++) {
-        const double x = omega * series->relaxation_time[i], y = 1.0 / hypot(1.0, x);
-        storage += series->modulus[i] * (x * y) * (x * y);
-        loss += series->modulus[i] * (x * y) * y;
-    }
+    double storage, loss;
+    prony_moduli(series, omega, &storage, &loss);
     return hypot(storage, loss);
 }

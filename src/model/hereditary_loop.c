@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_NEWTON = 60 };
+enum { MAX_NEWTON = 60 };          /* a bound of steps */
 static const double close = 1e-15; /* of a step: t1 */
 
 /* The way in, and where the way out is. */

@@ -27,7 +27,7 @@ wt_status material_wrap(const wt_material_law *law, void *data, double poisson_r
 /* The `free` of a law whose data are one block of memory. */
 void material_free_data(wt_material *material);
 
-/* Moduli whose squares are numbers [Pa]. */
+/* Moduli whose squares are numbers [Pa]: a double ends at 1e-308 and 1e308. */
 #define MODULUS_LEAST 1e-150
 #define MODULUS_MOST 1e150
 #define MODULUS_RANGE "from 1e-150 to 1e150 Pa"

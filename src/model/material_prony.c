@@ -4,6 +4,7 @@
  */
 #include "base/wide.h"
 #include "model/material.h"
+#include "model/prony.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,9 +18,6 @@ typedef struct prony_data {
     double numbers[];        /* [3 n] all of them */
 } prony_data;
 
-/* Beyond it 1 + a^2 is a^2 for a = omega tau, which is not made, for it would overflow. */
-static const double square_limit = 1e150;
-
 static void prony_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {
@@ -31,13 +29,8 @@ static void prony_modulus(const wt_material *material, const double *omega, size
     for (size_t k = 0; k < d->n; k++) {
         const double e = d->modulus[k];
         const double tau = d->relaxation_time[k];
-        for (size_t i = 0; i < n; i++) {
-            const double a = omega[i] * tau;
-            const bool square = a < square_limit;
-            const double b = e * (square ? a / (1 + a * a) : 1 / omega[i] / tau);
-            storage[i] += square ? b * a : e;
-            loss[i] += b;
-        }
+        for (size_t i = 0; i < n; i++)
+            prony_add(e, tau, omega[i], &storage[i], &loss[i]);
     }
 }
 
@@ -60,7 +53,7 @@ static void add_term_beyond(const double *omega, size_t n, double modulus, doubl
                             double weight, double *j1, double *j2)
 {
     for (size_t i = 0; i < n; i++)
-        if (omega[i] * tau < square_limit) {
+        if (omega[i] * tau < prony_square_limit) {
             add_term(&omega[i], 1, modulus, tau, weight, &j1[i], &j2[i]);
         } else {
             j1[i] += modulus / omega[i] / tau;
@@ -85,7 +78,7 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
     for (size_t k = 0; k < d->n; k++) {
         const double tau = d->relaxation_time[k];
-        if (highest * tau < square_limit)
+        if (highest * tau < prony_square_limit)
             add_term(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
         else
             add_term_beyond(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
@@ -101,12 +94,12 @@ static void prony_angular(const wt_material *material, const double *restrict om
 static void loss_parts(double omega, double modulus, double tau, double *root, double *height)
 {
     const double a = omega * tau;
-    const bool square = a < square_limit;
+    const bool square = a < prony_square_limit;
     *root = square ? sqrt(1 + a * a) : a;
     *height = square ? modulus * (a / *root) : modulus;
 }
 
-enum { LOSS_BLOCK = 64 };
+enum { LOSS_BLOCK = 64 }; /* terms at a time: what a stack holds lightly */
 
 /* sum_j h_j / (R_j + R_k) of the terms k of a block. */
 WIDE_REGISTERS

@@ -54,7 +54,7 @@ static void table_logs(const table_data *d, const double *omega, size_t n, doubl
 static void table_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {
-    enum { BATCH = 32 };
+    enum { BATCH = 32 }; /* frequencies at a time: what the first cache holds */
     double logs[2][BATCH];
     for (size_t from = 0; from < n; from += BATCH) {
         const size_t left = n - from < BATCH ? n - from : BATCH;

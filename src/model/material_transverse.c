@@ -105,7 +105,7 @@ static double complex complex_of(double real, double imaginary)
     return z;
 }
 
-/* At so many frequencies at a time. */
+/* At so many frequencies at a time: what the first cache holds. */
 enum { CHUNK = 32 };
 
 static void moduli_at(const transverse_data *d, const double *omega, size_t n, transverse_moduli *m)
@@ -158,7 +158,8 @@ static const double *transverse_breaks(const wt_material *material, size_t *n)
 
 /* ---- what makes no sense --------------------------------------------------------------------- */
 
-/* Rounding of a set that is just stable, as the incompressible ones are. */
+/* Rounding of a set that is just stable, as the incompressible ones are: a thousand times that of a
+ * double, and far below what a modulus is known to. */
 static const double slack = 1e-12;
 
 static wt_status refuse(const transverse_moduli *m, double omega, const char *what,
@@ -200,6 +201,8 @@ static wt_status check_at(const transverse_data *d, double omega, bool *passive,
     return WT_OK;
 }
 
+/* Frequencies at which it is looked at whether it can be: a relaxation time is 1.14 decades wide.
+ */
 enum { PER_DECADE = 8 };
 
 static wt_status transverse_check(const wt_material *material, double low, double high,

@@ -1,4 +1,4 @@
-/* Bracketed roots by Brent's method.
+/* Bracketed roots by Brent's method and by halves; maxima by golden sections.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,6 +10,30 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
+
+void root_halve(root_below below, void *user, double *low, double *high, double close, int most)
+{
+    for (int i = 0; i<most && * high - *low> close * fmax(fabs(*low), fabs(*high)); i++) {
+        const double middle = 0.5 * (*low + *high);
+        if (middle <= *low || middle >= *high)
+            break;
+        *(below(middle, user) ? low : high) = middle;
+    }
+}
+
+double root_maximum(root_fn f, void *user, double low, double high, int sections)
+{
+    const double golden = 0.6180339887498949; /* (sqrt 5 - 1)/2 */
+    for (int i = 0; i < sections; i++) {
+        /* Both are made anew: one that is kept drifts from its share of the range. */
+        const double left = high - golden * (high - low), right = low + golden * (high - low);
+        if (f(left, user) > f(right, user))
+            high = right;
+        else
+            low = left;
+    }
+    return 0.5 * (low + high);
+}
 
 double root_reach(root_fn f, void *user, double root, double error, double reach, double least)
 {

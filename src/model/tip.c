@@ -9,7 +9,7 @@
 #include <float.h>
 #include <math.h>
 
-static const double degree = M_PI / 180.0;
+static const double degree = M_PI / 180.0; /* [rad] */
 
 const wt_param tip_dimensions[TIP_N_DIMENSIONS] = {
     [TIP_HALF_ANGLE] = {PARAM("half-angle", wt_tip, half_angle, WT_Q_ANGLE,

@@ -27,7 +27,7 @@ static const struct {
 };
 enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
-enum { LIST = 256 };
+enum { LIST = 256 }; /* letters of a list of words */
 
 /* "a, b or c": adds one more word, of which `after` follow. */
 static void add_word(char list[LIST], const char *word, size_t after)

@@ -57,7 +57,7 @@ static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
 }
 
 /* Whether a sheet holds something that is read, and of the kinds asked for. */
-static wt_status recognised(const choice *c, size_t i, bool *yes)
+static wt_status sheet_recognised(const choice *c, size_t i, bool *yes)
 {
     wt_error why = WT_ERROR_INIT;
     wt_input *input = NULL;
@@ -104,7 +104,7 @@ static wt_status choose_by_content(const choice *c)
     for (size_t i = 0; i < c->book->n; i++) {
         if (c->book->sheets[i].hidden)
             continue;
-        const wt_status status = recognised(c, i, &c->chosen[i]);
+        const wt_status status = sheet_recognised(c, i, &c->chosen[i]);
         if (status != WT_OK)
             return status;
         n += c->chosen[i];
@@ -164,9 +164,9 @@ static wt_status join_sheets(const choice *c, wt_input **content)
     return status;
 }
 
-static wt_status choose(const wt_formats *formats, wt_input *input, const workbook *book,
-                        const wt_read_options *options, unsigned kinds, wt_input **content,
-                        wt_error *err)
+static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const workbook *book,
+                              const wt_read_options *options, unsigned kinds, wt_input **content,
+                              wt_error *err)
 {
     const choice c = {.formats = formats,
                       .options = options,
@@ -209,7 +209,7 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
         return WT_OK;
     status = new_book ? xlsx_read(input, &book, err) : xls_read(input, &book, err);
     if (status == WT_OK)
-        status = choose(formats, input, &book, options, kinds, content, err);
+        status = choose_sheet(formats, input, &book, options, kinds, content, err);
     workbook_clear(&book);
     return status;
 }

@@ -51,7 +51,7 @@ static const signature signatures[] = {
     NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
              "copy a JPK file or a spreadsheet again, unpack any other archive"),
     NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
-    NOT_READ("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
+    NOT_READ(HDF5_SIGNATURE, "an HDF5 file of another program", AS_TEXT),
     SIGNATURE("%PDF", "a PDF document", NO_DATA),
     SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
@@ -119,7 +119,7 @@ typedef struct verdict {
     char reason[sizeof((recognition *)0)->reason];
 } verdict;
 
-static void take(verdict *v, const file_reader *reader, const recognition *answer)
+static void take_answer(verdict *v, const file_reader *reader, const recognition *answer)
 {
     if (answer->answer == ANSWER_UNSUPPORTED && v->unsupported == NULL) {
         v->unsupported = reader;
@@ -150,8 +150,8 @@ static bool is_asked(const file_reader *reader, question q, unsigned kinds)
 }
 
 /* Puts one question; verdicts[1] is that of the readers of the kinds asked for, [0] of others. */
-static wt_status ask(const wt_formats *formats, wt_input *input, question q, unsigned kinds,
-                     verdict verdicts[2], wt_error *err)
+static wt_status ask_readers(const wt_formats *formats, wt_input *input, question q, unsigned kinds,
+                             verdict verdicts[2], wt_error *err)
 {
     const size_t n = wt_formats_count(formats);
     wt_status status = WT_OK;
@@ -179,7 +179,7 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
                 need = answer.need > need ? answer.need : need;
                 open[still_open++] = open[i];
             } else {
-                take(&verdicts[has_kind(open[i], kinds)], open[i], &answer);
+                take_answer(&verdicts[has_kind(open[i], kinds)], open[i], &answer);
             }
         }
         text_peek_free(peek.text);
@@ -219,7 +219,7 @@ static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error 
     return WT_E_EMPTY;
 }
 
-static wt_status unknown(wt_input *input, wt_error *err)
+static wt_status fail_unknown(wt_input *input, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -235,7 +235,7 @@ static wt_status unknown(wt_input *input, wt_error *err)
     return status;
 }
 
-static wt_status ambiguous(const file_reader *a, const file_reader *b, wt_error *err)
+static wt_status fail_ambiguous(const file_reader *a, const file_reader *b, wt_error *err)
 {
     wt_fail(err, WT_E_AMBIGUOUS, "two formats describe this file equally well");
     wt_error_found(err, "%s and %s", a->info.id, b->info.id);
@@ -249,11 +249,11 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
     verdict verdicts[2] = {{.score = 0}};
     const verdict *other = &verdicts[0], *v = &verdicts[1];
     for (question q = ASK_SIGNATURES; q < N_QUESTIONS; q++) {
-        wt_status status = ask(formats, input, q, kinds, verdicts, err);
+        wt_status status = ask_readers(formats, input, q, kinds, verdicts, err);
         if (status != WT_OK)
             return status;
         if (v->tied != NULL)
-            return ambiguous(v->best, v->tied, err);
+            return fail_ambiguous(v->best, v->tied, err);
         if (v->best != NULL) {
             *reader = v->best;
             return WT_OK;
@@ -266,7 +266,7 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
             return WT_E_UNSUPPORTED;
         }
     }
-    return unknown(input, err);
+    return fail_unknown(input, err);
 }
 
 wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,

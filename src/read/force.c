@@ -2,7 +2,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/shortage.h"
 #include "read/collection.h"
 #include "read/formats.h"
 
@@ -12,13 +11,12 @@ static wt_status open_content(const wt_formats *formats, wt_input *input,
                               const wt_read_options *options, wt_parselog *log,
                               wt_force_source **source, const file_reader **reader, wt_error *err)
 {
-    wt_read_options o;
-    wt_input *content = NULL;
-    wt_status status =
-        read_start(formats, input, options, WT_KIND_FORCE, &o, reader, &content, err);
-    if (status == WT_OK)
-        status = force_open((*reader)->force, *reader, content, &o, log, source, err);
-    return status;
+    reading r;
+    const wt_status status = read_start(formats, input, options, WT_KIND_FORCE, &r, err);
+    *reader = r.reader;
+    return status == WT_OK
+               ? force_open(r.reader->force, r.reader, r.content, &r.options, log, source, err)
+               : status;
 }
 
 /* A file of an archive; the options are those of the archive, whose format is not that of the file.
@@ -48,13 +46,10 @@ wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_rea
     wt_status status = open_content(formats, input, options, log, source, &reader, err);
     if (status == WT_OK && reader == &reader_collection)
         collection_use(*source, formats, open_entry);
-    const wt_status end = shortage_end(status, err);
+    const wt_status end = read_end(input, status, err);
     if (status == WT_OK && end != WT_OK) {
         wt_force_close(*source);
         *source = NULL;
     }
-    status = end;
-    if (status != WT_OK)
-        wt_error_file(err, wt_input_name(input));
-    return status;
+    return end;
 }

@@ -94,7 +94,7 @@ void contradiction_given(wt_force_source *source, const force_facts *facts)
               facts->cantilever.sensitivity, 1e9);
 }
 
-static double range(const double *values, size_t n)
+static double value_range(const double *values, size_t n)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = 0; i < n; i++) {
@@ -114,8 +114,8 @@ void contradiction_heights(wt_force_source *source, const force_facts *facts,
                             *const measured = wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT);
     if (height == NULL || measured == NULL)
         return;
-    const double piezo = range(height->values, segment->n_points);
-    const double sensor = range(measured->values, segment->n_points);
+    const double piezo = value_range(height->values, segment->n_points);
+    const double sensor = value_range(measured->values, segment->n_points);
     if (!(piezo > 0) || !(sensor > 0))
         return;
     source->heights_checked = true;

@@ -117,8 +117,8 @@ static size_t chain_place(wt_quantity quantity)
 /* The signal itself, else the nearest of the chain. But what the user gives replaces a link, so
  * that what comes behind it is made anew from what comes before; unless that is another channel,
  * which need not be of one measurement. */
-static const force_signal *origin(const force_facts *facts, const wt_read_options *options,
-                                  wt_quantity wanted)
+static const force_signal *origin_signal(const force_facts *facts, const wt_read_options *options,
+                                         wt_quantity wanted)
 {
     const double given[] = {options->sensitivity, options->spring_constant};
     const force_signal *own = force_find_signal(facts, wanted), *found = NULL;
@@ -229,7 +229,7 @@ static void note_kept(const wt_force_source *source, const force_facts *facts,
 static wt_status plan_column(const wt_force_source *source, const force_facts *facts,
                              wt_quantity wanted, force_plan *plan, wt_error *err)
 {
-    const force_signal *signal = origin(facts, &source->options, wanted);
+    const force_signal *signal = origin_signal(facts, &source->options, wanted);
     if (signal == NULL && (wanted != WT_Q_TIME || !isfinite(facts->start + facts->duration))) {
         if (wanted == WT_Q_TIME)
             wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
@@ -368,11 +368,11 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt
 /* ---- for info ----------------------------------------------------------------------------- */
 
 /* The signal that the quantity is made of, NULL if it cannot be made. */
-static const force_signal *makes(const force_facts *facts, const wt_read_options *options,
-                                 wt_quantity quantity)
+static const force_signal *signal_made_of(const force_facts *facts, const wt_read_options *options,
+                                          wt_quantity quantity)
 {
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);
-    const force_signal *signal = origin(facts, options, quantity);
+    const force_signal *signal = origin_signal(facts, options, quantity);
     if (signal == NULL || chain_place(quantity) == CHAIN)
         return signal;
     return isnan(deflection_factor(signal->quantity, quantity, &facts->cantilever, &used)) ? NULL
@@ -383,7 +383,7 @@ wt_quantity force_read_as(const force_facts *facts, const wt_read_options *optio
                           const void *channel)
 {
     for (size_t i = 0; i < facts->n_offers; i++) {
-        const force_signal *signal = makes(facts, options, facts->offers[i]);
+        const force_signal *signal = signal_made_of(facts, options, facts->offers[i]);
         if (signal != NULL && signal->channel == channel)
             return facts->offers[i];
     }
@@ -396,16 +396,16 @@ void force_describe_calibration(const force_facts *facts, const wt_read_options 
 {
     static const char given[] = "given by the user";
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);
-    const force_signal *signal = origin(facts, options, WT_Q_FORCE);
+    const force_signal *signal = origin_signal(facts, options, WT_Q_FORCE);
     wt_error missing = WT_ERROR_INIT;
     facts_number(list, "spring constant", used.spring_constant, "N/m",
                  used.spring_constant_given ? given : spring_constant_source);
     facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
                  used.sensitivity_given ? given : sensitivity_source);
     /* both are needed: the tip is at the height less the deflection */
-    if (signal != NULL && (makes(facts, options, WT_Q_FORCE) == NULL ||
+    if (signal != NULL && (signal_made_of(facts, options, WT_Q_FORCE) == NULL ||
                            (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
-                            makes(facts, options, WT_Q_DEFLECTION) == NULL))) {
+                            signal_made_of(facts, options, WT_Q_DEFLECTION) == NULL))) {
         uncalibrated(signal, &used, NULL, &missing);
         facts_add(list, "missing", "", missing.advice, "%s", missing.message);
     }

@@ -83,7 +83,7 @@ wt_status formats_of(text_description *d, const char *path, wt_formats **formats
     return status;
 }
 
-static wt_status add_built_in(wt_formats *f, description_xsd *schema, wt_error *err)
+static wt_status add_built_in(wt_formats *f, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
@@ -91,25 +91,28 @@ static wt_status add_built_in(wt_formats *f, description_xsd *schema, wt_error *
         const size_t n = strlen(e->name);
         if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)
             continue;
-        status = description_parse(schema, e->text, e->length, e->name, &d, err);
+        status = description_of_library(e, &d, err);
         if (status == WT_OK)
             status = formats_add_text(f, d, NULL, e->name, err);
     }
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, description_xsd *schema, const char *folder,
-                            wt_parselog *log, wt_error *err)
+static wt_status add_folder(wt_formats *f, const char *folder, wt_parselog *log, wt_error *err)
 {
+    description_xsd *schema = NULL;
     char **paths = NULL;
     size_t n = 0;
     wt_status status = wt_glob(folder, "*.xml", &paths, &n, err);
+    if (status == WT_OK)
+        status = description_xsd_new(&schema, err);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         text_description *d = NULL;
         status = description_parse_file(schema, paths[i], &d, err);
         if (status == WT_OK)
             status = formats_add_text(f, d, log, paths[i], err);
     }
+    description_xsd_free(schema);
     wt_strings_free(paths, n);
     return status;
 }
@@ -131,26 +134,21 @@ static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
 
 wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log, wt_error *err)
 {
-    description_xsd *schema = NULL;
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    wt_status status = description_xsd_new(&schema, err);
+    wt_status status = add_binary(f, false, err);
     if (status == WT_OK)
-        status = add_binary(f, false, err);
-    if (status == WT_OK)
-        status = add_built_in(f, schema, err);
+        status = add_built_in(f, err);
     if (status == WT_OK && folder != NULL)
-        status = add_folder(f, schema, folder, log, err);
+        status = add_folder(f, folder, log, err);
     if (status == WT_OK)
         status = add_binary(f, true, err);
-    description_xsd_free(schema);
-    if (status != WT_OK) {
+    if (status == WT_OK)
+        *formats = f;
+    else
         wt_formats_free(f);
-        return status;
-    }
-    *formats = f;
-    return WT_OK;
+    return status;
 }
 
 void wt_formats_free(wt_formats *formats)

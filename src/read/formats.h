@@ -32,8 +32,15 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
 
 /* start.c: what each kind of reading begins with: `given` or the defaults, checked, the reader and
  * what it is to read. */
+typedef struct reading {
+    wt_read_options options;
+    const file_reader *reader;
+    wt_input *content;
+} reading;
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
-                     unsigned kind, wt_read_options *options, const file_reader **reader,
-                     wt_input **content, wt_error *err);
+                     unsigned kind, reading *begun, wt_error *err);
+/* And ends with: the name of the file in the error, if there is one; memory that failed a library.
+ */
+wt_status read_end(wt_input *input, wt_status status, wt_error *err);
 
 #endif

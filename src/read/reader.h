@@ -41,7 +41,9 @@ typedef struct file_reader {
     const char *runs;    /* id of the description that a binary reader runs, or NULL */
     struct text_description *description; /* that it runs, or NULL */
     /* The text that the description reads, to be closed; NULL: the input itself. */
-    wt_status (*as_text)(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err);
+    wt_status (*as_text)(const struct file_reader *self, wt_input *input, wt_parselog *log,
+                         wt_input **text, wt_error *err);
+    const struct hdf5_curves *hdf5; /* that hdf5_as_text reads (hierarchy/curves_hdf5.h), or NULL */
     /* `self` is the reader itself. */
     recognition (*detect)(const struct file_reader *self, file_peek *peek);
     /* Kinds that it cannot deliver are NULL. */
@@ -69,6 +71,15 @@ static inline bool reader_is_text(const file_reader *reader)
 {
     return reader->description != NULL && reader->runs == NULL;
 }
+
+/* Detection by bytes: whether the file begins with them, or they stand in what is shown of it. */
+bool peek_begins(const file_peek *peek, const char *bytes, size_t n);
+bool peek_holds(const file_peek *peek, const char *bytes, size_t n);
+#define PEEK_BEGINS(peek, text) peek_begins(peek, text, sizeof(text) - 1)
+#define PEEK_HOLDS(peek, text) peek_holds(peek, text, sizeof(text) - 1)
+#define HDF5_SIGNATURE "\211HDF\r\n\032\n"
+/* Mine, with that score, or not. */
+recognition recognised(bool mine, int score);
 
 #define READER(id) extern const file_reader reader_##id;
 #include "read/readers.def"

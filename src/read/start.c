@@ -55,13 +55,20 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
-                     unsigned kind, wt_read_options *options, const file_reader **reader,
-                     wt_input **content, wt_error *err)
+                     unsigned kind, reading *begun, wt_error *err)
 {
     shortage_forget();
-    *options = given != NULL ? *given : wt_read_defaults();
-    wt_status status = param_check(wt_read_params(), options, err);
+    *begun = (reading){.options = given != NULL ? *given : wt_read_defaults()};
+    wt_status status = param_check(wt_read_params(), &begun->options, err);
     if (status != WT_OK)
         return status;
-    return find_reader(formats, input, options, kind, reader, content, err);
+    return find_reader(formats, input, &begun->options, kind, &begun->reader, &begun->content, err);
+}
+
+wt_status read_end(wt_input *input, wt_status status, wt_error *err)
+{
+    status = shortage_end(status, err);
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* Smallest distance of neighbours in a column of a grid; 0 if there is none. */
-static double pitch(const table_view *table, spot_map_column column)
+static double grid_pitch(const table_view *table, spot_map_column column)
 {
     double step = 0;
     for (size_t row = 1; row < table->n_rows; row++) {
@@ -50,7 +50,8 @@ static void draw_spot_map(figure_drawing *d)
     }
     if (n == 0 || d->status != WT_OK)
         return;
-    const double step_x = pitch(d->table, SPOT_MAP_X), step_y = pitch(d->table, SPOT_MAP_Y);
+    const double step_x = grid_pitch(d->table, SPOT_MAP_X),
+                 step_y = grid_pitch(d->table, SPOT_MAP_Y);
     span_add_column(&x, d->table, SPOT_MAP_X, false);
     span_add_column(&y, d->table, SPOT_MAP_Y, false);
     d->width = 0.95 * (double)n;

@@ -30,6 +30,22 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
+/* The rows that are folded, from `row` on; returns where they end. */
+static size_t folded_answers(page_writer *page, size_t row)
+{
+    const table_view *table = &page->tables->answer;
+    size_t end = row;
+    while (end < table->n_rows && strcmp(answer_text(table, end, ANSWER_KIND), "folded") == 0)
+        end++;
+    if (end == row)
+        return end;
+    text_format(&page->out, "<details>\n<summary>%zu more</summary>\n", end - row);
+    for (; row < end; row++)
+        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
+    text_add(&page->out, "</details>\n");
+    return end;
+}
+
 /* Several answers to one question stand under it together. */
 static void page_answer(page_writer *page)
 {
@@ -38,7 +54,7 @@ static void page_answer(page_writer *page)
         return;
     page_heading(page, "answer", "Answer");
     const char *question = NULL;
-    for (size_t row = 0; row < table->n_rows; row++) {
+    for (size_t row = 0; row < table->n_rows;) {
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
             bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
@@ -47,7 +63,11 @@ static void page_answer(page_writer *page)
                       caveat ? "answer caveat" : "answer", next);
             question = next;
         }
-        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
+        const size_t end = folded_answers(page, row);
+        if (end == row)
+            text_html(&page->out, "<p>%s</p>\n", answer_text(table, row++, ANSWER_ANSWER));
+        else
+            row = end;
     }
     text_add(&page->out, "</section>\n");
 }

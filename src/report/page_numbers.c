@@ -4,64 +4,74 @@
  */
 #include "report/page.h"
 
+#include "data/findings.h"
+
 #include <math.h>
 
-/* An interval as statistical error: "0.59 to 0.69 MPa (95 % interval)". */
-static void interval_row(page_writer *page, const char *name, wt_quantity quantity, double value,
-                         double low, double high, const char *remark)
+/* "0.59 to 0.69 MPa" in the unit of the value. */
+static void add_ends(growing_text *text, const finding *f, double low, double high, int digits)
+{
+    lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
+    text_format(text, "%s to %s%s%s", NUMBER(lab_value(&lab, low), digits),
+                NUMBER(lab_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "", lab.label);
+}
+
+/* An interval as statistical error, and what the choices of the model make of the number behind the
+ * remark. */
+static void finding_row(page_writer *page, const char *name, const finding *f, growing_text *remark)
 {
     growing_text interval = {0};
-    const wt_estimate estimate = {value, (high - low) / 4, 0, wt_quantity_unit(quantity)};
-    if (isfinite(low) && isfinite(high)) {
-        lab_unit lab = lab_unit_for(quantity, NULL, value);
-        text_format(&interval, "%s to %s%s%s (95 %% interval)", NUMBER(lab_value(&lab, low), 3),
-                    NUMBER(lab_value(&lab, high), 3), lab.label[0] != '\0' ? " " : "", lab.label);
+    const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
+                                  f->number.numerical_error, f->number.unit};
+    if (isfinite(f->low) && isfinite(f->high)) {
+        add_ends(&interval, f, f->low, f->high, finding_digits(f->number.value, f->low, f->high));
+        text_add(&interval, " (95 % interval)");
     } else
         text_add(&interval, "not known");
-    page_estimate(page, name, &estimate, quantity, text_string(&interval), remark);
+    if (!isnan(f->range.low)) {
+        text_add(remark, remark->length > 0 ? "; " : "");
+        add_ends(remark, f, f->range.low, f->range.high, 3);
+        text_add(remark, " over all choices of the model");
+    }
+    page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
     text_done(&interval, &page->out);
 }
 
-/* The row over all rates has no limits of the rate. */
-static void ratio_row(page_writer *page)
+static void ratio_row(page_writer *page, const finding_tables *found)
 {
-    const table_view *table = &page->tables->comparison;
-    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    for (size_t row = 0; row < table->n_rows; row++) {
-        double ratio = comparison_get(table, row, COMPARISON_RATIO);
-        if (!isnan(comparison_get(table, row, COMPARISON_RATE_LOW)) || !isfinite(ratio))
-            continue;
-        growing_text remark = {0};
-        text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
-                    FIXED(comparison_get(table, row, COMPARISON_SPOTS_TRACK), 0),
-                    FIXED(comparison_get(table, row, COMPARISON_SPOTS_BULK), 0));
-        if (unit != NULL)
-            text_format(&remark, ", unit of analysis: %s", unit);
-        interval_row(page, "Modulus, track over bulk", WT_Q_NONE, ratio,
-                     comparison_get(table, row, COMPARISON_RATIO_LOW),
-                     comparison_get(table, row, COMPARISON_RATIO_HIGH), text_string(&remark));
-        text_done(&remark, &page->out);
+    const table_view *table = &found->comparison;
+    finding f = finding_of_ratio(found);
+    if (!isfinite(f.number.value))
         return;
-    }
+    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    growing_text remark = {0};
+    text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
+                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
+                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
+    if (unit != NULL)
+        text_format(&remark, ", unit of analysis: %s", unit);
+    f.number.numerical_error = 0;
+    finding_row(page, f.words, &f, &remark);
+    text_done(&remark, &page->out);
 }
 
-static void group_rows(page_writer *page)
+static void group_rows(page_writer *page, const finding_tables *found)
 {
-    const table_view *table = &page->tables->modulus_groups;
+    const table_view *table = &found->groups;
     for (size_t row = 0; row < table->n_rows; row++) {
-        double mean = modulus_groups_get(table, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
-        if (!isfinite(mean))
+        finding f = finding_of_group(found, row);
+        if (!isfinite(f.number.value))
             continue;
         growing_text name = {0}, remark = {0};
-        text_format(&name, "Modulus, %s", modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
+        text_format(&name, "%s, %s", f.words,
+                    modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
-        text_format(&remark, "geometric mean; %.0f curves on %.0f spot%s, %.0f rejected",
+        text_format(&remark, "geometric mean; %.0f curves on %.0f spot%s, %.0f rejected; by %s",
                     modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
                     n_spots == 1 ? "" : "s",
-                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED));
-        interval_row(page, text_string(&name), WT_Q_MODULUS, mean,
-                     modulus_groups_get(table, row, MODULUS_GROUPS_LOW),
-                     modulus_groups_get(table, row, MODULUS_GROUPS_HIGH), text_string(&remark));
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
+        f.number.numerical_error = 0;
+        finding_row(page, text_string(&name), &f, &remark);
         text_done(&name, &page->out);
         text_done(&remark, &page->out);
     }
@@ -69,51 +79,35 @@ static void group_rows(page_writer *page)
 
 enum { EVERY_KEY = SCHEMA_MOST };
 
-/* How far a headline moves with the model, behind its remark. */
-static void model_remark(page_writer *page, const schema_field *key, growing_text *remark)
-{
-    static const struct {
-        const table_schema *table;
-        unsigned headline;
-        what_if_key range;
-    } ranges[] = {{&friction_schema, FRICTION_KEY_FRICTION, WHAT_IF_KEY_FRICTION},
-                  {&friction_schema, FRICTION_KEY_HYSTERESIS, WHAT_IF_KEY_HYSTERESIS},
-                  {&friction_schema, FRICTION_KEY_AREA_RATIO, WHAT_IF_KEY_AREA_RATIO},
-                  {&friction_schema, FRICTION_KEY_WITH_LAYER, WHAT_IF_KEY_WITH_LAYER},
-                  {&layer_schema, LAYER_KEY_BALANCE_THICKNESS, WHAT_IF_KEY_THICKNESS}};
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        const char *words = what_if_words(&page->tables->what_if, ranges[i].range);
-        if (key == &ranges[i].table->keys[ranges[i].headline] && words != NULL)
-            text_format(remark, "%s%s", remark->length > 0 ? "; " : "", words);
-    }
-}
-
 /* The keys of a table that are headlines; the remark belongs to one of them or to every one. */
-static void headline_rows(page_writer *page, const table_view *table, unsigned remarked,
-                          const char *remark)
+static void headline_rows(page_writer *page, const finding_tables *found, const table_view *table,
+                          unsigned remarked, const char *remark)
 {
     for (unsigned i = 0; i < table->schema->n_keys; i++) {
         const schema_field *key = &table->schema->keys[i];
         const wt_estimate estimate = view_key(table, table->schema, i);
+        finding f;
         if (key->headline == NULL || isnan(estimate.value))
             continue;
         growing_text words = {0};
         text_add(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
-        model_remark(page, key, &words);
-        page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
+        if (finding_of_key(found, key, &f))
+            finding_row(page, key->headline, &f, &words);
+        else
+            page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
         text_done(&words, &page->out);
     }
 }
 
 /* At the velocity that the answer is given for. */
-static void reference_rows(page_writer *page)
+static void reference_rows(page_writer *page, const finding_tables *found)
 {
     const table_view *table = &page->tables->friction;
     growing_text remark = {0};
     text_format(
         &remark, "at the reference velocity, %s",
         VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
-    headline_rows(page, table, EVERY_KEY, text_string(&remark));
+    headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
 
@@ -145,7 +139,7 @@ static void largest_row(page_writer *page)
 }
 
 /* The constants of the material, and whether they mean anything. */
-static void law_rows(page_writer *page)
+static void law_rows(page_writer *page, const finding_tables *found)
 {
     const table_view *table = &page->tables->shift_factors;
     if (table->table == NULL)
@@ -153,11 +147,11 @@ static void law_rows(page_writer *page)
     growing_text remark = {0};
     text_format(&remark, "correlated with C₂, see the table of constants; superposition: %s",
                 shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
-    headline_rows(page, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
+    headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
     text_done(&remark, &page->out);
 }
 
-static void transition_rows(page_writer *page)
+static void transition_rows(page_writer *page, const finding_tables *found)
 {
     const table_view *table = &page->tables->glass_transition;
     if (table->table == NULL)
@@ -166,7 +160,7 @@ static void transition_rows(page_writer *page)
         glass_transition_value(table, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY);
     growing_text remark = {0};
     text_format(&remark, "at %s", VALUE(WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
-    headline_rows(page, table, EVERY_KEY, text_string(&remark));
+    headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
 
@@ -177,18 +171,21 @@ void page_numbers(page_writer *page)
         t->shift_factors.table == NULL && t->glass_transition.table == NULL &&
         t->friction.table == NULL && t->layer.table == NULL)
         return;
+    finding_tables found;
+    if (findings_bind(page->result, &found, NULL) != WT_OK)
+        return; /* bound_make has said so */
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
                          "Main results. Statistical error: one standard error, or the "
                          "interval stated; numerical error: of the computation",
                          true);
-    ratio_row(page);
-    group_rows(page);
-    law_rows(page);
-    transition_rows(page);
-    reference_rows(page);
+    ratio_row(page, &found);
+    group_rows(page, &found);
+    law_rows(page, &found);
+    transition_rows(page, &found);
+    reference_rows(page, &found);
     largest_row(page);
-    headline_rows(page, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
+    headline_rows(page, &found, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
                   "where formation and wear are equally fast");
     page_table_end(page);
 }

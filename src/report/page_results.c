@@ -128,7 +128,7 @@ void page_results(page_writer *page)
                      "What if: one choice of the model moved in each row, and the relative changes "
                      "by it, at the reference velocity",
                      NULL, 0);
-    page_keys(page, &t->what_if, "What if: the choice that moves a number most");
+    page_keys(page, &t->what_if, "What if: what was not tried");
     page_keys(page, &t->error_budget, "Where the errors come from");
     page_whole_table(page, &t->error_budget,
                      "Error budget: what each source alone does to the numbers at the reference "

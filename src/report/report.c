@@ -48,7 +48,7 @@ typedef struct report {
 } report;
 
 /* Tells that the figure of this step is next, or the page, the last one; false to stop. */
-static bool tell(report *r, size_t step)
+static bool tell_progress(report *r, size_t step)
 {
     (void)pthread_mutex_lock(&r->lock);
     r->step = step > r->step ? step : r->step;
@@ -62,7 +62,7 @@ static bool tell(report *r, size_t step)
 
 static bool go_on(void *user)
 {
-    return tell(user, 0);
+    return tell_progress(user, 0);
 }
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
@@ -159,8 +159,8 @@ static wt_status draw_one(void *user, size_t i, unsigned worker)
     if (r->figures[i].drawing.script.length == 0)
         return WT_OK;
     const wt_status status =
-        tell(r, i) ? draw_picture(r, &r->figures[i], &r->errors[i])
-                   : wt_fail(&r->errors[i], WT_E_CANCELLED, "the report was cancelled");
+        tell_progress(r, i) ? draw_picture(r, &r->figures[i], &r->errors[i])
+                            : wt_fail(&r->errors[i], WT_E_CANCELLED, "the report was cancelled");
     if (status != WT_OK) {
         (void)pthread_mutex_lock(&r->lock);
         r->failed = true;
@@ -245,7 +245,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = write_figure(&r, i, err);
     if (status == WT_OK)
         status = draw_all(&r, chosen.threads, err);
-    if (status == WT_OK && !tell(&r, n))
+    if (status == WT_OK && !tell_progress(&r, n))
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
         status = make_page(&r, result, chosen.with_provenance, err);
@@ -254,7 +254,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     status = folder_commit(r.folder, err);
     r.folder = NULL;
     if (status == WT_OK)
-        (void)tell(&r, n + 1); // it is there: too late to cancel
+        (void)tell_progress(&r, n + 1); // it is there: too late to cancel
 done:
     folder_discard(r.folder);
     for (size_t i = 0; r.figures != NULL && i < n; i++) {

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Length of the beginning of s (n bytes left) if it is `word`, else 0. */
-static size_t starts(const char *s, size_t n, const char *word)
+static size_t word_at(const char *s, size_t n, const char *word)
 {
     size_t length = strlen(word);
     return n >= length && memcmp(s, word, length) == 0 ? length : 0;
@@ -35,16 +35,16 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     bool in_tag = true;
     for (const char *s = begin + 4; s < end;) {
         const size_t left = (size_t)(end - s);
-        if (starts(s, left, "<title>")) {
+        if (word_at(s, left, "<title>")) {
             s += up_to(s, left, "</title>");
-        } else if (starts(s, left, "<desc>")) {
+        } else if (word_at(s, left, "<desc>")) {
             s += up_to(s, left, "</desc>");
         } else {
             size_t word = 0;
             in_tag =
                 *s == '<' || (in_tag && *s != '>'); // what stands between tags is for the reader
             for (size_t i = 0; in_tag && i < COUNT_OF(references) && word == 0; i++)
-                word = starts(s, left, references[i]);
+                word = word_at(s, left, references[i]);
             text_bytes(page, s, word > 0 ? word : 1);
             if (word > 0)
                 text_format(page, "%s-", name);

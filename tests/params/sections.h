@@ -4,9 +4,9 @@
 #define TESTS_PARAMS_SECTIONS_H
 
 #include "base/param.h"
-#include "flow/sliding/counter_surface.h"
-#include "flow/materials/rubber.h"
 #include "flow/case/case_sections.h"
+#include "flow/materials/rubber.h"
+#include "flow/sliding/counter_surface.h"
 #include "flow/work/inputs.h"
 
 enum { SECTION_TABLES = 4 };

@@ -4,6 +4,7 @@
 #include "weartrack/data.h"
 
 #include <hdf5.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -123,6 +124,87 @@ static void write_bytes(const char *path, const unsigned char *bytes, size_t siz
     assert_non_null(out);
     assert_int_equal(fwrite(bytes, 1, size, out), size);
     assert_int_equal(fclose(out), 0);
+}
+
+/* A block that was begun last and got no row is not in the file, nor in its digest. */
+static void block_without_rows(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("block.h5", path);
+    wt_result *const result = wt_result_new();
+    wt_result *read = NULL;
+    wt_table *const t = wt_table_new("blocks", "");
+    assert_non_null(t);
+    assert_int_equal(wt_table_add_column(t, "x", "1", "", NULL), WT_OK);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+        if (i % 2 == 1)
+            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+    }
+    assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
+    assert_int_equal(wt_store_write(path, result, true, NULL), WT_OK);
+    assert_int_equal(wt_store_read(path, &read, NULL), WT_OK);
+    assert_results_equal(result, read);
+    assert_int_equal(wt_table_block(wt_result_table(read, 0), 3), 1);
+    wt_result_free(read);
+    wt_result_free(result);
+}
+
+/* Of the first layout, whose digest is of text; one changed byte of a value is noticed. */
+static void first_layout(void **state)
+{
+    (void)state;
+    size_t size = 0;
+    wt_result *read = NULL;
+    wt_error err = WT_ERROR_INIT;
+    unsigned char *const bytes = read_bytes(WT_SOURCE_DIR "/fixtures/fuzz/hdf5/result.h5", &size);
+    assert_int_equal(wt_store_read_memory(bytes, size, "old", &read, &err), WT_OK);
+    assert_true(wt_result_n_tables(read) > 0);
+    const wt_table *const t = wt_result_table(read, 0);
+    double value = (double)NAN;
+    for (size_t i = 0; isnan(value) && i < wt_table_n_columns(t); i++)
+        if (wt_table_column_kind(t, i) == WT_COLUMN_NUMBER)
+            value = wt_table_number(t, 0, i);
+    unsigned char *const place = memmem(bytes, size, &value, sizeof value);
+    assert_non_null(place);
+    place[1] ^= 1;
+    wt_result_free(read);
+    read = NULL;
+    assert_int_equal(wt_store_read_memory(bytes, size, "old", &read, &err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.message, "digest"));
+    free(bytes);
+}
+
+/* What headlines are made of is read alone, and checked. */
+static void headlines(void **state)
+{
+    (void)state;
+    char path[256];
+    size_t size = 0;
+    wt_error err = WT_ERROR_INIT;
+    path_of("headlines.h5", path);
+    wt_result *const result = make_result();
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_write(path, result, true, &err), WT_OK);
+    unsigned char *const bytes = read_bytes(path, &size);
+    assert_int_equal(wt_store_read_headlines(bytes, size, path, &read, &err), WT_OK);
+    assert_int_equal(wt_result_n_tables(read), 1);
+    char *const all = text_of(wt_result_find(result, "answer"));
+    char *const alone = text_of(wt_result_find(read, "answer"));
+    assert_string_equal(all, alone);
+    free(all);
+    free(alone);
+    wt_result_free(read);
+    read = NULL;
+    static const char text[] = "curve \xC2\xB5 0\n";
+    for (unsigned char *at = bytes;
+         (at = memmem(at, size - (size_t)(at - bytes), text, strlen(text))) != NULL;)
+        *at = 'C';
+    assert_int_equal(wt_store_read_headlines(bytes, size, path, &read, &err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.message, "digest"));
+    wt_result_free(result);
+    free(bytes);
 }
 
 static void round_trip(void **state)
@@ -456,12 +538,14 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trip),       cmocka_unit_test(same_bytes),
-        cmocka_unit_test(length_is_right),  cmocka_unit_test(empty_result),
-        cmocka_unit_test(as_others_see_it), cmocka_unit_test(not_a_store),
-        cmocka_unit_test(cut_files),        cmocka_unit_test(flipped_values),
-        cmocka_unit_test(outside_links),    cmocka_unit_test(odd_columns),
-        cmocka_unit_test(cannot_write),     cmocka_unit_test(names_that_collide),
+        cmocka_unit_test(round_trip),         cmocka_unit_test(same_bytes),
+        cmocka_unit_test(length_is_right),    cmocka_unit_test(empty_result),
+        cmocka_unit_test(as_others_see_it),   cmocka_unit_test(not_a_store),
+        cmocka_unit_test(cut_files),          cmocka_unit_test(flipped_values),
+        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_columns),
+        cmocka_unit_test(cannot_write),       cmocka_unit_test(names_that_collide),
+        cmocka_unit_test(block_without_rows), cmocka_unit_test(first_layout),
+        cmocka_unit_test(headlines),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -505,6 +505,16 @@ static void lines_between_the_terms_pull_nothing(void **state)
 static void impossible_input_is_refused(void **state)
 {
     (void)state;
+    wt_sweep empty = {0};
+    const wt_master_options any = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    expect_failure(&empty, &any, WT_E_MISSING);
+    for (int i = 0; i < 2; i++) { /* isotherms without a point */
+        wt_isotherm *none = wt_sweep_add(&empty, 0, 0);
+        assert_non_null(none);
+        none->temperature = 290 + 10 * i;
+        expect_failure(&empty, &any, WT_E_MISSING);
+    }
+    wt_sweep_clear(&empty);
     wt_sweep sweep = {0};
     uint64_t noise = 59;
     wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);

@@ -129,6 +129,29 @@ static double alone(const wt_sliding *of)
     return e.standard_error / e.value;
 }
 
+/* "The choice of the X moves it by -76 % to +345 %": as the table of the choices has it. */
+static void check_reach(const char *advice, const wt_table *what_if, const char *change)
+{
+    static const char of[] = "The choice of the ", by[] = " moves it by ", to[] = " % to ";
+    const char *choice = strstr(advice, of), *number = strstr(advice, by);
+    assert_true(choice != NULL && number != NULL);
+    choice += strlen(of);
+    double low = 0, high = 0;
+    for (size_t i = 1; i < wt_table_n_rows(what_if); i++) {
+        const char *name = text_cell(what_if, i, "choice");
+        if (strlen(name) != (size_t)(number - choice) ||
+            strncmp(name, choice, (size_t)(number - choice)) != 0)
+            continue;
+        low = fmin(low, number_cell(what_if, i, change));
+        high = fmax(high, number_cell(what_if, i, change));
+    }
+    assert_true(high > low);
+    char *end;
+    assert_near_abs(strtod(number + strlen(by), &end), 100 * low, 0.51);
+    assert_int_equal(strncmp(end, to, strlen(to)), 0);
+    assert_near_abs(strtod(end + strlen(to), NULL), 100 * high, 0.51);
+}
+
 static void test_one_source_at_a_time(void **state)
 {
     (void)state;
@@ -167,6 +190,7 @@ static void test_one_source_at_a_time(void **state)
     assert_near(sum, 1, 1e-12);
     assert_string_equal(wt_table_key(table, "lacks"), "material, temperature, roughness");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "shear stress"));
+    check_reach(wt_table_key(table, "hysteresis_advice"), what_if, "hysteresis_change");
     wt_table_free(what_if);
     wt_table_free(table);
 }

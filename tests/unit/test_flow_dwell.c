@@ -84,7 +84,7 @@ static void test_none(void **state)
 enum { N = 600, CURVES = 6, FREE = 300 };
 static const double radius = 5e-6, depth = 400e-9, load_time = 0.2, hold = 4, exponent = 0.12,
                     modulus = 1e6, lever = 5000;
-static double height[CURVES][2][N], force[CURVES][2][N];
+static double height[CURVES][2][N], force[CURVES][2][N], stiffness[CURVES];
 static wt_formats *formats;
 
 static double force_at(double t)
@@ -109,7 +109,7 @@ static void write_map(const char *path, uint64_t *seed)
         known[1][k] = force_at(load_time + step + hold * (double)k / N);
     }
     for (size_t i = 0; i < CURVES; i++) {
-        const double own = exp(0.05 * dma_normal(seed));
+        const double own = stiffness[i] = exp(0.05 * dma_normal(seed));
         for (size_t k = 0; k < N; k++) {
             const double at = depth * ((double)k + 1 - FREE) / (N - FREE);
             for (int s = 0; s < 2; s++)
@@ -144,6 +144,110 @@ static wt_status make(const char *path, wt_tip tip, wt_dwell_tables *tables, wt_
     return wt_dwell_make(&job, &work, tables, err);
 }
 
+static double cell(const wt_table *t, size_t row, const char *column)
+{
+    const long c = wt_table_find(t, column);
+    if (c < 0 || row >= wt_table_n_rows(t))
+        fail_msg("no column %s or no row %zu", column, row);
+    return wt_table_number(t, row, (size_t)c);
+}
+
+static const char *words(const wt_table *t, size_t row, const char *column)
+{
+    return wt_table_text(t, row, (size_t)wt_table_find(t, column));
+}
+
+/* Each dwell: its times, and force and indentation at its ends. */
+static void check_dwells(const wt_table *t, const char *path)
+{
+    const double step = load_time / (N - FREE), end = load_time + step + hold * (N - 1) / N;
+    for (size_t i = 0; i < CURVES; i++) {
+        assert_non_null(strstr(words(t, i, "file"), path));
+        assert_string_equal(words(t, i, "note"), "");
+        assert_near(cell(t, i, "curve"), (double)i, 0);
+        assert_near(cell(t, i, "segment"), 1, 0);
+        assert_near(cell(t, i, "load_time"), load_time, 0.02);
+        assert_near(cell(t, i, "duration"), hold, 0.02);
+        assert_near(cell(t, i, "force_start"), stiffness[i] * force_at(load_time + step), 0.03);
+        assert_near(cell(t, i, "force_end"), stiffness[i] * force_at(end), 0.03);
+        assert_near(cell(t, i, "indentation_start"), depth, 0.02);
+        assert_near(cell(t, i, "indentation_end"), depth, 0.02);
+        assert_near_abs(cell(t, i, "misfit"), 1, 0.5);
+        assert_true(cell(t, i, "misfit_chance") > 1e-3 && cell(t, i, "misfit_chance") < 1);
+        assert_true(isnan(cell(t, i, "amplitude")));
+    }
+}
+
+/* The points of each curve, a block each, and what an elastic rubber would have. */
+static void check_points(const wt_table *t, const char *path)
+{
+    const double g = 4.0 / 3 * sqrt(radius) / 0.75;
+    size_t row = 0;
+    for (size_t i = 0; i < CURVES; i++) {
+        double before = 0;
+        const size_t first = row;
+        for (; row < wt_table_n_rows(t) && cell(t, row, "curve") == (double)i; row++) {
+            const double time = cell(t, row, "time"), f = cell(t, row, "force"),
+                         z = cell(t, row, "indentation");
+            assert_true(time > before && time < 1.02 * (load_time + hold));
+            assert_int_equal(wt_table_block(t, row), i);
+            assert_non_null(strstr(words(t, row, "file"), path));
+            if (row % 5 == 0)
+                assert_near(f, stiffness[i] * force_at(time), 0.03);
+            assert_near(z, depth, 0.02);
+            assert_near(cell(t, row, "modulus"), f / (g * pow(z, 1.5)), 1e-3);
+            assert_near(cell(t, row, "fitted_modulus"), cell(t, row, "modulus"), 0.02);
+            before = time;
+        }
+        assert_true(row - first > 8);
+    }
+    assert_int_equal(row, wt_table_n_rows(t));
+}
+
+/* Each frequency of each dwell by the law itself: E1 Gamma(1 - n) (i omega)^n. */
+static void check_moduli(const wt_table *t, const wt_table *dwells, const char *path)
+{
+    double pulls = 0;
+    size_t n = wt_table_n_rows(t), held = 0, first = 0;
+    for (size_t row = 0; row < n; row++) {
+        const size_t i = (size_t)cell(t, row, "curve");
+        const double omega = cell(t, row, "angular_frequency"),
+                     size = stiffness[i] * modulus * tgamma(1 - exponent) * pow(omega, exponent),
+                     storage = size * cos(M_PI_2 * exponent), loss = size * sin(M_PI_2 * exponent);
+        assert_true(i < CURVES && omega > 0.2 / hold && omega < 10 / load_time);
+        assert_non_null(strstr(words(t, row, "file"), path));
+        assert_string_equal(words(t, row, "kind"), "relaxation");
+        assert_near(cell(t, row, "segment"), 1, 0);
+        assert_int_equal(wt_table_block(t, row), i);
+        const char *const columns[] = {"storage_modulus", "loss_modulus"};
+        const double truth[] = {storage, loss};
+        for (size_t c = 0; c < 2; c++) {
+            char error[48], common[48];
+            snprintf(error, sizeof error, "%s_standard_error", columns[c]);
+            snprintf(common, sizeof common, "%s_common_error", columns[c]);
+            const double pull = (cell(t, row, columns[c]) - truth[c]) / cell(t, row, error);
+            assert_true(fabs(pull) < 4.5);
+            assert_true(cell(t, row, error) < 0.25 * truth[c]);
+            assert_true(cell(t, row, common) > 0 && cell(t, row, common) <= cell(t, row, error));
+            pulls += pull * pull;
+        }
+        /* the one in the middle is that of the dwell */
+        const bool last = row + 1 == n || cell(t, row + 1, "curve") != (double)i;
+        held++;
+        if (!last)
+            continue;
+        const size_t middle = first + held / 2;
+        const char *const same[] = {"angular_frequency", "storage_modulus",
+                                    "storage_modulus_standard_error", "loss_modulus",
+                                    "loss_modulus_standard_error"};
+        for (size_t c = 0; c < 5; c++)
+            assert_near(cell(dwells, i, same[c]), cell(t, middle, same[c]), 1e-12);
+        first = row + 1;
+        held = 0;
+    }
+    assert_true(pulls > 0.1 * 2 * (double)n && pulls < 3 * 2 * (double)n);
+}
+
 static void test_relaxation(void **state)
 {
     (void)state;
@@ -160,6 +264,10 @@ static void test_relaxation(void **state)
     for (size_t i = 0; i < CURVES; i++)
         assert_string_equal(wt_table_text(t.dwell, i, (size_t)wt_table_find(t.dwell, "kind")),
                             "relaxation");
+    check_dwells(t.dwell, path);
+    check_points(t.dwell_points, path);
+    check_moduli(t.dwell_moduli, t.dwell, path);
+    assert_string_equal(wt_table_key(t.dwell, "n_units"), "6");
     assert_true(wt_table_estimate(t.dwell, "angular_frequency", &at));
     assert_true(wt_table_estimate(t.dwell, "storage_modulus", &storage));
     assert_true(wt_table_estimate(t.dwell, "loss_modulus", &loss));
@@ -280,6 +388,26 @@ static void test_modulation(void **state)
     /* Noise leaves 1.5 % of the loss; without weights the relaxation takes 7 % of it away. */
     assert_near(CELL("storage_modulus"), storage, 0.01);
     assert_near(CELL("loss_modulus"), loss, 0.02);
+    assert_true(isnan(CELL("storage_modulus_standard_error"))); /* none is stated of a sine */
+    assert_true(isnan(CELL("loss_modulus_standard_error")));
+    assert_near(CELL("indentation_start"), depth, 0.01);
+    /* the mean of the relaxing force, with the weight that falls to nothing at both ends */
+    double mean = 0;
+    for (int i = 0; i < 50; i++)
+        mean += (1 - cos(2 * M_PI * (i + 0.5) / 50)) *
+                force_at(load_time + step + last * (i + 0.5) / 50) / 50;
+    assert_near(CELL("force_start"), mean, 0.01);
+    assert_near(CELL("curve"), 0, 0);
+    assert_near(CELL("segment"), 1, 0);
+    const size_t n_moduli = wt_table_n_rows(t.dwell_moduli) - 1;
+    assert_string_equal(words(t.dwell_moduli, n_moduli, "kind"), "modulation");
+    assert_near(cell(t.dwell_moduli, n_moduli, "storage_modulus"), CELL("storage_modulus"), 0);
+    assert_near(cell(t.dwell_moduli, n_moduli, "loss_modulus"), CELL("loss_modulus"), 0);
+    /* what the depth of the contact point is off by, through the slope of the sphere's contact */
+    const double of_storage = cell(t.dwell_moduli, n_moduli, "storage_modulus_common_error"),
+                 of_loss = cell(t.dwell_moduli, n_moduli, "loss_modulus_common_error");
+    assert_true(of_storage > 0 && of_storage < 0.02 * storage);
+    assert_near(of_loss / CELL("loss_modulus"), of_storage / CELL("storage_modulus"), 1e-9);
 #undef CELL
     wt_dwell_tables_clear(&t);
     (void)remove(path);

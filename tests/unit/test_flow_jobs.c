@@ -268,8 +268,9 @@ static void test_spots(void **state)
 static void test_one_spot(void **state)
 {
     (void)state;
-    static const char *const bulk[] = {"bulk-1.jpk-force-map"}, *const track[] = {"track-*"};
-    const wt_file_set b = files(bulk, 1, "b"), t = files(track, 1, NULL);
+    static const char *const bulk[] = {"bulk-1.jpk-force-map"}, *const track[] = {"track-1*",
+                                                                                  "track-2*"};
+    const wt_file_set b = files(bulk, 1, "b"), t = files(track, 2, NULL);
     wt_table *x = fit(&b, 1, 1, true), *y = fit(&t, 1, 1, true);
     wt_compare_job job = wt_compare_job_defaults();
     job.bulk = x;

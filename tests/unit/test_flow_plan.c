@@ -85,8 +85,7 @@ static void test_what_runs(void **state)
 {
     (void)state;
     check_plan(HEAD "</case>", "");
-    check_plan(HEAD "<indentation>" TIP BULK "</indentation></case>",
-               "indentation_bulk bulk_alone ");
+    check_plan(HEAD "<indentation>" TIP BULK "</indentation></case>", "indentation_bulk groups ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation></case>",
                "indentation_bulk indentation_track comparison ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation><compare/></case>",
@@ -94,16 +93,35 @@ static void test_what_runs(void **state)
     check_plan(HEAD DMA "</case>", "master_curve ");
     check_plan(HEAD PRONY ROAD SLIDE "</case>",
                "given_material roughness friction contact_area what_if ");
-    check_plan(
-        HEAD PRONY ROAD SLIDE LAYER "</case>",
-        "given_material roughness layer energy_density friction contact_area what_if_layer ");
+    check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>",
+               "given_material roughness layer energy_density friction contact_area what_if ");
     check_plan(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>",
-               "master_curve indentation_bulk_with_material bulk_alone dma_comparison_bulk ");
+               "master_curve indentation_bulk groups dma_comparison ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
-               "comparison_with_material "
-               "dma_comparison roughness layer energy_density friction_with_layer "
-               "contact_area what_if_with_layer ");
+               "master_curve indentation_bulk indentation_track "
+               "comparison "
+               "dma_comparison roughness layer energy_density friction "
+               "contact_area what_if ");
+}
+
+/* A stage is named by what it takes into account. */
+static void check_title(const char *text, const char *stage, const char *title)
+{
+    wt_table *plan = plan_of(text);
+    assert_string_equal(text_cell(plan, row_of(plan, stage), "title"), title);
+    wt_table_free(plan);
+}
+
+static void test_titles(void **state)
+{
+    (void)state;
+    check_title(HEAD PRONY ROAD SLIDE "</case>", "friction", "Contact area and friction");
+    check_title(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
+                "friction", "Contact area and friction, with and without the layer");
+    check_title(HEAD PRONY ROAD SLIDE LAYER "</case>", "what_if",
+                "What if a choice of the model were another: friction, thickness of the layer");
+    check_title(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>", "dma_comparison",
+                "Indentation against DMA, bulk");
 }
 
 /* What is asked for decides: nothing else runs, and nothing else is read. */
@@ -116,34 +134,34 @@ static void test_what_is_asked(void **state)
                "master_curve roughness layer ");
     check_plan(ALL "<report><result>roughness</result></report></case>", "roughness ");
     check_plan(ALL "<report><result>indentation/track</result></report></case>",
-               "master_curve indentation_track_with_material ");
+               "master_curve indentation_track ");
     check_plan(ALL "<report><result>energy_density</result></report></case>",
                "master_curve roughness energy_density ");
     check_plan(ALL "<report><result>contact_area</result></report></case>",
                "master_curve roughness contact_area ");
     check_plan(ALL "<report><result>modulus_groups</result></report></case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "master_curve indentation_bulk indentation_track "
                "groups ");
     check_plan(ALL "<report><result>cost</result></report></case>", "");
     check_plan(ALL "<report><figure>power_spectrum</figure></report></case>", "roughness ");
     check_plan(ALL "<compare><track-to-bulk/></compare></case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
-               "comparison_with_material "
-               "roughness layer energy_density friction_with_layer contact_area "
-               "what_if_with_layer ");
+               "master_curve indentation_bulk indentation_track "
+               "comparison "
+               "roughness layer energy_density friction contact_area "
+               "what_if ");
     check_plan(ALL "<report><result>friction</result></report></case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
-               "comparison_with_material "
-               "roughness layer friction_with_layer ");
+               "master_curve indentation_bulk indentation_track "
+               "comparison "
+               "roughness layer friction ");
     check_plan(ALL "<report><result>what_if</result></report></case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
-               "comparison_with_material "
-               "roughness what_if_with_layer ");
+               "master_curve indentation_bulk indentation_track "
+               "comparison "
+               "roughness what_if ");
     /* which shows the errors of friction and layer beside */
     check_plan(ALL "<report><figure>what_if</figure></report></case>",
-               "master_curve indentation_bulk_with_material indentation_track_with_material "
-               "comparison_with_material "
-               "roughness layer friction_with_layer what_if_with_layer ");
+               "master_curve indentation_bulk indentation_track "
+               "comparison "
+               "roughness layer friction what_if ");
 }
 
 static void test_reasons(void **state)
@@ -154,24 +172,41 @@ static void test_reasons(void **state)
     check_because(HEAD ROAD SLIDE "</case>", "friction", "no DMA files");
     check_because(HEAD "<indentation>" TIP BULK "</indentation></case>", "comparison",
                   "no wear-track curves");
-    check_because(HEAD PRONY ROAD SLIDE LAYER "</case>", "friction_with_layer",
-                  "no bulk curves (<bulk> in <indentation>) and no modulus ratio");
-    check_because(ALL "</case>", "friction", "friction_with_layer gives its results");
-    check_because(ALL "</case>", "master_curve",
-                  "indentation_bulk_with_material needs its material");
+    check_because(
+        HEAD PRONY ROAD SLIDE LAYER "</case>", "friction",
+        "friction is asked for; without the layer, for the case has no bulk curves (<bulk> "
+        "in <indentation>) and no modulus ratio");
+    check_because(HEAD PRONY ROAD SLIDE "</case>", "what_if",
+                  "without the layer, for the case has no layer parameters (<layer>)");
+    check_because(HEAD PRONY ROAD SLIDE LAYER "</case>", "what_if",
+                  "without the modulus ratio of the layer, for the case has no bulk curves");
+    check_because(HEAD "<indentation>" TIP BULK "</indentation></case>", "indentation_bulk",
+                  "without the spectrum of the material, for the case has no DMA files (<files> in "
+                  "<dma>) and no material");
+    check_because(HEAD PRONY "</case>", "groups",
+                  "left out because the case has no bulk curves (<bulk> in <indentation>) and no "
+                  "wear-track curves (<track> in <indentation>)");
+    check_because(ALL "</case>", "groups", "comparison gives its results and more");
+    check_because(ALL "</case>", "master_curve", "indentation_bulk needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "master_curve",
                   "layer needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "indentation_bulk",
                   "nothing that is asked for needs it");
 }
 
-/* Every stage comes after those it needs, and every table has a stage that gives it. */
+/* Every stage comes after those it needs, each level needs more than that before, and every table
+ * has a stage that gives it. */
 static void test_table_of_stages(void **state)
 {
     (void)state;
     flow_things given = FLOW_SOURCES;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        assert_int_equal(flow_stages[i].needs & ~given, 0);
+        const unsigned levels = flow_stage_levels(i);
+        assert_int_equal(flow_stage_needs(i, levels) & ~given, 0);
+        assert_int_equal(flow_stages[i].any & ~given, 0);
+        assert_true((flow_stage_needs(i, 0) | flow_stages[i].any) != 0);
+        for (unsigned k = 0; k < levels; k++)
+            assert_true((flow_stages[i].more[k].things & ~flow_stage_needs(i, k)) != 0);
         assert_int_equal(flow_stages[i].gives & FLOW_SOURCES, 0);
         assert_true(flow_stages[i].gives != 0);
         given |= flow_stages[i].gives;
@@ -202,8 +237,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_runs),       cmocka_unit_test(test_what_is_asked),
-        cmocka_unit_test(test_reasons),         cmocka_unit_test(test_table_of_stages),
-        cmocka_unit_test(test_table_of_things),
+        cmocka_unit_test(test_reasons),         cmocka_unit_test(test_titles),
+        cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_things),
     };
     return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);
 }

@@ -129,7 +129,7 @@ static void test_friction_only(void **state)
     check_answer(&r, "layer", "Not asked: the case has no");
     check_answer(&r, "thickness", "no layer parameters");
     check_answer(&r, "friction", "hysteresis");
-    check_answer(&r, "caveat", "do not include the model");
+    check_answer(&r, "caveat", "shift law; not the model");
     const wt_table *cost = table_of(&r, "cost");
     assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
     assert_true(number_cell(cost, stage_row(cost, "friction"), "error_estimated") <= 1e-10);
@@ -175,8 +175,12 @@ static void test_stand_in(void **state)
     const wt_table *cost = table_of(&r, "cost");
     assert_int_equal(r.n_failed, 1);
     assert_string_equal(text_cell(table_of(&r, "failures"), 0, "file"),
-                        "stage friction_with_layer");
-    assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
+                        "stage friction with the layer");
+    const size_t first = stage_row(cost, "friction");
+    assert_non_null(strstr(text_cell(cost, first, "because"), ", and failed"));
+    assert_string_equal(text_cell(cost, first + 1, "stage"), "friction");
+    assert_string_equal(text_cell(cost, first + 1, "because"),
+                        "runs because it did not succeed with the layer");
     assert_int_equal(wt_table_n_rows(table_of(&r, "friction")), 4);
     check_answer(&r, "thickness", "grows without end");
     check_answer(&r, "friction", "no shear stress is given");
@@ -195,6 +199,33 @@ static void test_missing_file(void **state)
     assert_non_null(wt_result_find(r.result, "roughness"));
     assert_null(wt_result_find(r.result, "friction"));
     check_answer(&r, "friction", "Not answered: a stage that friction needs failed");
+    wt_result_free(r.result);
+}
+
+/* Curves that are not there: each is a failure once, and the answer says what failed, not that it
+ * was not asked for. */
+static void test_missing_curves(void **state)
+{
+    (void)state;
+    ran r = run_text(HEAD "<indentation><tip>sphere:radius=5um</tip>"
+                          "<bulk><files>no-such-bulk.txt</files></bulk>"
+                          "<track><files>no-such-track.txt</files></track></indentation>" PRONY
+                          "</case>",
+                     1);
+    const wt_table *failures = table_of(&r, "failures"), *answer = table_of(&r, "answer");
+    assert_int_equal(r.n_failed, 4); /* two files, two stages */
+    assert_string_equal(text_cell(failures, 0, "file"), "no-such-bulk.txt");
+    assert_string_equal(text_cell(failures, 1, "file"), "stage indentation_bulk");
+    assert_string_equal(text_cell(answer, 0, "answer"),
+                        "Layer (measured): not answered, for what it needs failed.");
+    check_answer(&r, "layer",
+                 "Not answered: a stage that comparison needs failed (indentation_bulk): no force "
+                 "curve could be read for \"bulk\"");
+    wt_table *headlines = NULL;
+    assert_int_equal(wt_result_headlines(r.result, &headlines, NULL), WT_OK);
+    assert_string_equal(text_cell(headlines, 0, "key"), "verdict");
+    assert_int_equal(strncmp(text_cell(headlines, 0, "words"), "Not answered: ", 14), 0);
+    wt_table_free(headlines);
     wt_result_free(r.result);
 }
 
@@ -265,10 +296,10 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_only), cmocka_unit_test(test_layer),
-        cmocka_unit_test(test_stand_in),      cmocka_unit_test(test_missing_file),
-        cmocka_unit_test(test_spectrum),      cmocka_unit_test(test_one_isotherm),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_friction_only),  cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_stand_in),       cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_missing_curves), cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_one_isotherm),   cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("flow run", tests, NULL, NULL);
 }

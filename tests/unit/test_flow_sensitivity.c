@@ -91,6 +91,177 @@ static wt_estimate key(const wt_table *table, const char *name)
     return e;
 }
 
+static const char *words(const wt_table *table, size_t row, const char *column)
+{
+    const long c = wt_table_find(table, column);
+    assert_true(c >= 0);
+    return wt_table_text(table, row, (size_t)c);
+}
+
+/* ---- the rows of all curves, worked out from those of the curves ----------------------------- */
+
+enum { MOST_ROWS = 2 * MOST_CURVES * MOST_FILES };
+
+/* Of the curves that a row is of: their numbers, and their files. */
+typedef struct of_curves {
+    double value[MOST_ROWS];
+    const char *file[MOST_ROWS];
+    size_t n;
+} of_curves;
+
+static bool is_used(const wt_table *curves, size_t row)
+{
+    return strcmp(words(curves, row, "verdict"), "used") == 0;
+}
+
+static of_curves take(const wt_table *curves, const char *direction, const char *column)
+{
+    of_curves all = {.n = 0};
+    for (size_t i = 0; i < wt_table_n_rows(curves); i++) {
+        double value = isnan(cell(curves, i, column)) ? (double)NAN : cell(curves, i, column);
+        if (strcmp(direction, "both") != 0 && strcmp(direction, words(curves, i, "direction")) != 0)
+            continue;
+        if (strcmp(direction, "both") == 0) { /* the retract stands behind its approach */
+            if (strcmp(words(curves, i, "direction"), "retract") != 0 || i == 0 ||
+                cell(curves, i - 1, "curve") != cell(curves, i, "curve") || !is_used(curves, i - 1))
+                continue;
+            value = (value + cell(curves, i - 1, column)) / 2;
+        }
+        if (!is_used(curves, i) || isnan(value))
+            continue;
+        all.file[all.n] = words(curves, i, "file");
+        all.value[all.n++] = value;
+    }
+    return all;
+}
+
+typedef struct mean {
+    double value, error, half;
+    size_t n;
+} mean;
+
+/* Of the means of three files or more, else of the curves. */
+static mean mean_of(of_curves all)
+{
+    of_curves files = {.n = 0};
+    size_t each[MOST_ROWS] = {0};
+    for (size_t i = 0; i < all.n; i++) {
+        if (files.n == 0 || strcmp(files.file[files.n - 1], all.file[i]) != 0)
+            files.file[files.n++] = all.file[i];
+        files.value[files.n - 1] += all.value[i];
+        each[files.n - 1]++;
+    }
+    for (size_t i = 0; i < files.n; i++)
+        files.value[i] /= (double)each[i];
+    const of_curves *of = files.n >= 3 ? &files : &all;
+    mean m = {.n = of->n};
+    double squares = 0;
+    for (size_t i = 0; i < m.n; i++)
+        m.value += of->value[i] / (double)m.n;
+    for (size_t i = 0; i < m.n; i++)
+        squares += (of->value[i] - m.value) * (of->value[i] - m.value);
+    m.error = sqrt(squares / (double)(m.n - 1) / (double)m.n);
+    m.half = m.n > 1 ? wt_student((double)m.n - 1) * m.error : (double)NAN;
+    return m;
+}
+
+static void check_interval(const wt_table *t, size_t row, const char *name, mean m)
+{
+    char column[64];
+    const double digits = 1e-9 * fabs(m.value);
+    assert_near_abs(cell(t, row, name), m.value, digits);
+    snprintf(column, sizeof column, "%s_standard_error", name);
+    assert_near_abs(cell(t, row, column), m.error, digits);
+    snprintf(column, sizeof column, "%s_low", name);
+    assert_near_abs(cell(t, row, column), m.value - m.half, digits);
+    snprintf(column, sizeof column, "%s_high", name);
+    assert_near_abs(cell(t, row, column), m.value + m.half, digits);
+}
+
+/* The mean of retract over approach of the curves that have both; NaN if none has. */
+static double ways_ratio(const wt_table *curves, const char *column)
+{
+    of_curves all = {.n = 0};
+    for (size_t i = 1; i < wt_table_n_rows(curves); i++) {
+        const double ratio = cell(curves, i, column) / cell(curves, i - 1, column);
+        if (strcmp(words(curves, i, "direction"), "retract") != 0 || !is_used(curves, i) ||
+            !is_used(curves, i - 1) || cell(curves, i - 1, "curve") != cell(curves, i, "curve") ||
+            isnan(ratio))
+            continue;
+        all.file[all.n] = words(curves, i, "file");
+        all.value[all.n++] = ratio;
+    }
+    return all.n > 0 ? mean_of(all).value : (double)NAN;
+}
+
+/* Uniform between the ways: a width over sqrt(12) about their middle, over sqrt(3) about an end. */
+static mean with_ways(mean m, double ratio, const char *direction)
+{
+    const double width = strcmp(direction, "approach") == 0  ? ratio - 1
+                         : strcmp(direction, "retract") == 0 ? 1 - 1 / ratio
+                                                             : 2 * (ratio - 1) / (ratio + 1),
+                 error = m.value * fabs(width) / sqrt(strcmp(direction, "both") == 0 ? 12 : 3);
+    if (!isnan(error)) {
+        m.error = hypot(m.error, error);
+        m.half = hypot(m.half, 1.959963985 * error);
+    }
+    return m;
+}
+
+/* Of two curves and more; a refused row has no sensitivity. */
+static void check_rows(const wt_sensitivity_tables *tables)
+{
+    const wt_table *t = tables->sensitivity, *curves = tables->sensitivity_curves;
+    for (size_t row = 0; row < wt_table_n_rows(t); row++) {
+        const char *direction = words(t, row, "direction");
+        const mean change = mean_of(take(curves, direction, "slope_change")),
+                   sensitivity = mean_of(take(curves, direction, "sensitivity")),
+                   factor = mean_of(take(curves, direction, "factor"));
+        const bool refused = isnan(cell(t, row, "sensitivity")) && isnan(cell(t, row, "factor"));
+        assert_near(cell(t, row, "n"), (double)take(curves, direction, "slope_change").n, 0);
+        assert_near(cell(t, row, "n_units"), (double)change.n, 0);
+        check_interval(t, row, "slope_change", change);
+        assert_near_abs(cell(t, row, "baseline_tilt"),
+                        mean_of(take(curves, direction, "baseline_tilt")).value, 1e-12);
+        assert_near(cell(t, row, "surface_share"), 2.4 * fmax(0, change.value + change.half),
+                    0.005);
+        assert_string_equal(words(t, row, "note"), "");
+        if (refused)
+            continue;
+        if (sensitivity.n > 0) {
+            check_interval(t, row, "sensitivity",
+                           with_ways(sensitivity, ways_ratio(curves, "sensitivity"), direction));
+            assert_near(cell(t, row, "scatter"),
+                        sensitivity.error * sqrt((double)sensitivity.n) / sensitivity.value, 1e-9);
+        }
+        if (factor.n > 0)
+            check_interval(t, row, "factor",
+                           with_ways(factor, ways_ratio(curves, "factor"), direction));
+    }
+}
+
+/* Of white noise of 4 mV: what the formulas of least squares say of a line through so many samples
+ * and of the parabola beyond it, in the mean of the curves. */
+static void check_noise(const wt_table *curves, double s)
+{
+    double misfit = 0, slope = 0, change = 0, n_used = 0;
+    for (size_t i = 0; i < wt_table_n_rows(curves); i++) {
+        if (!is_used(curves, i))
+            continue;
+        const double n = cell(curves, i, "points"), rise = cell(curves, i, "travel") / s;
+        assert_near(n, N * cell(curves, i, "travel") / (free_travel + press), 0.05);
+        assert_near_abs(cell(curves, i, "baseline_tilt"), 0, 0.02);
+        misfit += cell(curves, i, "misfit") / (0.004 * s / press);
+        slope += cell(curves, i, "sensitivity_standard_error") / (s * 0.004 / rise * sqrt(12 / n));
+        change +=
+            cell(curves, i, "slope_change_standard_error") / (8 * 0.004 / rise * sqrt(11.25 / n));
+        n_used++;
+    }
+    assert_near(misfit / n_used, 1, 0.1);
+    assert_near(slope / n_used, 1, 0.2);
+    assert_near(change / n_used, 1, 0.2);
+}
+
 /* Volts alone: both ways with their friction, whose mean is the truth. */
 static void test_volts(void **state)
 {
@@ -103,6 +274,25 @@ static void test_volts(void **state)
     wt_sensitivity_tables t = made(path, 1);
     assert_int_equal(wt_table_n_rows(t.sensitivity), 3);
     assert_int_equal(wt_table_n_rows(t.sensitivity_curves), 12);
+    check_rows(&t);
+    check_noise(t.sensitivity_curves, 60e-9);
+    assert_string_equal(wt_table_key(t.sensitivity, "n_curves"), "6");
+    assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "0");
+    assert_string_equal(wt_table_key(t.sensitivity, "direction"), "both");
+    const wt_estimate s = key(t.sensitivity, "sensitivity");
+    assert_near(s.value, cell(t.sensitivity, 2, "sensitivity"), 1e-9);
+    assert_near(s.standard_error, cell(t.sensitivity, 2, "sensitivity_standard_error"), 1e-9);
+    assert_near(strtod(wt_table_key(t.sensitivity, "indent_option") + 14, NULL), 1e9 * s.value,
+                1e-5);
+    assert_near(strtod(wt_table_key(t.sensitivity, "compare_option") + 20, NULL),
+                s.standard_error / s.value, 0.06);
+    of_curves difference = take(t.sensitivity_curves, "retract", "sensitivity");
+    const of_curves in = take(t.sensitivity_curves, "approach", "sensitivity");
+    for (size_t i = 0; i < difference.n; i++)
+        difference.value[i] /= in.value[i];
+    assert_near(key(t.sensitivity, "retract_over_approach").value, mean_of(difference).value, 1e-9);
+    assert_near(key(t.sensitivity, "retract_over_approach").standard_error,
+                mean_of(difference).error, 1e-9);
     assert_near(cell(t.sensitivity, 0, "sensitivity"), 60e-9 * 1.02, 0.004);
     assert_near(cell(t.sensitivity, 1, "sensitivity"), 60e-9 * 0.98, 0.004);
     assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.004);
@@ -135,8 +325,11 @@ static void test_calibrated(void **state)
         draw_curve(i, 60e-9, 0, 0, spring * 50e-9, &seed);
     write_map(path[0], 4, spring, 50e-9);
     wt_sensitivity_tables t = made(path, 1);
+    check_rows(&t);
     assert_near(key(t.sensitivity, "sensitivity").value, 60e-9, 0.004);
     assert_near(key(t.sensitivity, "factor").value, 1.2, 0.004);
+    assert_near(key(t.sensitivity, "factor").standard_error,
+                cell(t.sensitivity, 2, "factor_standard_error"), 1e-9);
     assert_near(strtod(wt_table_key(t.sensitivity, "thermal_spring_constant_factor"), NULL),
                 1 / 1.44, 0.01);
     wt_sensitivity_tables_clear(&t);
@@ -193,6 +386,7 @@ static void test_files(void **state)
         write_map(paths[f], 10, (double)NAN, (double)NAN);
     }
     wt_sensitivity_tables t = made(paths, MOST_FILES);
+    check_rows(&t);
     assert_near(cell(t.sensitivity, 2, "n"), 39, 0);
     assert_near(cell(t.sensitivity, 2, "n_units"), 4, 0);
     assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.001);
@@ -201,6 +395,57 @@ static void test_files(void **state)
     wt_sensitivity_tables_clear(&t);
     for (size_t f = 0; f < MOST_FILES; f++)
         (void)remove(paths[f]);
+}
+
+/* Dust under the retract alone leaves the curve out, too, and of one curve the error is that within
+ * it. */
+static void test_retract_and_one(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_retract.jpk-force-map"};
+    uint64_t seed = 11;
+    for (size_t i = 0; i < 10; i++)
+        draw_curve(i, 60e-9, 0, 0, 1, &seed);
+    for (size_t k = 0; k < N; k++)
+        signal[3][1][k] /= 1.4;
+    write_map(path[0], 10, (double)NAN, (double)NAN);
+    wt_sensitivity_tables t = made(path, 1);
+    check_rows(&t);
+    assert_near(cell(t.sensitivity, 0, "n"), 9, 0);
+    assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
+    for (size_t i = 0; i < wt_table_n_rows(t.sensitivity_curves); i++)
+        assert_string_equal(words(t.sensitivity_curves, i, "verdict"),
+                            cell(t.sensitivity_curves, i, "curve") == 3
+                                ? "left out: far from the other curves"
+                                : "used");
+    wt_sensitivity_tables_clear(&t);
+    write_map(path[0], 1, (double)NAN, (double)NAN);
+    t = made(path, 1);
+    const wt_table *curves = t.sensitivity_curves, *all = t.sensitivity;
+    double own[3], change[3], reach[3];
+    for (size_t way = 0; way < 2; way++) {
+        own[way] =
+            cell(curves, way, "sensitivity_standard_error") / cell(curves, way, "sensitivity");
+        change[way] = cell(curves, way, "slope_change_standard_error");
+    }
+    own[2] = hypot(own[0], own[1]) / 2;
+    change[2] = hypot(change[0], change[1]) / 2;
+    for (size_t row = 0; row < 3; row++) {
+        char note[64];
+        snprintf(note, sizeof note, "standard error within the curve %.2g %%", 100 * own[row]);
+        assert_non_null(strstr(words(all, row, "note"), note));
+        assert_near(cell(all, row, "slope_change_standard_error"), change[row], 1e-9);
+        const double value = cell(all, row, "slope_change"),
+                     half = cell(all, row, "slope_change_high") - value;
+        assert_near(value - cell(all, row, "slope_change_low"), half, 1e-9);
+        reach[row] = half / change[row];
+        assert_true(reach[row] > 1.96 && reach[row] < 4);
+        assert_near(cell(all, row, "n"), 1, 0);
+        assert_true(isnan(cell(all, row, "sensitivity_standard_error")));
+    }
+    assert_near(reach[2], fmax(reach[0], reach[1]), 1e-9);
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
 }
 
 /* A curve that was written over and over, and three that were measured: more than half of the
@@ -218,6 +463,7 @@ static void test_equal(void **state)
         draw_curve(i, i == 11 ? 90e-9 : 60e-9, 0, 0, 1, &seed);
     write_map(path[0], 12, (double)NAN, (double)NAN);
     wt_sensitivity_tables t = made(path, 1);
+    check_rows(&t);
     assert_near(cell(t.sensitivity, 2, "n"), 11, 0);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
     wt_sensitivity_tables_clear(&t);
@@ -274,6 +520,7 @@ static void test_soft(void **state)
     t = made(path, 1);
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"),
                         "soft surface: the slope rises with the deflection");
+    check_rows(&t);
     assert_true(isnan(key(t.sensitivity, "sensitivity").value));
     assert_true(isnan(cell(t.sensitivity, 2, "sensitivity")));
     assert_near(cell(t.sensitivity, 2, "surface_share"),
@@ -322,9 +569,10 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_equal),  cmocka_unit_test(test_mixed),
-        cmocka_unit_test(test_volts),  cmocka_unit_test(test_calibrated),
-        cmocka_unit_test(test_forces), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_soft),   cmocka_unit_test(test_genuine)};
+        cmocka_unit_test(test_retract_and_one), cmocka_unit_test(test_equal),
+        cmocka_unit_test(test_mixed),           cmocka_unit_test(test_volts),
+        cmocka_unit_test(test_calibrated),      cmocka_unit_test(test_forces),
+        cmocka_unit_test(test_files),           cmocka_unit_test(test_soft),
+        cmocka_unit_test(test_genuine)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

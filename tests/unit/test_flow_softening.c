@@ -474,6 +474,53 @@ static void test_cases(void **state)
     wt_result_free(without);
 }
 
+/* A table that is given, columns in any order, strain in any unit: both errors or none. */
+static void test_given(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"strain", "g_error", "g", "f_error", "f"};
+    static const double values[][5] = {{0.1, 0.02, 1.1, 0.01, 1}, {10, 0.03, 1.2, 0.05, 0.8}};
+    for (unsigned errors = 0; errors < 4; errors++) {
+        wt_table *t = wt_table_new("given", "");
+        wt_softness s = {0};
+        wt_error err = WT_ERROR_INIT;
+        size_t n = 0, of[5];
+        for (size_t c = 0; c < 5; c++) {
+            if ((c == 1 && !(errors & 1)) || (c == 3 && !(errors & 2)))
+                continue;
+            of[n++] = c;
+            assert_int_equal(wt_table_add_column(t, names[c], c == 0 ? "%" : "1", "", NULL), WT_OK);
+        }
+        for (size_t row = 0; row < 2; row++) {
+            assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+            for (size_t c = 0; c < n; c++)
+                wt_table_put(t, c, values[row][of[c]]);
+        }
+        const wt_status status = wt_softness_from_table(t, wt_softness_choice_defaults(), &s, &err);
+        if (errors == 1 || errors == 2) {
+            assert_int_equal(status, WT_E_MISSING);
+            assert_string_equal(err.found, errors == 1 ? "g_error" : "f_error");
+        } else {
+            assert_int_equal(status, WT_OK);
+            assert_int_equal(s.table.n, 2);
+            assert_int_equal(s.n_sweeps, 0);
+            assert_int_equal(s.storage_error != NULL, errors == 3);
+            assert_int_equal(s.loss_error != NULL, errors == 3);
+            for (size_t row = 0; row < 2; row++) {
+                assert_near(s.table.strain[row], values[row][0] / 100, 1e-12);
+                assert_near(s.table.storage[row], values[row][4], 0);
+                assert_near(s.table.loss[row], values[row][2], 0);
+                if (errors == 3) {
+                    assert_near(s.storage_error[row], values[row][3], 0);
+                    assert_near(s.loss_error[row], values[row][1], 0);
+                }
+            }
+        }
+        wt_softness_clear(&s);
+        wt_table_free(t);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -481,7 +528,7 @@ int main(void)
         cmocka_unit_test(test_chosen), cmocka_unit_test(test_covered),
         cmocka_unit_test(test_shares), cmocka_unit_test(test_same),
         cmocka_unit_test(test_drawn),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_cases),  cmocka_unit_test(test_given),
     };
     return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);
 }

@@ -1,131 +1,6 @@
 /* A spot of a height image: surfaces written out here, whose roughness, drift and dent are known.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
-
-#include "fit/spot/height_image.h"
-#include "weartrack/flow.h"
-#include "writers/nid_writer.h"
-
-enum { N = 128, WAVES = 40, DRAWS = 100 };
-#define WIDTH 1e-6
-#define STEP (WIDTH / (N - 1))
-#define T_13 2.160368656461 /* 97.5 % of Student's t of 13 degrees of freedom */
-#define DEPTH 70e-9
-#define CONTACT (2 / M_PI * 0.7002075382097097 * DEPTH) /* of a cone of 35 degrees: 2/pi tan 35 */
-
-static const char before[] = "test_flow_spot_before.nid", after[] = "test_flow_spot_after.nid";
-static wt_formats *formats;
-
-typedef struct surface {
-    double amplitude[WAVES], qx[WAVES], qy[WAVES], phase[WAVES];
-    int n;
-    double tilt_x, tilt_y;
-    double x, y, dent;  /* a Gaussian of half the contact radius */
-    double noise, rows; /* of a pixel; of a whole line, which scanning adds */
-} surface;
-
-/* What is at p lies at p + shift + strain p in the image. */
-typedef struct view {
-    size_t n;
-    double width, shift_x, shift_y, strain;
-} view;
-static const view whole = {N, WIDTH, 0, 0, 0};
-
-static double uniform(uint64_t *state)
-{
-    return 0.5 * erfc(truth_normal(state) / M_SQRT2);
-}
-
-/* Waves of 60 to 400 nm, 1.5 nm rms together. */
-static surface random_surface(uint64_t *state)
-{
-    surface s = {.n = WAVES, .tilt_x = 0.02, .tilt_y = -0.03, .noise = 0.05e-9};
-    for (int i = 0; i < WAVES; i++) {
-        const double q = 2 * M_PI / (60e-9 * pow(400.0 / 60, uniform(state))),
-                     way = 2 * M_PI * uniform(state);
-        s.amplitude[i] = 1.5e-9 * sqrt(2.0 / WAVES);
-        s.qx[i] = q * cos(way);
-        s.qy[i] = q * sin(way);
-        s.phase[i] = 2 * M_PI * uniform(state);
-    }
-    return s;
-}
-
-/* The waves are products of what the columns and the lines have. */
-static void add_wave(const surface *s, int wave, const double *x, const double *y, size_t n,
-                     double *z)
-{
-    static double of_x[2][N], of_y[2][N];
-    for (size_t i = 0; i < n; i++) {
-        of_x[0][i] = cos(s->qx[wave] * x[i] + s->phase[wave]);
-        of_x[1][i] = sin(s->qx[wave] * x[i] + s->phase[wave]);
-        of_y[0][i] = s->amplitude[wave] * cos(s->qy[wave] * y[i]);
-        of_y[1][i] = s->amplitude[wave] * sin(s->qy[wave] * y[i]);
-    }
-    for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; i < n; i++)
-            z[j * n + i] += of_x[0][i] * of_y[0][j] - of_x[1][i] * of_y[1][j];
-}
-
-static void make_heights(const surface *s, const view *v, uint64_t *state, double *z)
-{
-    static double x[N], y[N];
-    const size_t n = v->n;
-    for (size_t i = 0; i < n; i++) {
-        x[i] = ((double)i * v->width / (double)(n - 1) - v->shift_x) / (1 + v->strain);
-        y[i] = ((double)i * v->width / (double)(n - 1) - v->shift_y) / (1 + v->strain);
-    }
-    for (size_t j = 0; j < n; j++) {
-        const double row = s->rows * truth_normal(state);
-        for (size_t i = 0; i < n; i++) {
-            const double r = hypot(x[i] - s->x, y[j] - s->y) / (0.5 * CONTACT);
-            z[j * n + i] = s->tilt_x * x[i] + s->tilt_y * y[j] - s->dent * exp(-0.5 * r * r) + row +
-                           s->noise * truth_normal(state);
-        }
-    }
-    for (int wave = 0; wave < s->n; wave++)
-        add_wave(s, wave, x, y, n, z);
-}
-
-static void write_heights(const char *path, const double *z, const view *v)
-{
-    const size_t n = v->n;
-    const nid_writer_channel channel = {1, "Z-Axis", "m", -1e-6, 2e-6, 32, z};
-    const nid_writer_group group = {"Scan forward", n,   n,        0,        NULL, "X*",    "m",
-                                    "Y*",           "m", v->width, v->width, 1,    &channel};
-    nid_writer_file file = nid_writer_defaults();
-    file.path = path;
-    file.n_groups = 1;
-    file.groups = &group;
-    assert_int_equal(nid_write(&file), 0);
-}
-
-static void write_image(const char *path, const surface *s, const view *v, uint64_t *state)
-{
-    static double z[N * N];
-    make_heights(s, v, state, z);
-    write_heights(path, z, v);
-}
-
-static wt_spot_job job_of(double depth)
-{
-    wt_spot_job job = wt_spot_job_defaults();
-    assert_int_equal(wt_tip_parse("cone:half-angle=35deg", &job.tip, NULL), WT_OK);
-    job.depth = depth;
-    return job;
-}
-
-static wt_table *make(const wt_spot_job *job)
-{
-    wt_job common = wt_job_defaults();
-    wt_error err = WT_ERROR_INIT;
-    wt_spot_tables tables = {0};
-    common.formats = formats;
-    if (wt_spot_make(job, before, &common, &tables, &err) != WT_OK)
-        fail_msg("%s %s", err.message, err.found);
-    assert_null(tables.spot_map);
-    return tables.spot;
-}
+#include "spot_scene.h"
 
 /* A wave that is short beside the contact has amplitude / sqrt(2) on any disc; the tilt is taken
  * off. For a cone the area goes with the square of the depth, so 10 % of it are 5 % of the depth.
@@ -245,95 +120,73 @@ static void test_cannot_say(void **state)
     assert_null(none.spot);
 }
 
-/* Of a Gaussian of depth d and width s: mean within a, volume within 2 a. */
-static double dent_depth(double d)
-{
-    const double s = 0.5 * CONTACT, a = CONTACT;
-    return d * 2 * s * s / (a * a) * (1 - exp(-a * a / (2 * s * s)));
-}
-
-static double dent_volume(double d)
-{
-    const double s = 0.5 * CONTACT, a = 2 * CONTACT;
-    return d * 2 * M_PI * s * s * (1 - exp(-a * a / (2 * s * s)));
-}
-
-/* One draw of surface, drift between the pixels, noise and place. */
-typedef struct scene {
-    double dent, rows, strain, tilt;
-    size_t n; /* pixels of the image after, of the same size */
-} scene;
-
-static wt_table *draw(const scene *c, uint64_t seed, double shift[2])
-{
-    surface s = random_surface(&seed);
-    wt_spot_job job = job_of(DEPTH);
-    s.rows = c->rows;
-    job.x = s.x = 0.5e-6 + 100e-9 * (uniform(&seed) - 0.5);
-    job.y = s.y = 0.5e-6 + 100e-9 * (uniform(&seed) - 0.5);
-    job.after = after;
-    write_image(before, &s, &whole, &seed);
-    const view v = {c->n, WIDTH, (6 * uniform(&seed) - 3) * STEP, (20 * uniform(&seed) - 10) * STEP,
-                    c->strain};
-    s.dent = c->dent;
-    s.tilt_x += c->tilt;
-    write_image(after, &s, &v, &seed);
-    shift[0] = v.shift_x + v.strain * s.x;
-    shift[1] = v.shift_y + v.strain * s.y;
-    return make(&job);
-}
-
-static bool holds(const wt_table *t, const char *low, const char *high, double truth)
-{
-    return cell(t, 0, low) <= truth && cell(t, 0, high) >= truth;
-}
-
-/* How many of the draws of a scene hold the truth: depth, volume, drift in x and y; in none the
- * change lies elsewhere. */
-static void count_draws(const scene *c, uint64_t first, int held[4], int *yes)
-{
-    int elsewhere = 0;
-    double furthest = 0;
-    for (uint64_t i = 0; i < DRAWS; i++) {
-        double shift[2];
-        wt_table *t = draw(c, first + i, shift);
-        *yes += strncmp(wt_table_key(t, "imprint_verdict"), "yes", 3) == 0;
-        elsewhere += strstr(wt_table_key(t, "imprint_verdict"), "deepest") != NULL;
-        held[0] += holds(t, "imprint_low", "imprint_high", dent_depth(c->dent));
-        held[1] += holds(t, "imprint_volume_low", "imprint_volume_high", dent_volume(c->dent));
-        const double off[2] = {cell(t, 0, "shift_x") - shift[0], cell(t, 0, "shift_y") - shift[1]};
-        held[2] += fabs(off[0]) <= T_13 * cell(t, 0, "shift_x_standard_error");
-        held[3] += fabs(off[1]) <= T_13 * cell(t, 0, "shift_y_standard_error");
-        furthest = fmax(furthest, hypot(off[0], off[1]) / STEP);
-        wt_table_free(t);
-    }
-    assert_true(furthest < 0.05); /* of a pixel */
-    assert_in_range(elsewhere, 0, 0.05 * DRAWS);
-}
-
-/* Intervals hold the truth in 92 to 98 % of the draws of all scenes, and no scene stands out. */
-static void test_imprint(void **state)
+/* Every column of one spot: the image after is a fiftieth wider, and the shift there is not that of
+ * the place. */
+static void test_columns(void **state)
 {
     (void)state;
-    static const scene scenes[] = {
-        {0, 0, 0, 0, N},         {2e-9, 0, 0, 0, N},        {20e-9, 0, 0, 0, N},
-        {1e-9, 0.3e-9, 0, 0, N}, {2e-9, 0, 0.01, 0.005, N}, {2e-9, 0.1e-9, 0, 0, 100},
-    };
-    enum { SCENES = sizeof scenes / sizeof *scenes };
-    int all[4] = {0};
-    for (size_t k = 0; k < SCENES; k++) {
-        int held[4] = {0}, yes = 0;
-        count_draws(&scenes[k], 1000 * (k + 1), held, &yes);
-        print_message("scene %zu: depth %d, volume %d, drift %d and %d of %d held, yes %d\n", k,
-                      held[0], held[1], held[2], held[3], DRAWS, yes);
-        for (int i = 0; i < 4; i++) {
-            assert_in_range(held[i], 0.88 * DRAWS, DRAWS);
-            all[i] += held[i];
-        }
-        assert_in_range(yes, k == 0 ? 0 : 0.98 * DRAWS, k == 0 ? 0.06 * DRAWS : DRAWS);
+    uint64_t seed = 77;
+    const view v = {N, WIDTH, 12 * STEP, -7 * STEP, 0.01};
+    surface s = random_surface(&seed);
+    wt_spot_job job = job_of(DEPTH);
+    job.x = s.x = 0.48e-6;
+    job.y = s.y = 0.53e-6;
+    job.position_error = 20e-9;
+    job.largest_effect = 0.2;
+    job.after = after;
+    write_image(before, &s, &whole, &seed);
+    s.dent = 20e-9;
+    write_image(after, &s, &v, &seed);
+    wt_table *t = make(&job);
+    double pixels = 0;
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++)
+            pixels += hypot(i * STEP - job.x, j * STEP - job.y) <= CONTACT;
+    assert_near(cell(t, 0, "x"), job.x, 1e-6);
+    assert_near(cell(t, 0, "y"), job.y, 1e-6);
+    assert_near(cell(t, 0, "indentation"), DEPTH, 1e-12);
+    assert_near_abs(cell(t, 0, "pixels"), pixels, 1);
+    const double rms = cell(t, 0, "roughness"), low = cell(t, 0, "roughness_low"),
+                 high = cell(t, 0, "roughness_high");
+    assert_true(low > 0.2e-9 && low <= rms && rms <= high && high < 2.5e-9 && low < high);
+    assert_near(cell(t, 0, "ratio"), rms / DEPTH, 1e-9);
+    assert_near(cell(t, 0, "ratio_low"), low / DEPTH, 1e-9);
+    assert_near(cell(t, 0, "ratio_high"), high / DEPTH, 1e-9);
+    assert_near(cell(t, 0, "limit"), 0.1, 1e-6); /* of a cone */
+    assert_near(cell(t, 0, "shift_x"), v.shift_x + v.strain * job.x, 0.01);
+    assert_near(cell(t, 0, "shift_y"), v.shift_y + v.strain * job.y, 0.01);
+    assert_near(cell(t, 0, "shift_strain"), v.strain, 0.1);
+    /* in whole pixels, of the shift at the middle */
+    assert_near(cell(t, 0, "overlap"),
+                (1 - fabs(v.shift_x + v.strain * WIDTH / 2) / WIDTH) *
+                    (1 - fabs(v.shift_y + v.strain * WIDTH / 2) / WIDTH),
+                0.015);
+    const char *const numbers[] = {"imprint", "imprint_volume"};
+    const double truth[] = {dent_depth(s.dent), dent_volume(s.dent)};
+    for (size_t i = 0; i < 2; i++) {
+        char name[3][48];
+        static const char *const ends[] = {"standard_error", "low", "high"};
+        for (size_t k = 0; k < 3; k++)
+            snprintf(name[k], sizeof name[k], "%s_%s", numbers[i], ends[k]);
+        const double value = cell(t, 0, numbers[i]), error = cell(t, 0, name[0]),
+                     reach = cell(t, 0, name[2]) - value;
+        assert_near_abs(value, truth[i], 4 * error);
+        assert_true(error < 0.1 * truth[i]);
+        assert_near(value - cell(t, 0, name[1]), reach, 1e-9);
+        assert_near(reach / error, wt_student(cell(t, 0, "places") - 1), 1e-9);
     }
-    for (int i = 0; i < 4; i++)
-        assert_in_range(all[i], 0.92 * SCENES * DRAWS, 0.98 * SCENES * DRAWS);
+    /* places side by side of twice the contact radius, some of them next to the dent or outside */
+    const double most = floor(WIDTH / (4 * CONTACT)) * floor(WIDTH / (4 * CONTACT));
+    assert_true(cell(t, 0, "places") >= 8 && cell(t, 0, "places") < most);
+    assert_near(cell(t, 0, "deepest"), dent_depth(s.dent), 0.1);
+    assert_true(cell(t, 0, "deepest") >= cell(t, 0, "imprint"));
+    assert_near_abs(cell(t, 0, "deepest_x"), job.x, 10e-9);
+    assert_near_abs(cell(t, 0, "deepest_y"), job.y, 10e-9);
+    assert_string_equal(wt_table_key(t, "image"), "Scan forward: Z-Axis");
+    assert_non_null(strstr(wt_table_key(t, "tip"), "35"));
+    assert_near(strtod(wt_table_key(t, "largest_effect"), NULL), 0.2, 1e-12);
+    assert_int_equal(strncmp(wt_table_key(t, "imprint_verdict"), "yes", 3), 0);
+    wt_table_free(t);
 }
 
 /* Dents beside the place given: on the same lines they make it look higher. Further away than it is
@@ -506,29 +359,14 @@ static void test_no_imprint(void **state)
     assert_non_null(strstr(err.found, "8.000 \xC2\xB5m") != NULL ? err.found : NULL);
 }
 
-static int begin(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    (void)unlink(before);
-    (void)unlink(after);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_roughness),  cmocka_unit_test(test_tilt),
-        cmocka_unit_test(test_cannot_say), cmocka_unit_test(test_imprint),
-        cmocka_unit_test(test_map),        cmocka_unit_test(test_no_imprint),
-        cmocka_unit_test(test_beside),     cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_far_off),    cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_columns), cmocka_unit_test(test_roughness),
+        cmocka_unit_test(test_tilt),    cmocka_unit_test(test_cannot_say),
+        cmocka_unit_test(test_map),     cmocka_unit_test(test_no_imprint),
+        cmocka_unit_test(test_beside),  cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_far_off), cmocka_unit_test(test_hole),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

@@ -111,9 +111,15 @@ static void check_words(void)
     assert_int_equal(t.status, WT_OK);
     assert_string_equal(wt_table_key(t.table, "duty"), "0.5");
     wt_table_free(t.table);
-    assert_string_equal(words_of(0.25, "1").text, "0.25");
+    assert_string_equal(words_of(0.25, "1").text, "0.250");
     assert_string_equal(words_of_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
                         "0.25 \xc2\xb1 0.12");
+    assert_string_equal(words_of(5, "1").text, "5.00");
+    assert_string_equal(words_of(123, "1").text, "123");
+    assert_string_equal(words_of_known((wt_estimate){1.2, 0.15, 0, "s"}).text,
+                        "1.20 s (95 %: 906 ms to 1.49 s)");
+    assert_string_equal(words_of_known((wt_estimate){1.2, (double)NAN, 0, "s"}).text,
+                        "1.20 s (error not known)");
     static const struct {
         wt_estimate e;
         const char *words;
@@ -122,7 +128,7 @@ static void check_words(void)
                     {{100853, 53, 0, "s"}, "100853 \xc2\xb1 53 s"},
                     {{3.157e-6, 7.76e-7, 0, "m"}, "3.16 \xc2\xb1 0.78 \xc2\xb5m"},
                     {{0.5, 1e-12, 0, "1"}, "0.500000 \xc2\xb1 1e-12"},
-                    {{2e-7, 1e-8, 0, "1"}, "2e-07 \xc2\xb1 1e-08"}};
+                    {{2e-7, 1e-8, 0, "1"}, "2.00e-07 \xc2\xb1 1e-08"}};
     for (size_t i = 0; i < sizeof decimals / sizeof *decimals; i++)
         assert_string_equal(words_of_estimate(decimals[i].e).text, decimals[i].words);
     assert_string_equal(words_of_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"

@@ -7,6 +7,7 @@
 #include "writers/nid_writer.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -97,18 +98,16 @@ static void test_volts(void **state)
                      WT_E_EMPTY);
 }
 
-/* A thermal tune by the writer: 777 fm/sqrt(Hz) at the peak is the mean square that it makes. */
-static void test_tune(void **state)
+enum { TUNE_POINTS = 3000, TUNES = 4 };
+
+/* A thermal tune by the writer, on a white floor of 10 fm/sqrt(Hz). */
+static void write_tune(const char *path, double f0, double q, double peak)
 {
-    (void)state;
-    enum { N = 3000 };
-    static double density[N];
-    static const char path[] = "test_thermal.nid";
-    const double f0 = 180e3, q = 400, peak = 777e-15, pi = 3.14159265358979323846;
+    static double density[TUNE_POINTS];
     const nid_writer_channel channel = {
         0, "Amplitude Spectral Density", "m/sqrt(Hz)", -1e-12, 2e-12, 32, density};
     const nid_writer_group group = {.name = "Spectrum FFT",
-                                    .points = N,
+                                    .points = TUNE_POINTS,
                                     .lines = 1,
                                     .x_name = "Frequency",
                                     .x_unit = "Hz",
@@ -116,8 +115,8 @@ static void test_tune(void **state)
                                     .n_channels = 1,
                                     .channels = &channel};
     nid_writer_file file = nid_writer_defaults();
-    for (size_t i = 0; i < N; i++) {
-        const double x = 300e3 * (double)i / (N - 1) / f0;
+    for (size_t i = 0; i < TUNE_POINTS; i++) {
+        const double x = 300e3 * (double)i / (TUNE_POINTS - 1) / f0;
         const double s = peak * peak / (q * q) / (pow(1 - x * x, 2) + x * x / (q * q));
         density[i] = sqrt(s + 1e-28);
     }
@@ -126,6 +125,15 @@ static void test_tune(void **state)
     file.n_groups = 1;
     file.info = "Cantilever temperature=40\r\nAverages=1000\r\nSpring Constant:=27.13 N/m\r\n";
     assert_int_equal(nid_write(&file), 0);
+}
+
+/* 777 fm/sqrt(Hz) at the peak is the mean square that it makes. */
+static void test_tune(void **state)
+{
+    (void)state;
+    static const char path[] = "test_thermal.nid";
+    const double f0 = 180e3, q = 400, peak = 777e-15, pi = 3.14159265358979323846;
+    write_tune(path, f0, q, peak);
     const wt_thermal_job job = wt_thermal_job_defaults();
     wt_table *t = made(&job, path, (double)NAN);
     const double square = 0.5 * pi * f0 / q * peak * peak;
@@ -134,8 +142,102 @@ static void test_tune(void **state)
                 2e-4);
     assert_near(cell(t, "spring_constant_of_file"), 27.13, 1e-12);
     assert_near(cell(t, "averages_of_file"), 1000, 0);
+    assert_near(cell(t, "resonance"), f0, 1e-5);
+    assert_near(cell(t, "quality_factor"), q, 1e-3);
+    assert_near(cell(t, "floor"), 1e-14, 1e-2);
+    const double from = cell(t, "fit_from"), to = cell(t, "fit_to");
+    assert_true(from > 0 && from < f0 && to > f0 && to <= 300e3);
+    assert_near_abs(cell(t, "points"), (to - from) * (TUNE_POINTS - 1) / 300e3, 1.01);
     wt_table_free(t);
     (void)remove(path);
+}
+
+/* One and more levers: each row by the equipartition, the keys by the rows. */
+static void test_several(void **state)
+{
+    (void)state;
+    static const char *const paths[TUNES] = {"test_thermal_0.nid", "test_thermal_1.nid",
+                                             "test_thermal_2.nid", "test_thermal_3.nid"};
+    static const double f0[TUNES] = {180e3, 150e3, 170e3, 190e3}, q[TUNES] = {400, 300, 500, 350},
+                        peak[TUNES] = {445e-15, 400e-15, 458e-15,
+                                       650e-15}; /* the last is against the file */
+    const double common = hypot(2 * 0.03, 0.5 / 300);
+    size_t n_contradicted = 0;
+    wt_job work = wt_job_defaults();
+    work.formats = formats;
+    for (size_t i = 0; i < TUNES; i++)
+        write_tune(paths[i], f0[i], q[i], peak[i]);
+    for (size_t n = 1; n <= TUNES; n++) {
+        wt_thermal_job job = wt_thermal_job_defaults();
+        wt_file_set set = {.patterns = paths, .n_patterns = n, .read = wt_read_defaults()};
+        wt_table *t = NULL;
+        double mean = 0, squares = 0, own = 0, constants[TUNES];
+        char text[64];
+        job.sets = &set;
+        job.n_sets = 1;
+        job.sensitivity_error = 0.03;
+        job.temperature = (wt_estimate){300, 0.5, 0, "K"};
+        assert_int_equal(wt_thermal_make(&job, &work, &t, NULL), WT_OK);
+        assert_int_equal(wt_table_n_rows(t), n);
+        for (size_t i = 0; i < n; i++) {
+            const double square = 0.5 * M_PI * f0[i] / q[i] * peak[i] * peak[i],
+                         k = wt_table_number(t, i, (size_t)wt_table_find(t, "spring_constant")),
+                         fit = wt_table_number(t, i, (size_t)wt_table_find(t, "fit_error")),
+                         all = hypot(fit, common);
+            assert_near(k, 0.971 / (1.09 * 1.09) * 1.380649e-23 * 300 / square, 2e-4);
+            static const char *const columns[] = {"spring_constant_standard_error",
+                                                  "spring_constant_low", "spring_constant_high",
+                                                  "ratio", "temperature"};
+            const double expected[] = {k * all, k * exp(-1.959963985 * all),
+                                       k * exp(1.959963985 * all), k / 27.13, 300};
+            assert_true(fit >= 0 && fit < 0.02);
+            for (size_t c = 0; c < 5; c++)
+                assert_near(wt_table_number(t, i, (size_t)wt_table_find(t, columns[c])),
+                            expected[c], 1e-8);
+            constants[i] = k;
+            mean += k / (double)n;
+            own += fit * fit;
+        }
+        for (size_t i = 0; i < n; i++)
+            squares += pow(constants[i] / mean - 1, 2);
+        const double scatter = sqrt(squares / ((double)n - 1)),
+                     error =
+                         hypot((n < 3 ? sqrt(own / (double)n) : scatter) / sqrt((double)n), common);
+        wt_estimate k = {0};
+        assert_true(wt_table_estimate(t, "spring_constant", &k));
+        assert_near(k.value, mean, 1e-9);
+        assert_near(k.standard_error, mean * error, 1e-9);
+        if (n < 3)
+            assert_null(wt_table_key(t, "scatter"));
+        else
+            assert_near(strtod(wt_table_key(t, "scatter"), NULL), scatter, 6e-3);
+        assert_string_equal(wt_table_key(t, "includes"),
+                            n < 3 ? "the fit and the sensitivity and the temperature"
+                                  : "the scatter between spectra and the sensitivity and the "
+                                    "temperature");
+        snprintf(text, sizeof text, "%zu", n);
+        assert_string_equal(wt_table_key(t, "n_spectra"), text);
+        bool contradicted = false; /* by the 27.13 N/m of the file */
+        for (size_t i = 0; i < n; i++)
+            contradicted = contradicted || fabs(log(constants[i] / 27.13)) > log(1.5);
+        assert_true((wt_table_key(t, "contradiction") != NULL) == contradicted);
+        n_contradicted += contradicted;
+        if (contradicted) {
+            assert_null(wt_table_key(t, "indent_option"));
+            assert_null(wt_table_key(t, "compare_option"));
+        } else {
+            snprintf(text, sizeof text, "--spring-constant %.6gN/m", mean);
+            assert_string_equal(wt_table_key(t, "indent_option"), text);
+            snprintf(text, sizeof text, "--spring-constant-error %.2g", error);
+            assert_string_equal(wt_table_key(t, "compare_option"), text);
+        }
+        assert_near(strtod(wt_table_key(t, "mode_shape"), NULL), 0.971, 0);
+        assert_near(strtod(wt_table_key(t, "chi"), NULL), 1.09, 0);
+        wt_table_free(t);
+    }
+    assert_int_equal(n_contradicted, 1);
+    for (size_t i = 0; i < TUNES; i++)
+        (void)remove(paths[i]);
 }
 
 /* What the instrument fitted: 179.8 kHz, Q 442. */
@@ -236,8 +338,9 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_metres),    cmocka_unit_test(test_volts),
-        cmocka_unit_test(test_tune),      cmocka_unit_test(test_genuine),
-        cmocka_unit_test(test_departing), cmocka_unit_test(test_contradiction)};
+        cmocka_unit_test(test_metres),       cmocka_unit_test(test_volts),
+        cmocka_unit_test(test_tune),         cmocka_unit_test(test_several),
+        cmocka_unit_test(test_genuine),      cmocka_unit_test(test_departing),
+        cmocka_unit_test(test_contradiction)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -4,6 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
+#include "data/findings.h"
 #include "weartrack/flow.h"
 
 static wt_layer_known known;
@@ -135,7 +136,6 @@ static void test_what_does_not_apply(void **state)
     assert_true(find_row(table, "vertical shift", NULL) == SIZE_MAX);
     assert_true(find_row(table, "smallest wavenumber q0", NULL) == SIZE_MAX);
     assert_true(isnan(number_cell(table, 0, "thickness")));
-    assert_null(wt_table_key(table, "thickness_what_if"));
     const char *left_out = wt_table_key(table, "left_out");
     assert_non_null(left_out);
     assert_non_null(strstr(left_out, "vertical shift (no isotherms"));
@@ -168,24 +168,37 @@ static void test_limits(void **state)
     wt_table_free(table);
 }
 
-/* The range is that of the choice that moves the number most. */
-static void test_sentence(void **state)
+/* The range of a finding is that of all rows, and it names the rows that make its ends. */
+static void test_range(void **state)
 {
     (void)state;
     set_up();
+    wt_friction_tables f = {0};
+    wt_result *result = wt_result_new();
+    finding_tables found;
     wt_table *table = what_if(true, true);
     double low = number_cell(table, 0, "hysteresis"), high = low;
-    for (size_t i = 0; i < wt_table_n_rows(table); i++)
-        if (strcmp(text_cell(table, i, "choice"), "largest wavenumber q1") == 0) {
-            low = fmin(low, number_cell(table, i, "hysteresis"));
-            high = fmax(high, number_cell(table, i, "hysteresis"));
-        }
-    char expected[160];
-    snprintf(expected, sizeof expected,
-             "%.3g to %.3g if the largest wavenumber q1 lies between 2e5 and 2e7 rad/m", low, high);
-    assert_string_equal(wt_table_key(table, "hysteresis_what_if"), expected);
-    assert_non_null(strstr(wt_table_key(table, "thickness_what_if"), " µm if the "));
-    wt_table_free(table);
+    const char *low_tried = "", *high_tried = "";
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        const double value = number_cell(table, i, "hysteresis");
+        low_tried = value < low ? text_cell(table, i, "tried") : low_tried;
+        high_tried = value > high ? text_cell(table, i, "tried") : high_tried;
+        low = fmin(low, value);
+        high = fmax(high, value);
+    }
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &f, NULL), WT_OK);
+    assert_non_null(result);
+    assert_int_equal(wt_result_add(result, f.friction, NULL), WT_OK);
+    assert_int_equal(wt_result_add(result, table, NULL), WT_OK);
+    assert_int_equal(findings_bind(result, &found, NULL), WT_OK);
+    const finding hysteresis = finding_of_friction(&found, FRICTION_KEY_HYSTERESIS);
+    assert_near(hysteresis.range.low, low, 0);
+    assert_near(hysteresis.range.high, high, 0);
+    assert_string_equal(hysteresis.range.low_tried, low_tried);
+    assert_string_equal(hysteresis.range.high_tried, high_tried);
+    assert_string_equal(hysteresis.range.widest, "largest wavenumber q1");
+    assert_true(isnan(finding_of_thickness(&found).number.value)); /* no table of the layer */
+    wt_result_free(result);
 }
 
 /* A row that cannot be computed says why, and the others stand: here the roughness of one row is
@@ -231,7 +244,7 @@ int main(void)
         cmocka_unit_test(test_what_is_used_is_not_tried),
         cmocka_unit_test(test_what_does_not_apply),
         cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_sentence),
+        cmocka_unit_test(test_range),
         cmocka_unit_test(test_what_cannot_be_computed),
         cmocka_unit_test(test_threads),
     };

@@ -4,6 +4,7 @@
  */
 #include "near.h"
 
+#include "read/formats.h"
 #include "read/text/text.h"
 
 #include <stdio.h>
@@ -269,6 +270,47 @@ static void replaced_by_a_folder(void **state)
     wt_formats_free(plain);
 }
 
+/* Those in the library follow the schema, and what is known of them before they are read is what
+ * stands in them. */
+static void known_before_they_are_read(void **state)
+{
+    wt_formats *formats = NULL;
+    wt_error err = WT_ERROR_INIT;
+    size_t n_read = 0;
+    (void)state;
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, &err), WT_OK);
+    for (size_t i = 0; i < wt_formats_count(formats); i++) {
+        const file_reader *const reader = formats_reader(formats, i);
+        const char *const xml = wt_formats_xml(formats, reader->info.id);
+        text_description *whole = NULL;
+        const text_description *detect = NULL, *again = NULL;
+        if (xml == NULL)
+            continue;
+        n_read++;
+        assert_int_equal(description_parse(schema, xml, strlen(xml), "x", &whole, &err), WT_OK);
+        assert_string_equal(reader->info.id, whole->id);
+        assert_string_equal(reader->info.title, whole->title);
+        assert_string_equal(reader->info.evidence, whole->evidence);
+        assert_string_equal(reader->info.version, whole->version);
+        assert_int_equal(reader->info.kinds, whole->kinds);
+        assert_int_equal(reader->info.verified, whole->verified);
+        assert_int_equal(description_need(reader->description, DESCRIPTION_DETECT, &detect, &err),
+                         WT_OK);
+        assert_int_equal(detect->n_probes, whole->n_probes);
+        assert_int_equal(detect->encoding, whole->encoding);
+        assert_int_equal(detect->n_names, 0);
+        assert_int_equal(description_need(reader->description, DESCRIPTION_WHOLE, &again, &err),
+                         WT_OK);
+        assert_int_equal(again->n_names, whole->n_names);
+        assert_int_equal(description_need(reader->description, DESCRIPTION_WHOLE, &detect, &err),
+                         WT_OK);
+        assert_ptr_equal(detect, again); /* read once */
+        description_free(whole);
+    }
+    assert_true(n_read > 20);
+    wt_formats_free(formats);
+}
+
 static void checked_with_a_sample(void **state)
 {
     char path[128], xml[4096] = "";
@@ -384,6 +426,7 @@ int main(void)
         cmocka_unit_test(names),
         cmocka_unit_test(units_in_names),
         cmocka_unit_test(replaced_by_a_folder),
+        cmocka_unit_test(known_before_they_are_read),
         cmocka_unit_test(checked_with_a_sample),
         cmocka_unit_test(example_of_the_manual),
     };

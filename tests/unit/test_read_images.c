@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "made_file.h"
 
+#include "read/images.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -296,12 +298,121 @@ static void measured(void **state)
     clear(images, n);
 }
 
+/* ---- the list that readers fill -------------------------------------------------------------- */
+
+static void test_list(void **state)
+{
+    (void)state;
+    image_list list = {NULL, 0};
+    double *values = NULL;
+    wt_error err = WT_ERROR_INIT;
+    static const size_t impossible[][2] = {{0, 3},
+                                           {3, 0},
+                                           {((size_t)1 << 28) + 1, 1},
+                                           {1, ((size_t)1 << 28) + 1},
+                                           {1 << 14, (1 << 14) + 1}};
+    for (size_t i = 0; i < sizeof impossible / sizeof *impossible; i++) {
+        const wt_image head = {.n_columns = impossible[i][0], .n_rows = impossible[i][1]};
+        char found[64];
+        snprintf(found, sizeof found, "%zu x %zu", impossible[i][0], impossible[i][1]);
+        assert_int_equal(images_add(&list, &head, &values, &err), WT_E_CORRUPT);
+        assert_string_equal(err.found, found);
+        assert_string_equal(err.expected, "1 to 268435456 pixels");
+        assert_int_equal(list.n, 0);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        wt_image head = {.n_columns = 2 + i, .n_rows = 3};
+        snprintf(head.name, sizeof head.name, "image %zu", i);
+        assert_int_equal(images_add(&list, &head, &values, &err), WT_OK);
+        assert_int_equal(list.n, i + 1);
+        assert_ptr_equal(list.images[i].values, values);
+        for (size_t k = 0; k < 3 * (2 + i); k++)
+            values[k] = (double)(10 * i + k);
+    }
+    wt_image *images = NULL;
+    size_t n = 7;
+    assert_int_equal(images_end(&list, WT_OK, "file", NULL, &images, &n, &err), WT_OK);
+    assert_int_equal(n, 3);
+    assert_int_equal(list.n, 0);
+    assert_null(list.images);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(images[i].n_columns, 2 + i);
+        assert_near(images[i].values[5], (double)(10 * i + 5), 0);
+    }
+    clear(images, n);
+    images = NULL;
+    assert_int_equal(images_end(&list, WT_OK, "file", NULL, &images, &n, &err), WT_E_EMPTY);
+    assert_string_equal(err.message, "the file holds no image");
+    const wt_image head = {.n_columns = 2, .n_rows = 2};
+    assert_int_equal(images_add(&list, &head, &values, &err), WT_OK);
+    assert_int_equal(images_end(&list, WT_E_CORRUPT, "file", NULL, &images, &n, &err),
+                     WT_E_CORRUPT);
+    assert_int_equal(list.n, 0);
+    assert_null(images);
+}
+
+static void test_size(void **state)
+{
+    (void)state;
+    wt_image head = {.n_columns = 5, .n_rows = 4};
+    images_set_size(&head, 10e-6, 8e-6);
+    assert_near(head.width, 8e-6, 1e-12);
+    assert_near(head.height, 6e-6, 1e-12);
+}
+
+/* What is missing is said: pixels with their number, a size that is none. */
+static void test_missing(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t columns, rows, missing;
+        double width, height;
+        const char *words; /* the last of the log; NULL: nothing */
+    } cases[] = {
+        {4, 3, 0, 1, 1, NULL},
+        {4, 3, 1, 1, 1, "1 of 12 pixels are not finite numbers and left out"},
+        {4, 3, 2, 1, 0, "the size of the image is not known"},
+        {4, 3, 0, -1, 1, "the size of the image is not known"},
+        {4, 1, 0, 1, 0, NULL},
+        {1, 3, 0, 0, 1, NULL},
+        {4, 3, 0, (double)NAN, 1, "the size of the image is not known"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        image_list list = {NULL, 0};
+        double *values = NULL;
+        wt_image *images = NULL;
+        size_t n = 0;
+        wt_parselog *log = wt_parselog_new();
+        const wt_image head = {.name = "Z",
+                               .n_columns = cases[i].columns,
+                               .n_rows = cases[i].rows,
+                               .width = cases[i].width,
+                               .height = cases[i].height};
+        assert_int_equal(images_add(&list, &head, &values, NULL), WT_OK);
+        for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
+            values[k] = k < cases[i].missing ? (k == 0 ? (double)NAN : (double)INFINITY) : 1;
+        assert_int_equal(images_end(&list, WT_OK, "file", log, &images, &n, NULL), WT_OK);
+        const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
+        const size_t said = (cases[i].missing > 0) + (size_t)unknown;
+        assert_int_equal(wt_parselog_count(log), said);
+        if (cases[i].words != NULL) {
+            assert_string_equal(wt_parselog_get(log, said - 1).text, cases[i].words);
+            assert_string_equal(wt_parselog_get(log, said - 1).file, "file");
+            assert_string_equal(wt_parselog_get(log, said - 1).place, "Z");
+        }
+        assert_int_equal(isnan(images[0].width) || isnan(images[0].height), unknown);
+        clear(images, n);
+        wt_parselog_free(log);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(simple_field), cmocka_unit_test(nanoscope_image),
-        cmocka_unit_test(igor_image),   cmocka_unit_test(park_image),
-        cmocka_unit_test(measured),
+        cmocka_unit_test(test_list),       cmocka_unit_test(test_size),
+        cmocka_unit_test(test_missing),    cmocka_unit_test(simple_field),
+        cmocka_unit_test(nanoscope_image), cmocka_unit_test(igor_image),
+        cmocka_unit_test(park_image),      cmocka_unit_test(measured),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

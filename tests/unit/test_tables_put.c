@@ -365,8 +365,8 @@ static void test_spring_constants(void **state)
 {
     (void)state;
     static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-2.jpk-force-map"};
-    wt_file_set sets[2] = {{&files[0], 1, NULL, wt_read_defaults(), NULL, {0}},
-                           {&files[1], 1, NULL, wt_read_defaults(), NULL, {0}}};
+    wt_file_set sets[2] = {{&files[0], 1, NULL, wt_read_defaults(), NULL},
+                           {&files[1], 1, NULL, wt_read_defaults(), NULL}};
     sets[1].read.spring_constant = 0.2;
     wt_indent_job job = wt_indent_job_defaults();
     wt_job common = wt_job_defaults();

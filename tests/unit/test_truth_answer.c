@@ -114,6 +114,14 @@ static int clean(void **state)
 
 /* ---- reading the sentences ------------------------------------------------------------------- */
 
+/* Caveats are told or folded. */
+static bool is_kind(const wt_table *answer, size_t row, const char *kind)
+{
+    const char *found = cell_text(answer, row, "kind");
+    return strcmp(found, kind) == 0 ||
+           (strcmp(found, "folded") == 0 && strcmp(kind, "caveat") == 0);
+}
+
 /* What follows the words in the sentences of a kind; fails if no sentence has them. */
 static const char *after(const char *kind, const char *words)
 {
@@ -121,7 +129,7 @@ static const char *after(const char *kind, const char *words)
     assert_non_null(answer);
     for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
         const char *at = strstr(cell_text(answer, i, "answer"), words);
-        if (at != NULL && strcmp(cell_text(answer, i, "kind"), kind) == 0)
+        if (at != NULL && is_kind(answer, i, kind))
             return at + strlen(words);
     }
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)
@@ -135,8 +143,7 @@ static bool says(const char *kind, const char *words)
     const wt_table *answer = wt_result_find(result, "answer");
     assert_non_null(answer);
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)
-        if (strcmp(cell_text(answer, i, "kind"), kind) == 0 &&
-            strstr(cell_text(answer, i, "answer"), words) != NULL)
+        if (is_kind(answer, i, kind) && strstr(cell_text(answer, i, "answer"), words) != NULL)
             return true;
     return false;
 }
@@ -263,7 +270,7 @@ static void test_sliding(void **state)
 
     double thickness = key("layer", "balance_thickness");
     check("thickness", "", thickness, 0.01);
-    check("thickness", "formation balances wear, at ", 0.1, 0.001);
+    check("thickness", "where formation balances wear, at ", 0.1, 0.001);
     check("thickness", "at 100 mm/s and ", 0.4e6, 0.001);
     check("thickness", "wear R = ", key("layer", "formation_wear_ratio"), 0.01);
     check("thickness", "more wear it is ", -key("layer", "wear_sensitivity"), 0.05);
@@ -279,13 +286,11 @@ static void test_sliding(void **state)
     check("friction", "Without a layer, at 100 mm/s, mu = ", total, 0.01);
     check("friction", ": hysteresis ", hysteresis, 0.01);
     check("friction", "shearing of the real contact ", total - hysteresis, 0.01);
-    check("friction", "(contact area ", area, 0.01);
+    check("friction", "contact area of the nominal one ", area, 0.01);
     check("friction", "With the layer (", thickness, 0.01);
     check("friction", "modulus ratio ", 0.6, 0.01);
-    check("friction", ": a change of ", with - total, 0.02);
-    const char *percent = strchr(after("friction", ": a change of "), '(');
-    assert_non_null(percent);
-    assert_near_abs(number(percent + 1), 100 * (with / total - 1), 0.51);
+    assert_near_abs(number(after("friction", "the layer lowers or raises friction: ")),
+                    100 * (with / total - 1), 0.51);
     const wt_table *friction = wt_result_find(result, "friction");
     double low = 99, high = -99;
     for (size_t i = 0; i < wt_table_n_rows(friction); i++) {
@@ -317,13 +322,13 @@ static void test_disagreement(void **state)
     run(0.96, 0.1,
         INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
     assert_true(says("caveat", "The indentation cannot say whether there is this layer"));
-    assert_false(says("caveat", "This does not agree with the indentation"));
+    assert_false(says("caveat", "That there is no layer does not agree with the indentation"));
     static const double ratios[] = {0.6, 1.5};
     for (int i = 0; i < 2; i++) {
         run(ratios[i], 0.03,
             INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("10mm^3/(N m)", "1e10J/m^3"));
         assert_true(says("thickness", "There is none at 100 mm/s and 400 kPa"));
-        assert_true(says("caveat", "This does not agree with the indentation"));
+        assert_true(says("caveat", "That there is no layer does not agree with the indentation"));
         assert_false(says("caveat", "this layer: it is what the model makes"));
         /* mm^3/(N m): 1e-9 m^2/N */
         assert_near(strtod(after("thickness", "would have to be below "), NULL),
@@ -333,13 +338,251 @@ static void test_disagreement(void **state)
     }
 }
 
+/* ---- told alike ------------------------------------------------------------------------------ */
+
+/* A number, its interval and its range over the choices of the model. */
+typedef struct told {
+    double value, low, high, model_low, model_high;
+} told;
+
+typedef double row_number(const wt_table *what_if, size_t row);
+
+static double thickness_in(const wt_table *what_if, size_t row)
+{
+    return cell(what_if, row, "thickness");
+}
+
+static double total_in(const wt_table *what_if, size_t row)
+{
+    return cell(what_if, row, "friction");
+}
+
+static double hysteresis_in(const wt_table *what_if, size_t row)
+{
+    return cell(what_if, row, "hysteresis");
+}
+
+static double with_layer_in(const wt_table *what_if, size_t row)
+{
+    return cell(what_if, row, "friction_with_layer");
+}
+
+static double change_in(const wt_table *what_if, size_t row)
+{
+    return with_layer_in(what_if, row) / total_in(what_if, row) - 1;
+}
+
+/* From the tables, `scale` times. */
+static told of_tables(const char *table, const char *name, row_number *in, double scale)
+{
+    const wt_table *what_if = wt_result_find(result, "what_if");
+    const wt_estimate e = key_estimate(wt_result_find(result, table), name);
+    const double half = e.standard_error > 0 ? 1.959964 * e.standard_error : (double)NAN;
+    told t = {scale * e.value, scale * (e.value - half), scale * (e.value + half),
+              scale * in(what_if, 0), scale * in(what_if, 0)};
+    for (size_t i = 1; i < wt_table_n_rows(what_if); i++) {
+        t.model_low = fmin(t.model_low, scale * in(what_if, i));
+        t.model_high = fmax(t.model_high, scale * in(what_if, i));
+    }
+    return t;
+}
+
+static told of_ratio(void)
+{
+    const wt_table *c = wt_result_find(result, "comparison");
+    return (told){cell(c, 0, "ratio"), cell(c, 0, "ratio_low"), cell(c, 0, "ratio_high"),
+                  (double)NAN, (double)NAN};
+}
+
+/* To three digits, of a percentage to one per cent. */
+static void near_told(const char *text, double found, double expected, bool percent)
+{
+    if (!(fabs(found - expected) <= (percent ? 0.51 : 0.0051 * fabs(expected))))
+        fail_msg("%s: %g, expected %g", text, found, expected);
+}
+
+/* Value, interval and range where a text tells them behind the words. */
+static void check_told(const char *text, const char *words, told t, bool percent)
+{
+    static const char interval[] = "95 % interval ", choices[] = "over all choices of the model";
+    const char *at = text != NULL ? strstr(text, words) : NULL;
+    if (at == NULL)
+        fail_msg("\"%s\" is not in: %s", words, text != NULL ? text : "nothing");
+    near_told(text, number(at + strlen(words)), t.value, percent);
+    if (isnan(t.low)) {
+        assert_non_null(strstr(at, "(error not known"));
+    } else {
+        at = strstr(at, interval);
+        if (at == NULL)
+            fail_msg("no interval behind \"%s\": %s", words, text);
+        near_told(text, number(at + strlen(interval)), t.low, percent);
+        near_told(text, number(strstr(at, " to ") + 4), t.high, percent);
+    }
+    const char *range = strstr(at, choices);
+    if (isnan(t.model_low))
+        return;
+    assert_non_null(range);
+    if (range[strlen(choices)] == ' ' && range[strlen(choices) + 1] != 'w') { /* it follows */
+        near_told(text, number(range + strlen(choices) + 1), t.model_low, percent);
+        near_told(text, number(strstr(range, ") to ") + 5), t.model_high, percent);
+        return;
+    }
+    while (range[-1] != ';')
+        range--;
+    near_told(text, number(range + 1), t.model_low, percent);
+    near_told(text, number(strstr(range, " to ") + 4), t.model_high, percent);
+}
+
+static double headline(const wt_table *headlines, const char *name, const char *suffix)
+{
+    char full[128];
+    snprintf(full, sizeof full, "%s%s", name, suffix);
+    for (size_t i = 0; i < wt_table_n_rows(headlines); i++)
+        if (strcmp(cell_text(headlines, i, "key"), full) == 0)
+            return cell(headlines, i, "value");
+    fail_msg("no headline %s", full);
+    return (double)NAN;
+}
+
+/* The row of `summary` has the same numbers without rounding. */
+static void check_row(const wt_table *headlines, const char *name, told t, double scale)
+{
+    assert_near(scale * headline(headlines, name, ""), t.value, 1e-12);
+    if (!isnan(t.low)) {
+        assert_near(scale * headline(headlines, name, "_low"), t.low, 1e-6);
+        assert_near(scale * headline(headlines, name, "_high"), t.high, 1e-6);
+    }
+    if (isnan(t.model_low))
+        return;
+    assert_near(scale * headline(headlines, name, "_model_low"), t.model_low, 1e-12);
+    assert_near(scale * headline(headlines, name, "_model_high"), t.model_high, 1e-12);
+}
+
+static const char *short_line(const char *begins)
+{
+    const wt_table *answer = wt_result_find(result, "answer");
+    for (size_t i = 0; i < 3; i++)
+        if (strncmp(cell_text(answer, i, "answer"), begins, strlen(begins)) == 0 &&
+            strcmp(cell_text(answer, i, "kind"), "short") == 0)
+            return cell_text(answer, i, "answer");
+    fail_msg("the answer does not begin with %s", begins);
+    return NULL;
+}
+
+/* Softer, stiffer; less, more, or open: as the numbers have it. */
+static void check_signs(const char *sentence)
+{
+    const told ratio = of_ratio();
+    const char *layer = short_line("Layer (measured): ");
+    assert_true((strstr(layer, "softer") != NULL) == (ratio.high < 1));
+    assert_true((strstr(layer, "stiffer") != NULL) == (ratio.low > 1));
+    assert_true((strstr(sentence, "softer") != NULL) == (ratio.high < 1));
+    assert_true((strstr(sentence, "stiffer") != NULL) == (ratio.low > 1));
+    const told t = of_tables("friction", "relative_change_at_reference", change_in, 1);
+    const bool less = t.high < 0 && t.model_high<0, more = t.low> 0 && t.model_low > 0;
+    const char *words = less   ? "less friction with the layer"
+                        : more ? "more friction with the layer"
+                               : "open whether the layer lowers or raises friction";
+    static const char friction[] = "Friction (predicted): ";
+    const char *line = short_line(friction) + strlen(friction);
+    assert_int_equal(strncmp(line, words, strlen(words)), 0); /* the line begins with it */
+    assert_non_null(strstr(sentence, words));
+    assert_true(says("friction", words + 1)); /* with a capital */
+}
+
+static void check_told_alike(void)
+{
+    static const char change[] = "relative_change_at_reference",
+                      open[] = "friction: ", known[] = "friction with the layer: ";
+    char sentence[4096];
+    wt_table *headlines = NULL;
+    assert_true(wt_result_sentence(result, sentence, sizeof sentence) < sizeof sentence);
+    assert_int_equal(wt_result_headlines(result, &headlines, NULL), WT_OK);
+    const told ratio = of_ratio(),
+               thickness = of_tables("layer", "balance_thickness", thickness_in, 1),
+               total = of_tables("friction", "friction_at_reference", total_in, 1),
+               hysteresis = of_tables("friction", "hysteresis_at_reference", hysteresis_in, 1),
+               with = of_tables("friction", "friction_with_layer_at_reference", with_layer_in, 1),
+               percent = of_tables("friction", change, change_in, 100);
+    check_told(sentence, "E_track/E_bulk = ", ratio, false);
+    check_told(short_line("Layer (measured): "), "E_track/E_bulk = ", ratio, false);
+    check_told(after("layer", ""), "E_track/E_bulk = ", ratio, false);
+    check_row(headlines, "modulus_ratio", ratio, 1);
+    check_told(sentence, "layer of ", thickness, false);
+    check_told(short_line("Thickness (predicted): "), "layer of ", thickness, false);
+    check_told(after("thickness", ""), "", thickness, false);
+    check_row(headlines, "balance_thickness", thickness, 1);
+    check_told(sentence, "mu = ", total, false);
+    check_told(after("friction", "Without a layer, "), "mu = ", total, false);
+    check_row(headlines, "friction_at_reference", total, 1);
+    check_told(sentence, "hysteresis ", hysteresis, false);
+    check_told(after("friction", "Without a layer, "), "hysteresis ", hysteresis, false);
+    check_told(sentence, "with layer ", with, false);
+    check_told(after("friction", "With the layer "), "mu = ", with, false);
+    check_row(headlines, "friction_with_layer_at_reference", with, 1);
+    const char *words = percent.model_low < 0 && percent.model_high > 0 ? open : known;
+    check_told(sentence, words, percent, true);
+    check_told(short_line("Friction (predicted): "), words, percent, true);
+    check_row(headlines, change, percent, 100);
+    check_signs(sentence);
+    wt_table_free(headlines);
+}
+
+static void run_bundled(void)
+{
+    wt_case *c = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 16;
+    wt_result_free(result);
+    result = NULL;
+    if (wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &c, &err) != WT_OK ||
+        wt_run(c, &options, NULL, &result, NULL, &err) != WT_OK)
+        fail_msg("%s: %s %s", err.place, err.message, err.found);
+    wt_case_free(c);
+}
+
+static void test_told_alike(void **state)
+{
+    (void)state;
+    run_bundled();
+    check_told_alike();
+    /* a choice of the model turns the sign round, which no sentence hides */
+    assert_non_null(strstr(short_line("Friction (predicted): "), "Friction (predicted): open"));
+    static const double ratios[] = {0.6, 1.5};
+    for (int i = 0; i < 2; i++) {
+        run(ratios[i], 0.03,
+            INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
+        check_told_alike();
+    }
+}
+
+/* Five caveats at most are told, the others folded behind them, and what was not asked comes last.
+ */
+static void test_caveats(void **state)
+{
+    (void)state;
+    run(0.96, 0.1, INDENTATION(FILES("b"), FILES("t")) SLIDING COMPARE);
+    const wt_table *answer = wt_result_find(result, "answer");
+    size_t open = 0, folded = 0, last = wt_table_n_rows(answer) - 1;
+    for (size_t i = 0; i <= last; i++) {
+        const bool now = strcmp(cell_text(answer, i, "kind"), "folded") == 0;
+        open += strcmp(cell_text(answer, i, "kind"), "caveat") == 0;
+        folded += now;
+        assert_true(folded == 0 || open == 5);
+    }
+    assert_true(open > 0 && open <= 5);
+    assert_string_equal(cell_text(answer, last, "question"), "What was not asked?");
+    (void)after("thickness", "How thick is it? Not asked: the case has no layer parameters");
+    (void)after("friction", "What the layer does to friction. Not asked: the case has no layer");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_one_spot),
-        cmocka_unit_test(test_sliding),
-        cmocka_unit_test(test_disagreement),
+        cmocka_unit_test(test_verdicts),   cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_sliding),    cmocka_unit_test(test_disagreement),
+        cmocka_unit_test(test_told_alike), cmocka_unit_test(test_caveats),
     };
     return cmocka_run_group_tests_name("answers of known truth", tests, make_folder, clean);
 }

@@ -211,6 +211,138 @@ static void test_prony(void **state)
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
 }
 
+/* ---- what the tables say of one another ------------------------------------------------------ */
+
+/* Points, shifts, law and series are of one fit: each follows from the others. */
+static void test_relations(void **state)
+{
+    (void)state;
+    const wt_table *shifts = tables.shift_factors, *curve = tables.master_curve,
+                   *prony = tables.prony;
+    const double c1 = key_estimate(shifts, "wlf_c1").value,
+                 c2 = key_estimate(shifts, "wlf_c2").value,
+                 offset = key_estimate(shifts, "offset").value;
+    double squares = 0, lowest = (double)INFINITY, highest = 0, on_band = 0;
+    for (size_t i = 0; i < ISOTHERMS; i++) {
+        const double step = cell(shifts, i, "temperature") - REFERENCE,
+                     law = -c1 * step / (c2 + step), off = cell(shifts, i, "log_a") - offset - law;
+        assert_near_abs(cell(shifts, i, "law_log_a"), law, 2e-3);
+        assert_near(cell(shifts, i, "log_a") -
+                        1.959963985 * cell(shifts, i, "log_a_standard_error"),
+                    cell(shifts, i, "log_a_low"), 0.02);
+        squares += off * off;
+    }
+    assert_near(key_estimate(shifts, "law_rms").value, sqrt(squares / ISOTHERMS), 1e-6);
+    for (size_t row = 0; row < wt_table_n_rows(curve); row++) {
+        const double omega = cell(curve, row, "angular_frequency");
+        size_t i = 0;
+        while (fabs(cell(shifts, i, "temperature") - cell(curve, row, "temperature")) > 1e-6)
+            i++;
+        const double a = cell(shifts, i, "log_a") - offset, b = cell(shifts, i, "log_b");
+        assert_near(omega, cell(curve, row, "own_frequency") * pow(10, a), 1e-9);
+        assert_near(cell(curve, row, "storage_modulus"),
+                    cell(curve, row, "own_storage") * pow(10, b), 1e-9);
+        assert_near(cell(curve, row, "loss_modulus"), cell(curve, row, "own_loss") * pow(10, b),
+                    1e-9);
+        assert_near(cell(curve, row, "loss_factor"),
+                    cell(curve, row, "own_loss") / cell(curve, row, "own_storage"), 1e-9);
+        double sum[2] = {key_estimate(prony, "equilibrium_modulus").value, 0};
+        for (size_t k = 0; k < wt_table_n_rows(prony); k++) {
+            const double z = omega * cell(prony, k, "relaxation_time"),
+                         m = cell(prony, k, "modulus");
+            sum[0] += m * z * z / (1 + z * z);
+            sum[1] += m * z / (1 + z * z);
+        }
+        assert_near(cell(curve, row, "fitted_storage"), sum[0], 3e-3);
+        assert_near(cell(curve, row, "fitted_loss"), sum[1], 3e-3);
+        static const char *const fitted[] = {"fitted_storage", "fitted_loss", "fitted_loss_factor"};
+        for (size_t q = 0; q < 3; q++) { /* symmetrical in the logarithm, and worth stating */
+            char low[40], high[40];
+            snprintf(low, sizeof low, "%s_low", fitted[q]);
+            snprintf(high, sizeof high, "%s_high", fitted[q]);
+            const double up = log(cell(curve, row, high) / cell(curve, row, fitted[q])),
+                         down = log(cell(curve, row, fitted[q]) / cell(curve, row, low));
+            assert_near(up, down, 0.4);
+            assert_true(up > 1e-4 && up < 0.1);
+            on_band += up;
+        }
+        lowest = fmin(lowest, omega);
+        highest = fmax(highest, omega);
+    }
+    assert_true(on_band / (3.0 * ISOTHERMS * POINTS) < 0.02);
+    assert_near(key_estimate(prony, "frequency_min").value, lowest, 1e-9);
+    assert_near(key_estimate(prony, "frequency_max").value, highest, 1e-9);
+    assert_near(atof(wt_table_key(prony, "rms_storage")), NOISE, 0.2);
+    assert_near(atof(wt_table_key(prony, "rms_loss")), NOISE, 0.2);
+    for (size_t k = 0; k + 1 < wt_table_n_rows(prony); k++)
+        assert_near(cell(prony, k + 1, "relaxation_time") / cell(prony, k, "relaxation_time"),
+                    cell(prony, 1, "relaxation_time") / cell(prony, 0, "relaxation_time"), 1e-6);
+}
+
+/* The density is that of the series: a term over its width in ln tau, where it is measured. */
+static void test_relaxation_spectrum(void **state)
+{
+    (void)state;
+    const wt_table *prony = tables.prony, *t = tables.relaxation_spectrum;
+    const double width = log(cell(prony, 1, "relaxation_time") / cell(prony, 0, "relaxation_time"));
+    const double first = key_estimate(prony, "frequency_min").value,
+                 last = key_estimate(prony, "frequency_max").value;
+    size_t row = 0;
+    for (size_t k = 0; k < wt_table_n_rows(prony); k++) {
+        const double tau = cell(prony, k, "relaxation_time");
+        if (tau * first > 1 || tau * last < 1)
+            continue;
+        const double density = cell(t, row, "density");
+        assert_near(cell(t, row, "relaxation_time"), tau, 1e-9);
+        assert_near(density, cell(prony, k, "modulus") / width, 0.02);
+        assert_true(cell(t, row, "density_low") < density &&
+                    cell(t, row, "density_high") > density);
+        row++;
+    }
+    assert_int_equal(row, wt_table_n_rows(t));
+    assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
+    assert_string_equal(wt_table_key(t, "deformation"), "tension");
+}
+
+/* The draws scatter as the errors say that stand beside the constants. */
+static void test_draws(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.material_draws;
+    const wt_estimate c[] = {key_estimate(tables.shift_factors, "wlf_c1"),
+                             key_estimate(tables.shift_factors, "wlf_c2"),
+                             key_estimate(tables.prony, "equilibrium_modulus")};
+    static const char *const columns[] = {"wlf_c1", "wlf_c2", "equilibrium_modulus"};
+    double sum[3] = {0}, squares[3] = {0}, product = 0, n = 0;
+    for (size_t row = 0; row < wt_table_n_rows(t); row++) {
+        if (isnan(cell(t, row, "wlf_c1")))
+            continue;
+        double off[3];
+        for (size_t k = 0; k < 3; k++) {
+            off[k] = (cell(t, row, columns[k]) - c[k].value) / c[k].standard_error;
+            sum[k] += off[k];
+            squares[k] += off[k] * off[k];
+        }
+        product += off[0] * off[1];
+        n++;
+    }
+    assert_near(n, 200, 0);
+    for (size_t k = 0; k < 2; k++) {
+        assert_near_abs(sum[k] / n, 0, 0.3);
+        assert_near(sqrt(squares[k] / n), 1, 0.2);
+    }
+    if (isfinite(c[2].standard_error))
+        assert_near(sqrt(squares[2] / n), 1, 0.3);
+    assert_near(product / sqrt(squares[0] * squares[1]),
+                atof(wt_table_key(tables.shift_factors, "wlf_correlation")), 0.05);
+    /* of the slope, by the derivative of the law at its reference: c1 / c2 */
+    const double r1 = c[0].standard_error / c[0].value, r2 = c[1].standard_error / c[1].value,
+                 rho = atof(wt_table_key(tables.shift_factors, "wlf_correlation"));
+    const wt_estimate slope = key_estimate(tables.shift_factors, "law_slope");
+    assert_near(slope.standard_error / fabs(slope.value),
+                sqrt(r1 * r1 + r2 * r2 - 2 * rho * r1 * r2), 0.3);
+}
+
 /* ---- the rubber ------------------------------------------------------------------------------ */
 
 /* What the later stages get, and get again from the tables. */
@@ -319,9 +451,15 @@ static void test_shift_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shift_factors), cmocka_unit_test(test_law),
-        cmocka_unit_test(test_master_curve),  cmocka_unit_test(test_prony),
-        cmocka_unit_test(test_rubber),        cmocka_unit_test(test_at),
+        cmocka_unit_test(test_shift_factors),
+        cmocka_unit_test(test_law),
+        cmocka_unit_test(test_master_curve),
+        cmocka_unit_test(test_prony),
+        cmocka_unit_test(test_relations),
+        cmocka_unit_test(test_relaxation_spectrum),
+        cmocka_unit_test(test_draws),
+        cmocka_unit_test(test_rubber),
+        cmocka_unit_test(test_at),
         cmocka_unit_test(test_shift_error),
     };
     return cmocka_run_group_tests_name("DMA of known truth", tests, make, clean);

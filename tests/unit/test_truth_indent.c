@@ -208,12 +208,120 @@ static void test_budget(void **state)
     wt_table_free(budget);
 }
 
+/* ---- rubber with memory -----------------------------------------------------------------------
+ */
+
+enum { MEMORY_N = 800 };
+static const double soft = 2e6, fading = 3e6, fade_time = 0.05, memory_k = 2, memory_end = 800e-9,
+                    memory_free = 300e-9;
+
+/* Of a series of one term: the elastic forces of a paraboloid over the modulus, step by step with
+ * what fades, against a lever. depth, force: [MEMORY_N]. */
+static void remember(double factor, double *depth, double *force)
+{
+    const double step = 1e-3, g = 4.0 / 3 / 0.75 * sqrt(HERTZ_RADIUS),
+                 decay = exp(-step / fade_time), mean = fade_time / step * (1 - decay);
+    double faded = 0, before = 0;
+    for (int i = 0; i < MEMORY_N; i++) {
+        const double beyond = memory_end * i / (MEMORY_N - 1) - memory_free;
+        double low = 0, high = fmax(beyond, 0), now = 0;
+        for (int round = 0; round < 80; round++) {
+            depth[i] = 0.5 * (low + high);
+            now = g * pow(depth[i], 1.5);
+            force[i] = factor * (soft * now + fading * (faded * decay + mean * (now - before)));
+            *(memory_k * (beyond - depth[i]) > force[i] ? &low : &high) = depth[i];
+        }
+        if (beyond <= 0)
+            depth[i] = force[i] = now = 0;
+        faded = faded * decay + mean * (now - before);
+        before = now;
+    }
+}
+
+/* The factor on the spectrum, and the fitted force that remembers, whichever way the height goes.
+ */
+static void test_memory(void **state)
+{
+    (void)state;
+    static const double factor = 0.7;
+    static double depth[MEMORY_N], force[MEMORY_N];
+    double tau[] = {fade_time}, term[] = {fading};
+    const wt_rubber rubber = {.prony = {.deformation = WT_TENSION,
+                                        .reference_temperature = 293.15,
+                                        .equilibrium_modulus = soft,
+                                        .n = 1,
+                                        .relaxation_time = tau,
+                                        .modulus = term,
+                                        .frequency_min = 1e-3,
+                                        .frequency_max = 1e6},
+                              .poisson_ratio = 0.5};
+    remember(factor, depth, force);
+    for (int way = -1; way <= 1; way += 2) {
+        char own[] = "/tmp/weartrack-memory-XXXXXX";
+        const char *const patterns[] = {own};
+        wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+        wt_indent_job job = wt_indent_job_defaults();
+        wt_job common = wt_job_defaults();
+        wt_indent_tables known = {0};
+        wt_error err = WT_ERROR_INIT;
+        uint64_t seed = 12;
+        FILE *out = truth_file(own);
+        fprintf(out,
+                "## table: force_curve/0\n"
+                "## spring_constant: %.9g standard_error=0 numerical_error=0 unit=N/m\n"
+                "## curve: 0\n# segment[text]\theight[m]\tforce[N]\ttime[s]\n",
+                memory_k);
+        for (int i = 0; i < MEMORY_N; i++)
+            fprintf(out, "approach\t%.17g\t%.17g\t%.17g\n",
+                    3e-6 + way * memory_end * i / (MEMORY_N - 1),
+                    force[i] + 0.2e-9 * truth_normal(&seed), 1e-3 * i);
+        fputs("##\n", out);
+        fclose(out);
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.group = "track";
+        job.curves = true;
+        job.rubber = &rubber;
+        assert_int_equal(wt_tip_parse(HERTZ_TIP, &job.tip, NULL), WT_OK);
+        if (wt_indent_group(&job, &common, &known, &err) != WT_OK)
+            fail_msg("%s: %s", err.place, err.message);
+        const wt_table *t = known.indentation, *fi = known.force_indentation,
+                       *fd = known.force_displacement;
+        assert_string_equal(cell_text(t, 0, "verdict"), "accepted");
+        assert_near_abs(cell(t, 0, "spectrum_factor"), factor,
+                        4 * cell(t, 0, "spectrum_factor_standard_error") + 0.005);
+        assert_true(cell(t, 0, "spectrum_factor_standard_error") < 0.02);
+        const double load = 1e-3 * (MEMORY_N - 1) * (1 - memory_free / memory_end),
+                     z = fade_time / load;
+        assert_near(cell(t, 0, "load_time"), load, 0.01);
+        assert_near(cell(t, 0, "equivalent_frequency"), 1 / load, 0.01);
+        assert_near(cell(t, 0, "modulus") / cell(t, 0, "spectrum_factor"),
+                    hypot(soft + fading * z * z / (1 + z * z), fading * z / (1 + z * z)), 0.01);
+        const size_t n = wt_table_n_rows(fi), first = MEMORY_N - n;
+        double off = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double truth_force = force[first + i];
+            assert_near_abs(cell(fi, i, "indentation"), depth[first + i], 2e-9);
+            assert_near_abs(cell(fi, i, "force"), truth_force, 1.5e-9);
+            assert_near_abs(cell(fi, i, "fitted_force"), truth_force, 1e-9 + 0.015 * truth_force);
+            off += (cell(fi, i, "fitted_force") - truth_force) / force[MEMORY_N - 1];
+        }
+        assert_true(fabs(off / (double)n) < 1e-3);
+        for (size_t i = 0; i < wt_table_n_rows(fd); i += 19)
+            assert_near_abs(cell(fd, i, "displacement"),
+                            memory_end * (double)i / (MEMORY_N - 1) - memory_free, 2e-9);
+        wt_indent_tables_clear(&known);
+        unlink(own);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_columns),  cmocka_unit_test(test_known_contact),
         cmocka_unit_test(test_rejected), cmocka_unit_test(test_curves),
-        cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_budget),   cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("indentation of known truth", tests, indent, clean);
 }

@@ -40,9 +40,9 @@
     X(SENSITIVITY_UNITS, "n_units", "files, or curves where fewer than three files are", NUMBER,   \
       LABEL("Units"))                                                                              \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_VALUE, "sensitivity", "deflection sensitivity",             \
-                        SI(SENSITIVITY), "Deflection sensitivity")                                 \
+                        SI(SENSITIVITY), "Deflection sensitivity", .member = NULL)                 \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_FACTOR, "factor", "sensitivity over that of the file",      \
-                        NUMBER, "Over that of the file")                                           \
+                        NUMBER, "Over that of the file", .member = NULL)                           \
     X(SENSITIVITY_SCATTER, "scatter", "standard deviation of a unit, of the sensitivity", NUMBER,  \
       LABEL("Scatter"), DIGITS(2), SPARSE)                                                         \
     X(SENSITIVITY_WAYS_ERROR, "ways_error",                                                        \
@@ -50,7 +50,7 @@
       NUMBER, LABEL("Of it by the ways"), DIGITS(2), SPARSE)                                       \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_CHANGE, "slope_change",                                     \
                         "change of the slope from end to end of the part, of the slope", NUMBER,   \
-                        "Change of the slope")                                                     \
+                        "Change of the slope", .member = NULL)                                     \
     X(SENSITIVITY_SHARE, "surface_share",                                                          \
       "share of the sensitivity that a surface like a sphere's contact may add, by the upper end " \
       "of the change of the slope",                                                                \
@@ -78,13 +78,13 @@
 #define THERMAL_COLUMNS(X)                                                                         \
     X(THERMAL_FILE, "file", "file of the spectrum", TEXT, LABEL("File"))                           \
     NUMBER_AND_INTERVAL(X, THERMAL_SPRING_CONSTANT, "spring_constant", "spring constant",          \
-                        SI(SPRING_CONSTANT), "Spring constant")                                    \
+                        SI(SPRING_CONSTANT), "Spring constant", .member = NULL)                    \
     X(THERMAL_FIT_ERROR, "fit_error", "standard error by the scatter of the spectrum, of it",      \
       NUMBER, LABEL("Of it by the fit"), DIGITS(2), SPARSE)                                        \
     NUMBER_AND_INTERVAL(X, THERMAL_RESONANCE, "resonance", "resonance", SI(FREQUENCY),             \
-                        "Resonance")                                                               \
+                        "Resonance", .member = NULL)                                               \
     NUMBER_AND_INTERVAL(X, THERMAL_QUALITY, "quality_factor", "quality factor", NUMBER,            \
-                        "Quality factor")                                                          \
+                        "Quality factor", .member = NULL)                                          \
     X(THERMAL_DEFLECTION, "deflection", "root mean square of the deflection as measured",          \
       SI(DEFLECTION), LABEL("Deflection"), SPARSE)                                                 \
     X(THERMAL_FLOOR, "floor", "density of the white floor", SI(SPECTRAL_DENSITY), SPARSE)          \

@@ -6,8 +6,8 @@
 #include "data/tables/ramp.h" /* NUMBER_AND_INTERVAL */
 
 /* A number with its error; empty where it is not known. */
-#define NUMBER_AND_ERROR(X, ID, name, words, unit, heading)                                        \
-    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), SPARSE)                           \
+#define NUMBER_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), SPARSE, __VA_ARGS__)              \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
       SPARSE)
 
@@ -22,8 +22,9 @@
       "angular frequency in the middle of those that the dwell tells", SI(ANGULAR_FREQUENCY),      \
       LABEL("Angular frequency"), SPARSE)                                                          \
     NUMBER_AND_ERROR(X, DWELL_STORAGE, "storage_modulus", "storage modulus there",                 \
-                     SI(STORAGE_MODULUS), "E′")                                                    \
-    NUMBER_AND_ERROR(X, DWELL_LOSS, "loss_modulus", "loss modulus there", SI(LOSS_MODULUS), "E″")  \
+                     SI(STORAGE_MODULUS), "E′", .member = NULL)                                    \
+    NUMBER_AND_ERROR(X, DWELL_LOSS, "loss_modulus", "loss modulus there", SI(LOSS_MODULUS), "E″",  \
+                     .member = NULL)                                                               \
     X(DWELL_MISFIT, "misfit",                                                                      \
       "mean square of what the samples are off, of the noise of the baseline; above 1 the errors " \
       "are wider by its root",                                                                     \
@@ -69,46 +70,50 @@
     X(DWELL_MODULI_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                    \
       SI(ANGULAR_FREQUENCY))                                                                       \
     COLUMN_AND_ERROR(X, DWELL_MODULI_STORAGE, "storage_modulus", "storage modulus",                \
-                     SI(STORAGE_MODULUS), "E′")                                                    \
+                     SI(STORAGE_MODULUS), "E′", .member = NULL)                                    \
     X(DWELL_MODULI_STORAGE_COMMON, "storage_modulus_common_error",                                 \
       "of its standard error, what curves of one kind share", SI(STORAGE_MODULUS))                 \
-    COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″") \
+    COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″", \
+                     .member = NULL)                                                               \
     X(DWELL_MODULI_LOSS_COMMON, "loss_modulus_common_error",                                       \
       "of its standard error, what curves of one kind share", SI(LOSS_MODULUS))
 #define DWELL_MODULI_KEYS(X)
 
 /* Those of several curves against the DMA; a group is a block. */
 #define DWELL_DMA_COLUMNS(X)                                                                       \
-    X(DWELL_DMA_GROUP, "group", "bulk or track", TEXT, LABEL("Group"))                             \
-    X(DWELL_DMA_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                       \
+    X(DWELL_DMA_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                           \
+    X(DWELL_DMA_ANGULAR_FREQUENCY, IN(mean, angular_frequency), "angular frequency",               \
       SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \
-    X(DWELL_DMA_N, "n", "curves", NUMBER, LABEL("Curves"))                                         \
+    X(DWELL_DMA_N, IN(mean, n), "curves", NUMBER, LABEL("Curves"))                                 \
     X(DWELL_DMA_STORAGE, "storage_modulus", "mean storage modulus of the dwells",                  \
-      SI(STORAGE_MODULUS), LABEL("E′"), INTERVAL(DWELL_DMA_STORAGE_LOW, DWELL_DMA_STORAGE_HIGH))   \
+      SI(STORAGE_MODULUS), SHOWS(mean.storage), LABEL("E′"),                                       \
+      INTERVAL(DWELL_DMA_STORAGE_LOW, DWELL_DMA_STORAGE_HIGH))                                     \
     INTERVAL_COLUMNS(X, DWELL_DMA_STORAGE, "storage_modulus_", SI(STORAGE_MODULUS),                \
                      LIKE(DWELL_DMA_STORAGE))                                                      \
     X(DWELL_DMA_LOSS, "loss_modulus", "mean loss modulus of the dwells", SI(LOSS_MODULUS),         \
-      LABEL("E″"), INTERVAL(DWELL_DMA_LOSS_LOW, DWELL_DMA_LOSS_HIGH))                              \
+      SHOWS(mean.loss), LABEL("E″"), INTERVAL(DWELL_DMA_LOSS_LOW, DWELL_DMA_LOSS_HIGH))            \
     INTERVAL_COLUMNS(X, DWELL_DMA_LOSS, "loss_modulus_", SI(LOSS_MODULUS), LIKE(DWELL_DMA_LOSS))   \
     NUMBER_AND_ERROR(X, DWELL_DMA_DMA_STORAGE, "dma_storage_modulus",                              \
-                     "E' of the DMA at this frequency", SI(STORAGE_MODULUS), "DMA E′")             \
+                     "E' of the DMA at this frequency", SI(STORAGE_MODULUS), "DMA E′",             \
+                     SHOWS(dma_storage))                                                           \
     NUMBER_AND_ERROR(X, DWELL_DMA_DMA_LOSS, "dma_loss_modulus",                                    \
-                     "E'' of the DMA at this frequency", SI(LOSS_MODULUS), "DMA E″")               \
-    X(DWELL_DMA_STORAGE_RATIO, "storage_ratio", "E' of the dwells over that of the DMA", NUMBER,   \
+                     "E'' of the DMA at this frequency", SI(LOSS_MODULUS), "DMA E″",               \
+                     SHOWS(dma_loss))                                                              \
+    X(DWELL_DMA_STORAGE_RATIO, AS(storage_ratio), "E' of the dwells over that of the DMA", NUMBER, \
       LABEL("E′ / DMA"), INTERVAL(DWELL_DMA_STORAGE_RATIO_LOW, DWELL_DMA_STORAGE_RATIO_HIGH),      \
       SPARSE)                                                                                      \
     INTERVAL_COLUMNS(X, DWELL_DMA_STORAGE_RATIO, "storage_ratio_", NUMBER, SPARSE)                 \
-    X(DWELL_DMA_LOSS_RATIO, "loss_ratio", "E'' of the dwells over that of the DMA", NUMBER,        \
+    X(DWELL_DMA_LOSS_RATIO, AS(loss_ratio), "E'' of the dwells over that of the DMA", NUMBER,      \
       LABEL("E″ / DMA"), INTERVAL(DWELL_DMA_LOSS_RATIO_LOW, DWELL_DMA_LOSS_RATIO_HIGH), SPARSE)    \
     INTERVAL_COLUMNS(X, DWELL_DMA_LOSS_RATIO, "loss_ratio_", NUMBER, SPARSE)                       \
-    X(DWELL_DMA_EXTRAPOLATED, "extrapolated", "1: outside the frequencies measured by DMA",        \
+    X(DWELL_DMA_EXTRAPOLATED, AS(extrapolated), "1: outside the frequencies measured by DMA",      \
       YES_NO, LABEL("Outside measured frequencies"), SPARSE)
 #define DWELL_DMA_KEYS(X)                                                                          \
-    X(DWELL_DMA_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                                   \
-    X(DWELL_DMA_KEY_TRACK_TEMPERATURE, "track_temperature", SI(TEMPERATURE), OPTIONAL)             \
-    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),         \
-      OPTIONAL)                                                                                    \
-    X(DWELL_DMA_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                      \
-    X(DWELL_DMA_KEY_TRACK_STATEMENT, "track_statement", TEXT, OPTIONAL)
+    X(DWELL_DMA_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                                 \
+    X(DWELL_DMA_KEY_TRACK_TEMPERATURE, AS(track_temperature), SI(TEMPERATURE), OPTIONAL)           \
+    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                       \
+      LABEL("No error known of"), OPTIONAL)                                                        \
+    X(DWELL_DMA_KEY_MATERIAL_STATEMENT, AS(material_statement), TEXT, OPTIONAL)                    \
+    X(DWELL_DMA_KEY_TRACK_STATEMENT, AS(track_statement), TEXT, OPTIONAL)
 
 #endif

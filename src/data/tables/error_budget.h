@@ -4,21 +4,22 @@
 #define WT_DATA_TABLES_ERROR_BUDGET_H
 
 #define ERROR_BUDGET_COLUMNS(X)                                                                    \
-    X(ERROR_BUDGET_NUMBER, "number", "the number, at the reference velocity", TEXT,                \
+    X(ERROR_BUDGET_NUMBER, AS(number), "the number, at the reference velocity", TEXT,              \
       LABEL("Number"))                                                                             \
-    X(ERROR_BUDGET_SOURCE, "source", "where the error comes from", TEXT, LABEL("Source"))          \
-    X(ERROR_BUDGET_KIND, "kind",                                                                   \
+    X(ERROR_BUDGET_SOURCE, IN(of, source), "where the error comes from", TEXT, LABEL("Source"))    \
+    X(ERROR_BUDGET_KIND, IN(of, kind),                                                             \
       "measured: one standard error by this source alone; together: by all of them; draws: "       \
       "standard error of that by the number of replicates; numerical: a bound; model: half the "   \
       "range of the what-if table",                                                                \
       TEXT, LABEL("Kind"))                                                                         \
     X(ERROR_BUDGET_RELATIVE_ERROR, "relative_error", "the error over the number", NUMBER,          \
-      LABEL("Relative error"))                                                                     \
-    X(ERROR_BUDGET_SHARE, "share", "of the variance by all that is measured or stated", NUMBER,    \
-      LABEL("Share of the variance"))                                                              \
-    X(ERROR_BUDGET_SECONDS, "seconds", "elapsed time to know it, of all numbers together",         \
+      SHOWS(of.error), LABEL("Relative error"))                                                    \
+    X(ERROR_BUDGET_SHARE, IN(of, share), "of the variance by all that is measured or stated",      \
+      NUMBER, LABEL("Share of the variance"))                                                      \
+    X(ERROR_BUDGET_SECONDS, IN(of, seconds), "elapsed time to know it, of all numbers together",   \
       SI(TIME), LABEL("Time"))                                                                     \
-    X(ERROR_BUDGET_REMEDY, "remedy", "what makes it smaller", TEXT, LABEL("What makes it smaller"))
+    X(ERROR_BUDGET_REMEDY, IN(of, remedy), "what makes it smaller", TEXT,                          \
+      LABEL("What makes it smaller"))
 
 #define ERROR_BUDGET_KEYS(X)                                                                       \
     X(ERROR_BUDGET_KEY_HYSTERESIS, "hysteresis_advice", TEXT, LABEL("Hysteresis part"), OPTIONAL)  \

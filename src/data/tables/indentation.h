@@ -5,87 +5,96 @@
 
 /* A table written by hand needs the verdicts and the moduli only. */
 #define INDENTATION_COLUMNS(X)                                                                     \
-    X(INDENTATION_FILE, "file", "file of the curve", TEXT, LABEL("File"), OPTIONAL)                \
-    X(INDENTATION_CURVE, "curve", "number of the curve in its file", NUMBER, LABEL("Curve"),       \
+    X(INDENTATION_FILE, AS(file), "file of the curve", TEXT, LABEL("File"), OPTIONAL)              \
+    X(INDENTATION_CURVE, AS(curve), "number of the curve in its file", NUMBER, LABEL("Curve"),     \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_SPOT, "spot", "place on the sample; curves of one spot are not independent",     \
+    X(INDENTATION_SPOT, AS(spot), "place on the sample; curves of one spot are not independent",   \
       TEXT, LABEL("Spot"), OPTIONAL)                                                               \
-    X(INDENTATION_X, "x", "lateral position x", SI(POSITION_X), OPTIONAL)                          \
-    X(INDENTATION_Y, "y", "lateral position y", SI(POSITION_Y), OPTIONAL)                          \
-    X(INDENTATION_VERDICT, "verdict", "accepted, or why not", TEXT)                                \
-    X(INDENTATION_REASON, "reason", "the verdict with its numbers", TEXT, LABEL("Reason"),         \
+    X(INDENTATION_X, AS(x), "lateral position x", SI(POSITION_X), OPTIONAL)                        \
+    X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
+    X(INDENTATION_VERDICT, AS(verdict), "accepted, or why not", TEXT)                              \
+    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_MODULUS, "modulus", "Young's modulus", SI(MODULUS),                              \
+    X(INDENTATION_MODULUS, IN(fit, modulus), "Young's modulus", SI(MODULUS),                       \
       STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
     X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \
       "standard error of the modulus", SI(MODULUS), OPTIONAL)                                      \
-    X(INDENTATION_CONTACT_POINT, "contact_point", "tip position at contact", SI(LENGTH),           \
+    X(INDENTATION_CONTACT_POINT, IN(fit, contact_point), "tip position at contact", SI(LENGTH),    \
       STANDARD_ERROR(INDENTATION_CONTACT_POINT), OPTIONAL)                                         \
     X(INDENTATION_CONTACT_POINT_STANDARD_ERROR, "contact_point_standard_error",                    \
       "standard error of the contact point", SI(LENGTH), OPTIONAL)                                 \
     X(INDENTATION_CONTACT_THRESHOLD, "contact_threshold",                                          \
-      "contact by the threshold of the baseline, less contact_point", SI(LENGTH), OPTIONAL)        \
+      "contact by the threshold of the baseline, less contact_point", SI(LENGTH),                  \
+      SHOWS(fit.contact_by[WT_CONTACT_THRESHOLD]), OPTIONAL)                                       \
     X(INDENTATION_CONTACT_VARIANCES, "contact_variances",                                          \
-      "contact by the ratio of variances, less contact_point", SI(LENGTH), OPTIONAL)               \
+      "contact by the ratio of variances, less contact_point", SI(LENGTH),                         \
+      SHOWS(fit.contact_by[WT_CONTACT_VARIANCES]), OPTIONAL)                                       \
     X(INDENTATION_CONTACT_LINES, "contact_lines",                                                  \
-      "contact by the meeting of two lines, less contact_point", SI(LENGTH), OPTIONAL)             \
+      "contact by the meeting of two lines, less contact_point", SI(LENGTH),                       \
+      SHOWS(fit.contact_by[WT_CONTACT_LINES]), OPTIONAL)                                           \
     X(INDENTATION_CONTACT_DIRECT_PATH, "contact_direct_path",                                      \
-      "contact by the distance from the direct path, less contact_point", SI(LENGTH), OPTIONAL)    \
+      "contact by the distance from the direct path, less contact_point", SI(LENGTH),              \
+      SHOWS(fit.contact_by[WT_CONTACT_DIRECT_PATH]), OPTIONAL)                                     \
     X(INDENTATION_CONTACT_GOODNESS_OF_FIT, "contact_goodness_of_fit",                              \
-      "contact by the goodness of fit, less contact_point", SI(LENGTH), OPTIONAL)                  \
-    X(INDENTATION_BASELINE_OFFSET, "baseline_offset", "force of the baseline at contact",          \
+      "contact by the goodness of fit, less contact_point", SI(LENGTH),                            \
+      SHOWS(fit.contact_by[WT_CONTACT_GOODNESS_OF_FIT]), OPTIONAL)                                 \
+    X(INDENTATION_BASELINE_OFFSET, IN(fit, baseline_offset), "force of the baseline at contact",   \
       SI(FORCE), OPTIONAL)                                                                         \
-    X(INDENTATION_BASELINE_TILT, "baseline_tilt", "slope of the baseline", UNIT("N/m"), OPTIONAL)  \
-    X(INDENTATION_NOISE, "noise", "standard deviation of the baseline residual", SI(FORCE),        \
+    X(INDENTATION_BASELINE_TILT, IN(fit, baseline_tilt), "slope of the baseline", UNIT("N/m"),     \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_LACK_OF_FIT, "lack_of_fit",                                                      \
+    X(INDENTATION_NOISE, IN(fit, noise), "standard deviation of the baseline residual", SI(FORCE), \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_LACK_OF_FIT, IN(fit, lack_of_fit),                                               \
       "slow residual in contact over what the noise of the baseline explains", NUMBER, OPTIONAL)   \
-    X(INDENTATION_LACK_OF_FIT_CHANCE, "lack_of_fit_chance", "chance of more by noise alone",       \
-      NUMBER, OPTIONAL)                                                                            \
-    X(INDENTATION_BASELINE_CHANCE, "baseline_chance",                                              \
+    X(INDENTATION_LACK_OF_FIT_CHANCE, IN(fit, lack_of_fit_chance),                                 \
+      "chance of more by noise alone", NUMBER, OPTIONAL)                                           \
+    X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_chance),                                       \
       "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
-    X(INDENTATION_BEND_SHIFT, "bend_shift",                                                        \
+    X(INDENTATION_BEND_SHIFT, IN(fit, bend_shift),                                                 \
       "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
       SI(MODULUS), OPTIONAL)                                                                       \
-    X(INDENTATION_INTERFERENCE_AMPLITUDE, "interference_amplitude",                                \
+    X(INDENTATION_INTERFERENCE_AMPLITUDE, IN(fit, interference_amplitude),                         \
       "amplitude of a sine that the baseline shows, fitted with the modulus; 0: none", SI(FORCE),  \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_INTERFERENCE_PERIOD, "interference_period", "its period", SI(LENGTH), OPTIONAL)  \
-    X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
-    X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation in the fit",            \
+    X(INDENTATION_INTERFERENCE_PERIOD, IN(fit, interference_period), "its period", SI(LENGTH),     \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MAX_FORCE, IN(fit, max_force), "largest force above the baseline", SI(FORCE),    \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MAX_INDENTATION, IN(fit, max_indentation), "largest indentation in the fit",     \
       SI(INDENTATION), OPTIONAL)                                                                   \
-    X(INDENTATION_FITTED_FROM, "fitted_from",                                                      \
+    X(INDENTATION_FITTED_FROM, IN(fit, fitted_from),                                               \
       "indentation at which the range of the fit begins; 0: at contact", SI(INDENTATION),          \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_ADHESION_FORCE, "adhesion_force", "largest pull before contact", SI(FORCE),      \
-      OPTIONAL)                                                                                    \
-    X(INDENTATION_WORK_OF_ADHESION, "work_of_adhesion", "work of adhesion of the approach",        \
+    X(INDENTATION_ADHESION_FORCE, IN(fit, adhesion_force), "largest pull before contact",          \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_WORK_OF_ADHESION, IN(fit, work_of_adhesion), "work of adhesion of the approach", \
       UNIT("J/m^2"), STANDARD_ERROR(INDENTATION_WORK_OF_ADHESION), OPTIONAL)                       \
     X(INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR, "work_of_adhesion_standard_error",              \
       "standard error of the work of adhesion", UNIT("J/m^2"), OPTIONAL)                           \
-    X(INDENTATION_PULL_OFF_FORCE, "pull_off_force", "largest pull of the retract", SI(FORCE),      \
-      OPTIONAL)                                                                                    \
-    X(INDENTATION_PULL_OFF_WORK, "pull_off_work",                                                  \
+    X(INDENTATION_PULL_OFF_FORCE, IN(fit, pull_off_force), "largest pull of the retract",          \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_PULL_OFF_WORK, IN(fit, pull_off_work),                                           \
       "work of adhesion of the retract, an upper bound", UNIT("J/m^2"), OPTIONAL)                  \
-    X(INDENTATION_TABOR_NUMBER, "tabor_number",                                                    \
+    X(INDENTATION_TABOR_NUMBER, IN(fit, tabor_number),                                             \
       "Tabor number: above 5 the adhesion is that of the fit", NUMBER, OPTIONAL)                   \
-    X(INDENTATION_LOSS, "loss", "share of the work that the retract does not give back", NUMBER,   \
-      OPTIONAL)                                                                                    \
-    X(INDENTATION_LOSS_BIAS, "loss_bias",                                                          \
+    X(INDENTATION_LOSS, IN(fit, loss), "share of the work that the retract does not give back",    \
+      NUMBER, OPTIONAL)                                                                            \
+    X(INDENTATION_LOSS_BIAS, IN(fit, loss_bias),                                                   \
       "what a fit without memory has more than |E*| at 1/load_time, of the modulus", NUMBER,       \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_PIEZO_RATE, "piezo_rate", "rate of the piezo", SI(VELOCITY), OPTIONAL)           \
-    X(INDENTATION_RATE, "indentation_rate", "mean rate of indentation", SI(VELOCITY), OPTIONAL)    \
-    X(INDENTATION_LOAD_TIME, "load_time", "time from contact to the end of what is fitted",        \
+    X(INDENTATION_PIEZO_RATE, IN(fit, piezo_rate), "rate of the piezo", SI(VELOCITY), OPTIONAL)    \
+    X(INDENTATION_RATE, IN(fit, indentation_rate), "mean rate of indentation", SI(VELOCITY),       \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_LOAD_TIME, IN(fit, load_time), "time from contact to the end of what is fitted", \
       SI(TIME), OPTIONAL)                                                                          \
-    X(INDENTATION_SECOND_MINIMUM_RATIO, "second_minimum_ratio",                                    \
+    X(INDENTATION_SECOND_MINIMUM_RATIO, IN(fit, second_minimum_ratio),                             \
       "misfit of the second best contact point over the best; nan if there is no second", NUMBER,  \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_SENSITIVITY_GAIN, "sensitivity_gain",                                            \
+    X(INDENTATION_SENSITIVITY_GAIN, IN(fit, sensitivity_gain),                                     \
       "relative error of the modulus per relative error of sensitivity", NUMBER, OPTIONAL)         \
-    X(INDENTATION_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                    \
+    X(INDENTATION_EQUIVALENT_FREQUENCY, AS(equivalent_frequency),                                  \
       "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), OPTIONAL)                       \
-    X(INDENTATION_SPECTRUM_FACTOR, "spectrum_factor",                                              \
+    X(INDENTATION_SPECTRUM_FACTOR, IN(fit, spectrum_factor),                                       \
       "factor on the spectrum of the DMA: modulus over its |E*|", NUMBER,                          \
       STANDARD_ERROR(INDENTATION_SPECTRUM_FACTOR), OPTIONAL)                                       \
     X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
@@ -124,11 +133,11 @@
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
 
 #define FORCE_DISPLACEMENT_COLUMNS(X)                                                              \
-    X(FORCE_DISPLACEMENT_GROUP, "group", "bulk or track", TEXT)                                    \
-    X(FORCE_DISPLACEMENT_SEGMENT, "segment", "approach or retract", TEXT)                          \
-    X(FORCE_DISPLACEMENT_DISPLACEMENT, "displacement",                                             \
+    X(FORCE_DISPLACEMENT_GROUP, AS(group), "bulk or track", TEXT)                                  \
+    X(FORCE_DISPLACEMENT_SEGMENT, AS(segment), "approach or retract", TEXT)                        \
+    X(FORCE_DISPLACEMENT_DISPLACEMENT, AS(displacement),                                           \
       "piezo displacement towards the sample, from the contact point", SI(LENGTH))                 \
-    X(FORCE_DISPLACEMENT_FORCE, "force", "force above the baseline at contact", SI(FORCE))
+    X(FORCE_DISPLACEMENT_FORCE, AS(force), "force above the baseline at contact", SI(FORCE))
 
 /* One of each for every group. */
 #define FORCE_DISPLACEMENT_KEYS(X)                                                                 \
@@ -137,30 +146,31 @@
     X(FORCE_DISPLACEMENT_KEY_CONTACT_FORCE, "contact_force_", SI(FORCE), OPTIONAL)
 
 #define FORCE_INDENTATION_COLUMNS(X)                                                               \
-    X(FORCE_INDENTATION_GROUP, "group", "bulk or track", TEXT)                                     \
-    X(FORCE_INDENTATION_INDENTATION, "indentation", "indentation depth", SI(INDENTATION))          \
-    X(FORCE_INDENTATION_FORCE, "force", "force above the baseline", SI(FORCE))                     \
-    X(FORCE_INDENTATION_FITTED_FORCE, "fitted_force", "force of the fitted contact model",         \
+    X(FORCE_INDENTATION_GROUP, AS(group), "bulk or track", TEXT)                                   \
+    X(FORCE_INDENTATION_INDENTATION, AS(indentation), "indentation depth", SI(INDENTATION))        \
+    X(FORCE_INDENTATION_FORCE, AS(force), "force above the baseline", SI(FORCE))                   \
+    X(FORCE_INDENTATION_FITTED_FORCE, AS(fitted_force), "force of the fitted contact model",       \
       SI(FORCE))
 #define FORCE_INDENTATION_KEYS(X)
 
 /* The rows of a group have the same numbers of curves and units. */
 #define MODULUS_DEPTH_COLUMNS(X)                                                                   \
-    X(MODULUS_DEPTH_GROUP, "group", "bulk or track", TEXT, LABEL("Group"))                         \
-    X(MODULUS_DEPTH_DEPTH, "depth", "indentation depth", SI(INDENTATION), LABEL("Depth"))          \
-    X(MODULUS_DEPTH_MODULUS, "modulus",                                                            \
+    X(MODULUS_DEPTH_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                       \
+    X(MODULUS_DEPTH_DEPTH, AS(depth), "indentation depth", SI(INDENTATION), LABEL("Depth"))        \
+    X(MODULUS_DEPTH_MODULUS, AS(modulus),                                                          \
       "modulus of a homogeneous rubber with the force at this depth, geometric mean", SI(MODULUS), \
       LABEL("Modulus at this depth"), INTERVAL(MODULUS_DEPTH_LOW, MODULUS_DEPTH_HIGH))             \
     INTERVAL_COLUMNS(X, MODULUS_DEPTH, "", SI(MODULUS))                                            \
-    X(MODULUS_DEPTH_N, "n", "number of curves", NUMBER, LABEL("Curves"))                           \
-    X(MODULUS_DEPTH_UNITS, "n_units", "spots, or curves where fewer than three spots are", NUMBER, \
-      LABEL("Units"))
+    X(MODULUS_DEPTH_N, AS(n), "number of curves", NUMBER, LABEL("Curves"))                         \
+    X(MODULUS_DEPTH_UNITS, AS(n_units), "spots, or curves where fewer than three spots are",       \
+      NUMBER, LABEL("Units"))
 /* One of each for every group. */
 #define MODULUS_DEPTH_KEYS(X)                                                                      \
-    X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, OPTIONAL)                                       \
-    X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, OPTIONAL)                                       \
-    X(MODULUS_DEPTH_KEY_RATIO, "ratio_", PLAIN, OPTIONAL)                                          \
-    X(MODULUS_DEPTH_KEY_CHANCE, "chance_", PLAIN, OPTIONAL)                                        \
-    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_chance_", PLAIN, OPTIONAL)
+    X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, SHOWS(changes), OPTIONAL)                       \
+    X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, SHOWS(reading), OPTIONAL)                       \
+    X(MODULUS_DEPTH_KEY_RATIO, "ratio_", PLAIN, SHOWS(ratio), OPTIONAL)                            \
+    X(MODULUS_DEPTH_KEY_CHANCE, "chance_", PLAIN, SHOWS(chance), PRECISION(3), OPTIONAL)           \
+    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_chance_", PLAIN, SHOWS(misfit_chance),              \
+      PRECISION(3), OPTIONAL)
 
 #endif

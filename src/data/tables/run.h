@@ -6,7 +6,10 @@
 #define ANSWER_COLUMNS(X)                                                                          \
     X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
     X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
-    X(ANSWER_KIND, "kind", "material, layer, difference, thickness, friction or caveat", TEXT)
+    X(ANSWER_KIND, "kind",                                                                         \
+      "short, material, layer, difference, thickness, friction, caveat or folded: a caveat that "  \
+      "changes less than those before",                                                            \
+      TEXT)
 #define ANSWER_KEYS(X) X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)
 
 #define INPUTS_COLUMNS(X)                                                                          \
@@ -18,43 +21,44 @@
 #define INPUTS_KEYS(X)
 
 #define NOTES_COLUMNS(X)                                                                           \
-    X(NOTES_SEVERITY, "severity", "note, warning or loss", TEXT, LABEL("Severity"))                \
-    X(NOTES_FILE, "file", "file it is about", TEXT, LABEL("File"))                                 \
-    X(NOTES_PLACE, "place", "first place in the file", TEXT, LABEL("Place"))                       \
-    X(NOTES_TEXT, "text", "what was noticed", TEXT, LABEL("Note"))                                 \
-    X(NOTES_COUNT, "count", "how often", NUMBER, LABEL("Times"))
+    X(NOTES_SEVERITY, AS(severity), "note, warning or loss", TEXT, LABEL("Severity"))              \
+    X(NOTES_FILE, AS(file), "file it is about", TEXT, LABEL("File"))                               \
+    X(NOTES_PLACE, IN(entry, place), "first place in the file", TEXT, LABEL("Place"))              \
+    X(NOTES_TEXT, IN(entry, text), "what was noticed", TEXT, LABEL("Note"))                        \
+    X(NOTES_COUNT, IN(entry, count), "how often", NUMBER, LABEL("Times"))
 #define NOTES_KEYS(X)
 
 #define FAILURES_COLUMNS(X)                                                                        \
-    X(FAILURES_FILE, "file", "file or stage that failed", TEXT, LABEL("File"))                     \
-    X(FAILURES_MESSAGE, "message", "what went wrong, where, and what to do", TEXT,                 \
+    X(FAILURES_FILE, AS(file), "file or stage that failed", TEXT, LABEL("File"))                   \
+    X(FAILURES_MESSAGE, AS(message), "what went wrong, where, and what to do", TEXT,               \
       LABEL("What happened"))
 #define FAILURES_KEYS(X)
 
 #define COST_COLUMNS(X)                                                                            \
-    X(COST_STAGE, "stage", "stage", TEXT, LABEL("Stage"))                                          \
-    X(COST_RUNS, "runs", "1: ran, 0: left out", YES_NO)                                            \
-    X(COST_BECAUSE, "because", "why", TEXT, LABEL("Because"))                                      \
-    X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), LABEL("Wall time"))                   \
-    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"),              \
+    X(COST_STAGE, AS(stage), "stage", TEXT, LABEL("Stage"))                                        \
+    X(COST_RUNS, AS(runs), "1: ran, 0: left out", YES_NO)                                          \
+    X(COST_BECAUSE, AS(because), "why", TEXT, LABEL("Because"))                                    \
+    X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), SHOWS(wall), LABEL("Wall time"))      \
+    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), SHOWS(cpu), LABEL("Processor time"),  \
       LIKE(COST_WALL_TIME))                                                                        \
-    X(COST_ITEMS, "items", "curves, isotherms, points, terms of a series", NUMBER, LABEL("Items")) \
-    X(COST_TOLERANCE_ASKED, "tolerance_asked",                                                     \
+    X(COST_ITEMS, IN(said, items), "curves, isotherms, points, terms of a series", NUMBER,         \
+      LABEL("Items"))                                                                              \
+    X(COST_TOLERANCE_ASKED, IN(said, tolerance_asked),                                             \
       "relative numerical error asked for; of a fit, the change by a further step that ends it",   \
       NUMBER, LABEL("Tolerance asked"))                                                            \
-    X(COST_ERROR_ESTIMATED, "error_estimated",                                                     \
+    X(COST_ERROR_ESTIMATED, IN(said, error_estimated),                                             \
       "largest relative numerical error estimated; of a fit, the change by a further step",        \
       NUMBER, LABEL("Error estimated"))                                                            \
-    X(COST_NODES, "nodes", "nodes of the friction integral; of a fit, evaluations of its model",   \
+    X(COST_NODES, AS(nodes), "nodes of the friction integral; of a fit, evaluations of its model", \
       NUMBER, LABEL("Nodes"))                                                                      \
-    X(COST_STANDARD_ERROR, "standard_error", "relative standard error of the main number", NUMBER, \
-      LABEL("Standard error"))                                                                     \
-    X(COST_FILES, "files", "data files read", NUMBER, LABEL("Files"))                              \
-    X(COST_BYTES, "bytes", "their size", SI(DATA_SIZE), LABEL("Size"))
+    X(COST_STANDARD_ERROR, IN(said.number, standard_error),                                        \
+      "relative standard error of the main number", NUMBER, LABEL("Standard error"))               \
+    X(COST_FILES, AS(files), "data files read", NUMBER, LABEL("Files"))                            \
+    X(COST_BYTES, AS(bytes), "their size", SI(DATA_SIZE), LABEL("Size"))
 #define COST_KEYS(X)                                                                               \
-    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), OPTIONAL)                                   \
-    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), OPTIONAL)                                     \
-    X(COST_KEY_THREADS, "threads", NUMBER, OPTIONAL)
+    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), SHOWS(wall), OPTIONAL)                      \
+    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), SHOWS(cpu), OPTIONAL)                         \
+    X(COST_KEY_THREADS, AS(threads), NUMBER, OPTIONAL)
 
 #define PLAN_COLUMNS(X)                                                                            \
     X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \

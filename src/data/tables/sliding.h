@@ -4,8 +4,8 @@
 #define WT_DATA_TABLES_SLIDING_H
 
 #define ROUGHNESS_COLUMNS(X)                                                                       \
-    X(ROUGHNESS_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                            \
-    X(ROUGHNESS_DENSITY, "density", "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
+    X(ROUGHNESS_WAVENUMBER, AS(wavenumber), "wavenumber", SI(WAVENUMBER))                          \
+    X(ROUGHNESS_DENSITY, AS(density), "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
 
 /* The last three of a self-affine law only. */
 #define ROUGHNESS_KEYS(X)                                                                          \
@@ -16,67 +16,69 @@
     X(ROUGHNESS_KEY_ROLL_OFF, "roll_off", SI(WAVENUMBER), LABEL("Roll-off wavenumber"), OPTIONAL)
 
 #define FRICTION_COLUMNS(X)                                                                        \
-    X(FRICTION_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY), LABEL("Velocity"))          \
+    X(FRICTION_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"))        \
     COLUMN_AND_ERRORS(X, FRICTION_TOTAL, "friction",                                               \
                       "friction coefficient, hysteresis and shearing of the real contact", NUMBER, \
-                      "Total μ")                                                                   \
+                      "Total μ", SHOWS(total))                                                     \
     COLUMN_AND_ERRORS(X, FRICTION_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,         \
-                      "Hysteresis")                                                                \
-    X(FRICTION_ADHESION, "adhesion", "friction of shearing the real contact", NUMBER,              \
+                      "Hysteresis", SHOWS(hysteresis))                                             \
+    X(FRICTION_ADHESION, AS(adhesion), "friction of shearing the real contact", NUMBER,            \
       LABEL("Shearing"))                                                                           \
     COLUMN_AND_ERRORS(X, FRICTION_AREA_RATIO, "area_ratio", "real over nominal contact area",      \
-                      NUMBER, "A/A₀")                                                              \
+                      NUMBER, "A/A₀", SHOWS(area))                                                 \
     COLUMN_AND_ERROR(X, FRICTION_WITH_LAYER, "friction_with_layer",                                \
-                     "friction coefficient with the modified layer", NUMBER, "With layer")         \
-    X(FRICTION_EXTRAPOLATED_SHARE, "extrapolated_share",                                           \
+                     "friction coefficient with the modified layer", NUMBER, "With layer",         \
+                     SHOWS(with_layer))                                                            \
+    X(FRICTION_EXTRAPOLATED_SHARE, AS(extrapolated_share),                                         \
       "share of the hysteresis from frequencies not measured", NUMBER,                             \
       LABEL("Outside measured frequencies, share"))
 
 /* The last seven with a layer only. */
 #define FRICTION_KEYS(X)                                                                           \
-    X(FRICTION_KEY_PRESSURE, "pressure", SI(PRESSURE))                                             \
-    X(FRICTION_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                                    \
-    X(FRICTION_KEY_SHEAR_STRESS, "shear_stress", SI(PRESSURE),                                     \
+    X(FRICTION_KEY_PRESSURE, AS(pressure), SI(PRESSURE))                                           \
+    X(FRICTION_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                                  \
+    X(FRICTION_KEY_SHEAR_STRESS, AS(shear_stress), SI(PRESSURE),                                   \
       LABEL("Shear stress of the real contact"))                                                   \
-    X(FRICTION_KEY_GAMMA, "gamma", PLAIN, LABEL("Factor gamma of partial contact"))                \
-    X(FRICTION_KEY_REFERENCE_VELOCITY, "reference_velocity", SI(VELOCITY))                         \
-    X(FRICTION_KEY_FRICTION, "friction_at_reference", NUMBER, HEADLINE("Friction coefficient"))    \
-    X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER,                                  \
+    X(FRICTION_KEY_GAMMA, AS(gamma), PLAIN, LABEL("Factor gamma of partial contact"))              \
+    X(FRICTION_KEY_REFERENCE_VELOCITY, AS(reference_velocity), SI(VELOCITY))                       \
+    X(FRICTION_KEY_FRICTION, "friction_at_reference", NUMBER, SHOWS(total),                        \
+      HEADLINE("Friction coefficient"))                                                            \
+    X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER, SHOWS(hysteresis),               \
       HEADLINE("Friction coefficient, hysteresis part"))                                           \
-    X(FRICTION_KEY_AREA_RATIO, "area_ratio_at_reference", NUMBER,                                  \
+    X(FRICTION_KEY_AREA_RATIO, "area_ratio_at_reference", NUMBER, SHOWS(area),                     \
       HEADLINE("Real over nominal contact area"))                                                  \
-    X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT,                                \
+    X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
-    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),          \
-      OPTIONAL)                                                                                    \
-    X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
-    X(FRICTION_KEY_MATERIAL, "material", TEXT, LABEL("Material"), OPTIONAL)                        \
-    X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
-    X(FRICTION_KEY_SOFTENING, "softening", TEXT, LABEL("Softening with strain"), OPTIONAL)         \
-    X(FRICTION_KEY_STRAIN, "strain", NUMBER, LABEL("Largest strain met"), OPTIONAL)                \
-    X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)                     \
-    X(FRICTION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), OPTIONAL)                       \
-    X(FRICTION_KEY_LAYER_MODULUS_RATIO, "layer_modulus_ratio", NUMBER, OPTIONAL)                   \
-    X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER,                         \
+    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
+      LABEL("No error known of"), OPTIONAL)                                                        \
+    X(FRICTION_KEY_REPLICATES, AS(replicates), PLAIN)                                              \
+    X(FRICTION_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"), OPTIONAL)                      \
+    X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)     \
+    X(FRICTION_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)       \
+    X(FRICTION_KEY_STRAIN, AS(strain), NUMBER, LABEL("Largest strain met"), OPTIONAL)              \
+    X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)   \
+    X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), OPTIONAL)                     \
+    X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER, OPTIONAL)                 \
+    X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER, SHOWS(with_layer),      \
       HEADLINE("Friction coefficient with layer"), OPTIONAL)                                       \
-    X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER,                                 \
+    X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER, SHOWS(change),                  \
       HEADLINE("Change of friction by the layer"), OPTIONAL)                                       \
     X(FRICTION_KEY_RELATIVE_CHANGE, "relative_change_at_reference", NUMBER,                        \
-      LABEL("Relative change at reference"), OPTIONAL)                                             \
-    X(FRICTION_KEY_RELATIVE_CHANGE_LOW, "relative_change_low", NUMBER,                             \
+      SHOWS(relative_change), HEADLINE("Relative change of friction by the layer"), OPTIONAL)      \
+    X(FRICTION_KEY_RELATIVE_CHANGE_LOW, AS(relative_change_low), NUMBER,                           \
       LABEL("Relative change, lowest of all velocities"), OPTIONAL)                                \
-    X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, "relative_change_high", NUMBER,                           \
+    X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, AS(relative_change_high), NUMBER,                         \
       LABEL("Relative change, highest of all velocities"), OPTIONAL)
 
 #define DIRECTIONS_COLUMNS(X)                                                                      \
-    X(DIRECTIONS_FACTORS, "factors",                                                               \
+    X(DIRECTIONS_FACTORS, AS(factors),                                                             \
       "which factors of the directions are kept: none (isotropic), loss, storage, both", TEXT)     \
-    X(DIRECTIONS_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                           \
-    X(DIRECTIONS_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,                          \
+    X(DIRECTIONS_VELOCITY, IN(point, velocity), "sliding velocity", SI(VELOCITY))                  \
+    X(DIRECTIONS_HYSTERESIS, IN(point, hysteresis), "hysteresis friction", NUMBER,                 \
       NUMERICAL_ERROR(DIRECTIONS_HYSTERESIS))                                                      \
     X(DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",  \
       NUMBER)                                                                                      \
-    X(DIRECTIONS_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER,               \
+    X(DIRECTIONS_AREA_RATIO, IN(point, area_ratio), "real over nominal contact area", NUMBER,      \
       NUMERICAL_ERROR(DIRECTIONS_AREA_RATIO))                                                      \
     X(DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",  \
       NUMBER)
@@ -89,57 +91,59 @@
     X(DIRECTIONS_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Not computed"), OPTIONAL)
 
 #define SOFTENING_COLUMNS(X)                                                                       \
-    X(SOFTENING_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                            \
-    X(SOFTENING_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,                           \
+    X(SOFTENING_VELOCITY, IN(with, velocity), "sliding velocity", SI(VELOCITY))                    \
+    X(SOFTENING_HYSTERESIS, IN(with, hysteresis), "hysteresis friction", NUMBER,                   \
       NUMERICAL_ERROR(SOFTENING_HYSTERESIS))                                                       \
     X(SOFTENING_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",   \
       NUMBER)                                                                                      \
     X(SOFTENING_HYSTERESIS_WITHOUT, "hysteresis_without", "hysteresis friction without softening", \
-      NUMBER, NUMERICAL_ERROR(SOFTENING_HYSTERESIS_WITHOUT))                                       \
+      NUMBER, SHOWS(without.hysteresis), NUMERICAL_ERROR(SOFTENING_HYSTERESIS_WITHOUT))            \
     X(SOFTENING_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, "hysteresis_without_numerical_error",          \
       "its numerical error", NUMBER)                                                               \
-    X(SOFTENING_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER,                \
+    X(SOFTENING_AREA_RATIO, IN(with, area_ratio), "real over nominal contact area", NUMBER,        \
       NUMERICAL_ERROR(SOFTENING_AREA_RATIO))                                                       \
     X(SOFTENING_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",   \
       NUMBER)                                                                                      \
     X(SOFTENING_AREA_RATIO_WITHOUT, "area_ratio_without", "the same without softening", NUMBER,    \
-      NUMERICAL_ERROR(SOFTENING_AREA_RATIO_WITHOUT))                                               \
+      SHOWS(without.area_ratio), NUMERICAL_ERROR(SOFTENING_AREA_RATIO_WITHOUT))                    \
     X(SOFTENING_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",          \
       "its numerical error", NUMBER)                                                               \
     X(SOFTENING_SHARE_BELOW, "share_below",                                                        \
       "share of the hysteresis from strains below those of the table, where its first f and g "    \
       "hold",                                                                                      \
-      NUMBER)                                                                                      \
+      NUMBER, SHOWS(below))                                                                        \
     X(SOFTENING_SHARE_ABOVE, "share_above",                                                        \
       "share of the hysteresis from strains above those of the table, where its last f and g "     \
       "hold",                                                                                      \
-      NUMBER)
+      NUMBER, SHOWS(above))
 
 #define SOFTENING_KEYS(X)                                                                          \
-    X(SOFTENING_KEY_SOURCE, "source", TEXT, LABEL("Softening with strain"))                        \
-    X(SOFTENING_KEY_STRAIN_FACTOR, "strain_factor", PLAIN, LABEL("Strain over rms slope"))         \
-    X(SOFTENING_KEY_STRAIN, "strain", NUMBER, LABEL("Largest strain met"))                         \
-    X(SOFTENING_KEY_SHARE_ABOVE, "share_above", NUMBER,                                            \
+    X(SOFTENING_KEY_SOURCE, AS(source), TEXT, LABEL("Softening with strain"))                      \
+    X(SOFTENING_KEY_STRAIN_FACTOR, AS(strain_factor), PLAIN, LABEL("Strain over rms slope"))       \
+    X(SOFTENING_KEY_STRAIN, AS(strain), NUMBER, LABEL("Largest strain met"))                       \
+    X(SOFTENING_KEY_SHARE_ABOVE, AS(share_above), NUMBER,                                          \
       LABEL("Share of the hysteresis from strains above those known, largest"))                    \
     X(SOFTENING_KEY_UNKNOWN, "shares_unknown", TEXT, LABEL("Shares not known"), OPTIONAL)          \
-    X(SOFTENING_KEY_EFFECT, "effect", TEXT, LABEL("What it does"))
+    X(SOFTENING_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))
 
 #define CONTACT_AREA_COLUMNS(X)                                                                    \
-    X(CONTACT_AREA_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                         \
-    X(CONTACT_AREA_MAGNIFICATION, "magnification", "wavenumber over the smallest one", NUMBER)     \
-    X(CONTACT_AREA_WAVENUMBER, "wavenumber", "wavenumber up to which roughness is seen",           \
+    X(CONTACT_AREA_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                       \
+    X(CONTACT_AREA_MAGNIFICATION, AS(magnification), "wavenumber over the smallest one", NUMBER)   \
+    X(CONTACT_AREA_WAVENUMBER, AS(wavenumber), "wavenumber up to which roughness is seen",         \
       SI(WAVENUMBER))                                                                              \
-    X(CONTACT_AREA_AREA_RATIO, "area_ratio",                                                       \
+    X(CONTACT_AREA_AREA_RATIO, IN(node, area_ratio),                                               \
       "contact area seen at this magnification over the nominal area", NUMBER)                     \
-    X(CONTACT_AREA_HYSTERESIS, "hysteresis", "hysteresis friction up to this wavenumber", NUMBER)
+    X(CONTACT_AREA_HYSTERESIS, IN(node, hysteresis), "hysteresis friction up to this wavenumber",  \
+      NUMBER)
 #define CONTACT_AREA_KEYS(X)
 
 #define LAYER_COLUMNS(X)                                                                           \
-    X(LAYER_TIME, "time", "time since the start", SI(TIME))                                        \
+    X(LAYER_TIME, AS(time), "time since the start", SI(TIME))                                      \
     COLUMN_AND_ERRORS(X, LAYER_THICKNESS, "thickness", "thickness of the modified layer",          \
-                      SI(LENGTH), "Thickness")                                                     \
-    X(LAYER_FORMATION_RATE, "formation_rate", "rate of formation at this thickness", SI(VELOCITY)) \
-    X(LAYER_WEAR_RATE, "wear_rate", "rate of wear", SI(VELOCITY))
+                      SI(LENGTH), "Thickness", SHOWS(thickness))                                   \
+    X(LAYER_FORMATION_RATE, AS(formation_rate), "rate of formation at this thickness",             \
+      SI(VELOCITY))                                                                                \
+    X(LAYER_WEAR_RATE, AS(wear_rate), "rate of wear", SI(VELOCITY))
 
 #define LAYER_KEYS(X)                                                                              \
     X(LAYER_KEY_BALANCE_THICKNESS, "balance_thickness", SI(LENGTH),                                \
@@ -157,23 +161,25 @@
     X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"))                                     \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
       LABEL("Time to 90 % of the balance thickness"))                                              \
-    X(LAYER_KEY_REGIME, "regime", TEXT, HEADLINE("Regime of the layer"))                           \
-    X(LAYER_KEY_VELOCITY, "velocity", SI(VELOCITY))                                                \
-    X(LAYER_KEY_PRESSURE, "pressure", SI(PRESSURE))                                                \
-    X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE))                                    \
-    X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), OPTIONAL)                    \
-    X(LAYER_KEY_CRITICAL_ENERGY_FROM, "critical_energy_from", TEXT)                                \
-    X(LAYER_KEY_DAMAGE, "damage", PLAIN)                                                           \
-    X(LAYER_KEY_DUTY, "duty", PLAIN)                                                               \
-    X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, LABEL("Standard errors include")) \
-    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"), OPTIONAL)   \
-    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                          \
-    X(LAYER_KEY_SOFTENING, "softening", TEXT, LABEL("Softening with strain"), OPTIONAL)            \
-    X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)
+    X(LAYER_KEY_REGIME, AS(regime), TEXT, HEADLINE("Regime of the layer"))                         \
+    X(LAYER_KEY_VELOCITY, AS(velocity), SI(VELOCITY))                                              \
+    X(LAYER_KEY_PRESSURE, AS(pressure), SI(PRESSURE))                                              \
+    X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE), SHOWS(wear_rate))                  \
+    X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), SHOWS(observed), OPTIONAL)   \
+    X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), TEXT)                              \
+    X(LAYER_KEY_DAMAGE, AS(damage), PLAIN)                                                         \
+    X(LAYER_KEY_DUTY, AS(duty), PLAIN)                                                             \
+    X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),                  \
+      LABEL("Standard errors include"))                                                            \
+    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                           \
+      LABEL("No error known of"), OPTIONAL)                                                        \
+    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)        \
+    X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
+    X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \
-    X(ENERGY_DENSITY_DEPTH, "depth", "depth below the surface", SI(LENGTH))                        \
-    X(ENERGY_DENSITY_POWER, "energy_density", "power dissipated per volume", SI(POWER_DENSITY))
+    X(ENERGY_DENSITY_DEPTH, AS(depth), "depth below the surface", SI(LENGTH))                      \
+    X(ENERGY_DENSITY_POWER, AS(energy_density), "power dissipated per volume", SI(POWER_DENSITY))
 #define ENERGY_DENSITY_KEYS(X) X(ENERGY_DENSITY_KEY_VELOCITY, "velocity", SI(VELOCITY))
 
 #endif

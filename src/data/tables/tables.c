@@ -1,28 +1,9 @@
 /* The schemas made from the lists. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/tables/tables.h"
+#include "data/tables/words.h"
 
-/* What may stand in a row of a list. */
-#define NUMBER .quantity = WT_Q_NONE
-#define SI(q) .quantity = WT_Q_##q
-#define UNIT(words) .unit = words
-#define TEXT .kind = SCHEMA_TEXT
-#define PLAIN .kind = SCHEMA_PLAIN
-#define YES_NO .yes_no = true
-#define LABEL(words) .label = words
-#define HEADLINE(words) .headline = words
-#define STANDARD_ERROR(id) .standard_error = id##_STANDARD_ERROR
-#define NUMERICAL_ERROR(id) .numerical_error = id##_NUMERICAL_ERROR
-#define BOTH_ERRORS(id) STANDARD_ERROR(id), NUMERICAL_ERROR(id)
-#define INTERVAL(low_end, high_end) .low = low_end, .high = high_end
-#define LIKE(column) .like = column
-#define MISSING(words) .missing = words
-#define DIGITS(n) .digits = n
-#define DECIMALS(n) .decimals = n
-#define SPARSE .sparse = true
-#define OPTIONAL .optional = true
-
-#define COLUMN(id, ...) {__VA_ARGS__},
-#define KEY(id, key_name, ...) {.name = key_name, __VA_ARGS__},
+/* Whoever writes the table knows the structure: data/tables/rows.h. */
+#define SHOWS(name) .member = #name
 
 /* The row behind the last one stands for none. */
 #define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \

@@ -1,5 +1,5 @@
 /* All tables that leave the program, each declared once: a column or a key is a row in the list of
- * its table, and the place where it is put.
+ * its table, which names the member that it shows (rows.h); what no member shows is put by a call.
  *
  * For a table `layer` this header makes the types layer_column and layer_key, the schema
  * layer_schema, and the functions below that take nothing but those. The columns or keys of another
@@ -30,11 +30,11 @@
 
 /* Columns that come together: a number with its standard error behind it; with both errors; the
  * ends of an interval. `heading` is that of the page. */
-#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading)                                        \
-    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID))                                   \
+#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), __VA_ARGS__)                      \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
-#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading)                                       \
-    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID))                                      \
+#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading, ...)                                  \
+    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID), __VA_ARGS__)                         \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
     X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
 #define INTERVAL_COLUMNS(X, ID, prefix, ...)                                                       \

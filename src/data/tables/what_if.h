@@ -26,18 +26,7 @@
     X(WHAT_IF_WHY, "why", "why this range", TEXT, LABEL("Why this range"))                         \
     X(WHAT_IF_NOTE, "note", "why there is no number", TEXT, LABEL("Not computed because"))
 
-/* The range of the number by the choice that moves it most, where one does. */
 #define WHAT_IF_KEYS(X)                                                                            \
-    X(WHAT_IF_KEY_HYSTERESIS, "hysteresis_what_if", TEXT,                                          \
-      HEADLINE("Hysteresis part, by choice of model"), OPTIONAL)                                   \
-    X(WHAT_IF_KEY_AREA_RATIO, "area_ratio_what_if", TEXT,                                          \
-      HEADLINE("Real over nominal contact area, by choice of model"), OPTIONAL)                    \
-    X(WHAT_IF_KEY_FRICTION, "friction_what_if", TEXT,                                              \
-      HEADLINE("Friction coefficient, by choice of model"), OPTIONAL)                              \
-    X(WHAT_IF_KEY_THICKNESS, "thickness_what_if", TEXT,                                            \
-      HEADLINE("Layer thickness at balance, by choice of model"), OPTIONAL)                        \
-    X(WHAT_IF_KEY_WITH_LAYER, "friction_with_layer_what_if", TEXT,                                 \
-      HEADLINE("Friction coefficient with layer, by choice of model"), OPTIONAL)                   \
     X(WHAT_IF_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Choices that do not apply"), OPTIONAL)        \
     X(WHAT_IF_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                        \
     X(WHAT_IF_KEY_EXTRAPOLATED_SHARE, "extrapolated_share", NUMBER, OPTIONAL)

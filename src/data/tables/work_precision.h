@@ -5,23 +5,24 @@
 #define WT_DATA_TABLES_WORK_PRECISION_H
 
 #define WORK_PRECISION_COLUMNS(X)                                                                  \
-    X(WORK_PRECISION_PART, "part", "numerical part", TEXT, LABEL("Part"))                          \
-    X(WORK_PRECISION_METHOD, "method", "weartrack or the textbook", TEXT, LABEL("Method"))         \
-    X(WORK_PRECISION_SETTING, "setting", "what is swept", TEXT, LABEL("Setting"))                  \
-    X(WORK_PRECISION_VALUE, "value", "its value", NUMBER, LABEL("Value"))                          \
-    X(WORK_PRECISION_TRUE_ERROR, "true_error", "largest relative error against the reference",     \
-      NUMBER, LABEL("True error"))                                                                 \
-    X(WORK_PRECISION_STATED_ERROR, "stated_error", "the same as stated by the method", NUMBER,     \
-      LABEL("Stated error"))                                                                       \
-    X(WORK_PRECISION_REFERENCE_ERROR, "reference_error",                                           \
+    X(WORK_PRECISION_PART, AS(part), "numerical part", TEXT, LABEL("Part"))                        \
+    X(WORK_PRECISION_METHOD, AS(method), "weartrack or the textbook", TEXT, LABEL("Method"))       \
+    X(WORK_PRECISION_SETTING, AS(setting), "what is swept", TEXT, LABEL("Setting"))                \
+    X(WORK_PRECISION_VALUE, AS(value), "its value", NUMBER, LABEL("Value"))                        \
+    X(WORK_PRECISION_TRUE_ERROR, IN(errors, true_error),                                           \
+      "largest relative error against the reference", NUMBER, LABEL("True error"))                 \
+    X(WORK_PRECISION_STATED_ERROR, IN(errors, stated_error), "the same as stated by the method",   \
+      NUMBER, LABEL("Stated error"))                                                               \
+    X(WORK_PRECISION_REFERENCE_ERROR, AS(reference_error),                                         \
       "what the reference is good to, by a second computation of it", NUMBER,                      \
       LABEL("Error of the reference"))                                                             \
     X(WORK_PRECISION_SECONDS, "seconds", "processor time, median of the repeats", SI(TIME),        \
-      LABEL("Time"))                                                                               \
-    X(WORK_PRECISION_SPREAD, "spread", "half the range of the middle half of them", SI(TIME),      \
-      LABEL("Spread"), LIKE(WORK_PRECISION_SECONDS))                                               \
-    X(WORK_PRECISION_REPEATS, "repeats", "how often it was timed", NUMBER, LABEL("Repeats"))       \
-    X(WORK_PRECISION_WORDS, "words", "the problem and its reference", TEXT, LABEL("Problem"))
+      SHOWS(time.median), LABEL("Time"))                                                           \
+    X(WORK_PRECISION_SPREAD, IN(time, spread), "half the range of the middle half of them",        \
+      SI(TIME), LABEL("Spread"), LIKE(WORK_PRECISION_SECONDS))                                     \
+    X(WORK_PRECISION_REPEATS, IN(time, repeats), "how often it was timed", NUMBER,                 \
+      LABEL("Repeats"))                                                                            \
+    X(WORK_PRECISION_WORDS, AS(words), "the problem and its reference", TEXT, LABEL("Problem"))
 
 #define WORK_PRECISION_KEYS(X)
 

@@ -12,20 +12,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Ten blocks hold noise that lasts a tenth of the part; six leave three degrees of freedom to a
- * parabola, whose quantile is then 3.2 and not 12.7. Two samples in a block, or its mean is none.
- */
-enum { BLOCKS = 10, LEAST_BLOCKS = 6, BLOCK_SAMPLES = 2, PARAMETERS = 3, LINE = 2 /* of those */ };
-/* A heuristic: of fewer samples a tenth, the far end, is too short for a median. */
-enum { CURVE_LEAST = 40, FAR_SHARE = 10 };
-/* Of two units the quantile of Student's t is 12.7, and curves tell more. */
-enum { LEAST_UNITS = 3 };
-/* A heuristic: the last part of the baseline may hold attraction. */
+/* Most and least blocks of the part, and how many samples each shall have; the fit through their
+ * means has three parameters: seven degrees of freedom tell the scatter to a quarter, three are the
+ * fewest that tell it. Samples of a curve at least, of which the far end is a tenth, four; curves
+ * that tell a scatter. */
+enum {
+    BLOCKS = 10,
+    LEAST_BLOCKS = 6,
+    BLOCK_SAMPLES = 2,
+    PARAMETERS = 3,
+    LINE = 2, /* parameters of it */
+    CURVE_LEAST = 40,
+    FAR_SHARE = 10,
+    LEAST_UNITS = 3
+};
+/* The share of the baseline that is taken for its tilt, which must be as long as the part: what is
+ * left keeps long-range forces and the wave of an interference out of it. Chosen; half of it tells
+ * the tilt nearly three times worse. */
 static const double baseline_share = 0.6;
-/* Standard deviations of the noise, which noise alone does not reach; a heuristic of what a slope
- * is worth measuring by. */
+/* The least rise, in standard deviations of the noise: from there on a slope is told to some per
+ * cent. */
 static const double least_rise = 20;
-static const double level = 0.975; /* of Student's t: intervals of 95 % */
+/* Intervals of 95 %. */
+static const double level = 0.975;
+/* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)
@@ -52,7 +62,7 @@ typedef struct samples {
     size_t n;
 } samples;
 
-static double mean(const double *values, size_t n)
+static double mean_of(const double *values, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -60,7 +70,7 @@ static double mean(const double *values, size_t n)
     return sum / (double)n;
 }
 
-static void turn_round(double *values, size_t n)
+static void reverse_order(double *values, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         const double kept = values[i];
@@ -77,9 +87,9 @@ static void take_samples(samples *s, const double *position, const double *signa
             s->v[s->n++] = signal[i];
         }
     const size_t end = s->n / FAR_SHARE;
-    if (end > 0 && mean(s->v, end) > mean(s->v + s->n - end, end)) {
-        turn_round(s->z, s->n);
-        turn_round(s->v, s->n);
+    if (end > 0 && mean_of(s->v, end) > mean_of(s->v + s->n - end, end)) {
+        reverse_order(s->z, s->n);
+        reverse_order(s->v, s->n);
     }
 }
 
@@ -108,7 +118,7 @@ typedef struct line {
 
 static line line_through(const double *z, const double *v, size_t n)
 {
-    line l = {mean(z, n), mean(v, n), 0};
+    line l = {mean_of(z, n), mean_of(v, n), 0};
     double zz = 0, zv = 0;
     for (size_t i = 0; i < n; i++) {
         zz += (z[i] - l.z) * (z[i] - l.z);
@@ -180,8 +190,8 @@ static double baseline_tilt(const samples *s, const part *p, double *standard_er
         return (double)NAN;
     for (size_t b = 0; b < BLOCKS; b++) {
         const size_t first = n * b / BLOCKS, length = n * (b + 1) / BLOCKS - first;
-        z[b] = mean(s->z + first, length);
-        v[b] = mean(s->v + first, length);
+        z[b] = mean_of(s->z + first, length);
+        v[b] = mean_of(s->v + first, length);
     }
     const line l = line_through(z, v, BLOCKS);
     for (size_t b = 0; b < BLOCKS; b++) {
@@ -203,10 +213,10 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     double z[BLOCKS], v[BLOCKS], zz = 0, zzz = 0, zv = 0, qq = 0, qv = 0, left = 0;
     for (size_t b = 0; b < n; b++) {
         const size_t first = p->n * b / n, end = p->n * (b + 1) / n;
-        z[b] = mean(s->z + p->first + first, end - first);
-        v[b] = mean(s->v + p->first + first, end - first);
+        z[b] = mean_of(s->z + p->first + first, end - first);
+        v[b] = mean_of(s->v + p->first + first, end - first);
     }
-    const double z0 = mean(z, n), v0 = mean(v, n);
+    const double z0 = mean_of(z, n), v0 = mean_of(v, n);
     for (size_t b = 0; b < n; b++) {
         z[b] -= z0;
         v[b] -= v0;
@@ -235,7 +245,7 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     c->change_error = 2 * sqrt(variance / qq) * c->travel / slope;
 }
 
-static double residual(const samples *s, const part *p)
+static double line_residual(const samples *s, const part *p)
 {
     const line l = line_through(s->z + p->first, s->v + p->first, p->n);
     double squares = 0;
@@ -249,7 +259,7 @@ static double residual(const samples *s, const part *p)
 static void measure_part(const samples *s, const part *p, double rise, wt_contact_slope *c)
 {
     c->n = p->n;
-    c->misfit = residual(s, p) / rise;
+    c->misfit = line_residual(s, p) / rise;
     fit_blocks(s, p, c);
     double tilt_error = 0;
     const double tilt = baseline_tilt(s, p, &tilt_error), own = c->slope;
@@ -341,7 +351,7 @@ static double unit_mean(const double *values, const long *units, size_t n, size_
     do
         ++*at;
     while (units != NULL && *at < n && units[*at] == units[first]);
-    return mean(values + first, *at - first);
+    return mean_of(values + first, *at - first);
 }
 
 static size_t count_units(const double *values, const long *units, size_t n, double *sum)

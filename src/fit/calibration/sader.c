@@ -10,6 +10,7 @@
 #include <complex.h>
 #include <math.h>
 
+/* To the digits of a double. */
 static const double pi = 3.14159265358979323846;
 /* Of the paper's eq. 1: the first mode of a rectangular lever. */
 static const double first_mode = 0.1906;
@@ -44,6 +45,7 @@ static double polynomial(const double *c, int n, double x)
  * Re = 1e-6 to 1e4). */
 void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
 {
+    /* Eqs. 21a and 21b of the paper. */
     static const double real_over[] = {0.91324,  -0.48274,   0.46842,   -0.12886,
                                        0.044055, -0.0035117, 0.00069085},
                         real_under[] = {1,        -0.56964,   0.48690,   -0.13444,

@@ -9,32 +9,29 @@
 #include "weartrack/fit.h"
 
 #include "base/array.h"
+#include "model/cholesky.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
 enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
-/* A bound against a loop without end. */
-enum { STEPS = 200 };
-/* The windows in use make up to three neighbouring bins share noise. */
-enum { LAGS = 3 };
-/* Six points for each parameter, a heuristic. */
-enum { LEAST_POINTS = 24 };
-/* Blocks by which slow departures are tested: five for each parameter; and the bins whose mean a
- * single outlier does not make the peak. Heuristics. */
-enum { BLOCKS = 20, PEAK_SMOOTH = 3 };
-/* Qualities to start with, from where there is no peak to those in vacuum; a step moves the width
- * by half of it. */
+/* A bound of time; bins that neighbours share noise over, which is two under the weights of Hann;
+ * points at least, six for each parameter; blocks by which a slow departure is seen, five for each;
+ * bins of a mean that looks for the peak. */
+enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
+/* Qualities to start with, from a lever in water that hardly swings to one in vacuum; the range:
+ * widths of the peak to either side (an oscillator is 1/6400 of its top there, so that the floor is
+ * seen), within these shares of the resonance: noise that rises towards low frequencies is below,
+ * and the second mode of a lever, 6.27 times as high (Butt and Jaschke 1995), above. */
 static const double least_quality = 0.7, most_quality = 1e6, quality_step = 1.5;
-/* The range: 40 widths to either side hold 99 % of the oscillator and enough of the floor, but not
- * the next mode, at 6.3 times the resonance, nor the noise that rises towards low frequencies. */
 static const double range_widths = 40, range_low = 0.25, range_high = 3;
-/* Intervals of 95 %; residuals beyond three standard deviations are not of the scatter that they
- * are held against. */
-static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826,
-                    pi = 3.14159265358979323846;
+/* Intervals of 95 %; residuals are clipped at so many standard deviations, one normal one in 370;
+ * standard deviation of a normal distribution over its median distance from the median. */
+static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
 
 typedef struct noise {
     const double *f, *p; /* [n] within the range */
@@ -42,7 +39,7 @@ typedef struct noise {
 } noise;
 
 /* Spectrum at a frequency and what it changes by with each parameter, of itself. */
-static double spectrum(const double theta[P], double f, double g[P])
+static double oscillator_spectrum(const double theta[P], double f, double g[P])
 {
     const double white = exp(theta[FLOOR]), f0 = exp(theta[RESONANCE]), q = exp(theta[QUALITY]);
     const double x = f / f0, x2 = x * x, d = (1 - x2) * (1 - x2) + x2 / (q * q);
@@ -60,44 +57,27 @@ static double spectrum(const double theta[P], double f, double g[P])
 }
 
 /* Half of the deviance, for one average. */
-static double deviance(const noise *v, const double theta[P])
+static double half_deviance(const noise *v, const double theta[P])
 {
     double sum = 0;
     for (size_t i = 0; i < v->n; i++) {
-        const double ratio = v->p[i] / spectrum(theta, v->f[i], NULL);
+        const double ratio = v->p[i] / oscillator_spectrum(theta, v->f[i], NULL);
         sum += ratio - 1 - log(ratio);
     }
     return sum;
 }
 
 /* Solves a x = b for a positive definite a; false if it is not. */
-static bool solve_positive(double a[P][P], const double b[P], double x[P])
+static bool solve_scoring(double a[P][P], const double b[P], double x[P])
 {
-    double l[P][P] = {{0}};
-    for (int i = 0; i < P; i++)
-        for (int j = 0; j <= i; j++) {
-            double sum = a[i][j];
-            for (int k = 0; k < j; k++)
-                sum -= l[i][k] * l[j][k];
-            if (i == j && !(sum > 0))
-                return false;
-            l[i][j] = i == j ? sqrt(sum) : sum / l[j][j];
-        }
-    for (int i = 0; i < P; i++) {
-        x[i] = b[i];
-        for (int k = 0; k < i; k++)
-            x[i] -= l[i][k] * x[k];
-        x[i] /= l[i][i];
-    }
-    for (int i = P; i-- > 0;) {
-        for (int k = i + 1; k < P; k++)
-            x[i] -= l[k][i] * x[k];
-        x[i] /= l[i][i];
-    }
-    return true;
+    double l[P][P];
+    memcpy(l, a, sizeof l);
+    memcpy(x, b, P * sizeof *b);
+    return cholesky_solve(&l[0][0], P, P, 0, x);
 }
 
-static void information(const noise *v, const double theta[P], double fisher[P][P], double score[P])
+static void fisher_information(const noise *v, const double theta[P], double fisher[P][P],
+                               double score[P])
 {
     for (int a = 0; a < P; a++) {
         score[a] = 0;
@@ -106,7 +86,7 @@ static void information(const noise *v, const double theta[P], double fisher[P][
     }
     for (size_t i = 0; i < v->n; i++) {
         double g[P];
-        const double r = v->p[i] / spectrum(theta, v->f[i], g) - 1;
+        const double r = v->p[i] / oscillator_spectrum(theta, v->f[i], g) - 1;
         for (int a = 0; a < P; a++) {
             score[a] += r * g[a];
             for (int b = 0; b < P; b++)
@@ -116,21 +96,21 @@ static void information(const noise *v, const double theta[P], double fisher[P][
 }
 
 /* Scoring with damping; true when no step is left. */
-static bool maximise_likelihood(const noise *v, double theta[P])
+static bool raise_likelihood(const noise *v, double theta[P])
 {
-    double best = deviance(v, theta), damping = 1e-3;
+    double best = half_deviance(v, theta), damping = 1e-3;
     for (int step = 0; step < STEPS; step++) {
         double fisher[P][P], score[P], move[P], next[P], largest = 0;
-        information(v, theta, fisher, score);
+        fisher_information(v, theta, fisher, score);
         for (int a = 0; a < P; a++)
             fisher[a][a] *= 1 + damping;
-        if (!solve_positive(fisher, score, move))
+        if (!solve_scoring(fisher, score, move))
             return false;
         for (int a = 0; a < P; a++) {
             next[a] = theta[a] + move[a];
             largest = fmax(largest, fabs(move[a]));
         }
-        const double now = deviance(v, next);
+        const double now = half_deviance(v, next);
         if (!(now <= best)) {
             if (largest < 1e-9)
                 return true;
@@ -166,11 +146,12 @@ static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1]
 }
 
 /* Covariance of the parameters, with what neighbours share; false if it is none. */
-static bool covariance(const noise *v, const double theta[P], const double *gradient,
-                       double variance, const double correlation[LAGS + 1], double cov[P][P])
+static bool parameter_covariance(const noise *v, const double theta[P], const double *gradient,
+                                 double variance, const double correlation[LAGS + 1],
+                                 double cov[P][P])
 {
     double fisher[P][P], score[P], meat[P][P] = {{0}}, inverse[P][P];
-    information(v, theta, fisher, score);
+    fisher_information(v, theta, fisher, score);
     for (size_t lag = 0; lag <= LAGS; lag++)
         for (size_t i = 0; i + lag < v->n; i++)
             for (int a = 0; a < P; a++)
@@ -182,7 +163,7 @@ static bool covariance(const noise *v, const double theta[P], const double *grad
     for (int a = 0; a < P; a++) {
         double unit[P] = {0};
         unit[a] = 1;
-        if (!solve_positive(fisher, unit, inverse[a]))
+        if (!solve_scoring(fisher, unit, inverse[a]))
             return false;
     }
     for (int a = 0; a < P; a++)
@@ -195,7 +176,7 @@ static bool covariance(const noise *v, const double theta[P], const double *grad
     return true;
 }
 
-static wt_interval interval(double log_value, double variance)
+static wt_interval log_normal_interval(double log_value, double variance)
 {
     const double value = exp(log_value), error = sqrt(variance);
     const double half = gsl_cdf_ugaussian_Pinv(level) * error;
@@ -226,18 +207,18 @@ static double slow_chance(const double *r, size_t n, double *room)
     return gsl_cdf_chisq_Q(squares, BLOCKS - P);
 }
 
-static bool judge_oscillator(const noise *v, const double theta[P], wt_thermal *t, double *room)
+static bool tell_errors(const noise *v, const double theta[P], wt_thermal *t, double *room)
 {
     double *const r = room, *const gradient = room + v->n;
     double correlation[LAGS + 1], cov[P][P];
     for (size_t i = 0; i < v->n; i++)
-        r[i] = v->p[i] / spectrum(theta, v->f[i], gradient + i * P) - 1;
+        r[i] = v->p[i] / oscillator_spectrum(theta, v->f[i], gradient + i * P) - 1;
     const double variance = scatter_of(r, v->n, correlation);
-    if (!covariance(v, theta, gradient, variance, correlation, cov))
+    if (!parameter_covariance(v, theta, gradient, variance, correlation, cov))
         return false;
-    t->mean_square = interval(theta[SQUARE], cov[SQUARE][SQUARE]);
-    t->resonance = interval(theta[RESONANCE], cov[RESONANCE][RESONANCE]);
-    t->quality = interval(theta[QUALITY], cov[QUALITY][QUALITY]);
+    t->mean_square = log_normal_interval(theta[SQUARE], cov[SQUARE][SQUARE]);
+    t->resonance = log_normal_interval(theta[RESONANCE], cov[RESONANCE][RESONANCE]);
+    t->quality = log_normal_interval(theta[QUALITY], cov[QUALITY][QUALITY]);
     t->floor = exp(theta[FLOOR]);
     t->averages = 1 / variance;
     t->chance = slow_chance(r, v->n, gradient);
@@ -274,14 +255,14 @@ static double low_level(const double *p, size_t n, double *room)
 }
 
 /* Start with the quality that suits the spectrum about the peak best. */
-static void start_at_peak(const noise *v, double f0, double ground, double theta[P])
+static void start_parameters(const noise *v, double f0, double ground, double theta[P])
 {
     double best = (double)INFINITY, area = 0;
     for (size_t i = 1; i < v->n; i++)
         area += fmax(0, v->p[i] - ground) * (v->f[i] - v->f[i - 1]);
     for (double q = least_quality; q < most_quality; q *= quality_step) {
         const double guess[P] = {log(ground), log(area), log(f0), log(q)};
-        const double now = deviance(v, guess);
+        const double now = half_deviance(v, guess);
         if (now < best) {
             best = now;
             for (int a = 0; a < P; a++)
@@ -290,7 +271,7 @@ static void start_at_peak(const noise *v, double f0, double ground, double theta
     }
 }
 
-static noise cut_range(const double *f, const double *p, size_t n, double from, double to)
+static noise frequency_range(const double *f, const double *p, size_t n, double from, double to)
 {
     size_t first = 0, end = n;
     while (first < n && !(f[first] >= from))
@@ -300,7 +281,7 @@ static noise cut_range(const double *f, const double *p, size_t n, double from, 
     return (noise){f + first, p + first, end - first};
 }
 
-static bool say_why_not(wt_thermal *t, const char *why)
+static bool tell_no_oscillator(wt_thermal *t, const char *why)
 {
     t->why_not = why;
     return false;
@@ -310,26 +291,26 @@ static bool fit_oscillator(const double *f, const double *p, size_t n, double fr
                            wt_thermal *t, double *room)
 {
     if (n < LEAST_POINTS)
-        return say_why_not(t, "too few points");
+        return tell_no_oscillator(t, "too few points");
     const double f0 = f[find_peak(f, p, n)], ground = low_level(p, n, room);
     double theta[P] = {0};
-    const noise about = cut_range(f, p, n, range_low * f0, range_high * f0);
-    start_at_peak(&about, f0, ground, theta);
+    const noise about = frequency_range(f, p, n, range_low * f0, range_high * f0);
+    start_parameters(&about, f0, ground, theta);
     const double width = f0 / exp(theta[QUALITY]);
     t->from = !isnan(from) ? from : fmax(range_low * f0, f0 - range_widths * width);
     t->to = !isnan(to) ? to : fmin(range_high * f0, f0 + range_widths * width);
-    const noise v = cut_range(f, p, n, t->from, t->to);
+    const noise v = frequency_range(f, p, n, t->from, t->to);
     t->n = v.n;
     if (v.n < LEAST_POINTS)
-        return say_why_not(t, "too few points in the range of the fit");
+        return tell_no_oscillator(t, "too few points in the range of the fit");
     if (f0 < v.f[0] || f0 > v.f[v.n - 1])
-        return say_why_not(t, "the largest peak lies outside of the range of the fit");
-    if (!maximise_likelihood(&v, theta))
-        return say_why_not(t, "no oscillator on a white floor fits");
+        return tell_no_oscillator(t, "the largest peak lies outside of the range of the fit");
+    if (!raise_likelihood(&v, theta))
+        return tell_no_oscillator(t, "no oscillator on a white floor fits");
     if (exp(theta[RESONANCE]) < v.f[0] || exp(theta[RESONANCE]) > v.f[v.n - 1])
-        return say_why_not(t, "the resonance lies outside of the range of the fit");
-    return judge_oscillator(&v, theta, t, room) ||
-           say_why_not(t, "the spectrum does not bound the oscillator");
+        return tell_no_oscillator(t, "the resonance lies outside of the range of the fit");
+    return tell_errors(&v, theta, t, room) ||
+           tell_no_oscillator(t, "the spectrum does not bound the oscillator");
 }
 
 wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n, double from,

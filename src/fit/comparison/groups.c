@@ -79,8 +79,8 @@ static wt_status make_units(const wt_group *group, bool use_spots, pool *memory,
     return WT_OK;
 }
 
-static wt_status summarise(const wt_group *group, const units *u, pool *memory,
-                           wt_group_summary *summary, wt_error *err)
+static wt_status summarise_group(const wt_group *group, const units *u, pool *memory,
+                                 wt_group_summary *summary, wt_error *err)
 {
     double *sorted = pool_numbers(memory, group->n);
     if (sorted == NULL)
@@ -115,7 +115,7 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
     pool memory = {0};
     wt_status status = make_units(group, group->spot != NULL, &memory, &u, err);
     if (status == WT_OK)
-        status = summarise(group, &u, &memory, summary, err);
+        status = summarise_group(group, &u, &memory, summary, err);
     pool_free(&memory);
     return status;
 }
@@ -133,7 +133,7 @@ static wt_status summarise_both(const wt_group *const groups[2], pool *memory, w
         units u;
         status = make_units(groups[g], c->by_spot, memory, &u, err);
         if (status == WT_OK)
-            status = summarise(groups[g], &u, memory, summaries[g], err);
+            status = summarise_group(groups[g], &u, memory, summaries[g], err);
     }
     return status;
 }

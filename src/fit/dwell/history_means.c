@@ -6,18 +6,24 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* Means that the fit goes through: four for each thing that they tell (baseline, contact, dwell,
- * drift), so that a fit takes milliseconds whatever the samples. A heuristic. */
+/* Means of the parts of a curve: a line is told by 8 and 16 of them, what bends by 64 and as many
+ * as are told of the dwell. More only make the covariance of all larger, which goes with their
+ * cube. */
 enum { FREE_BINS = 16, PRESSED_BINS = 64, HELD_BINS = WT_DWELL_POINTS, RETRACT_BINS = 8 };
-enum {
-    MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS,
-    LEAST_BASELINE = 32
-}; /* two samples in each of the free ones */
-/* By which part of the dwell its first mean is shorter; where the contact of the approach begins
- * for its means, before the contact point, in parts of its length; the free part of a retract.
- * Heuristics: the force falls fastest at the beginning, the fit moves the contact point, and the
- * first half of what was let go may still pull. */
-static const double first_share = 1e-3, margin = 0.2, free_share = 0.5;
+enum { MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS };
+/* Two samples in each mean of a baseline. */
+enum { LEAST_BASELINE = 2 * FREE_BINS };
+/* The first mean of the dwell is at least this part of it: three decades of times, which is what
+ * the means in steps of one factor are shared out over. */
+static const double first_share = 1e-3;
+/* Where the contact of the approach begins for its means, before the contact point, in parts of its
+ * length: a contact point that is off by as much is still among them. Chosen; the means beside it
+ * are fitted wherever they lie. */
+static const double margin = 0.2;
+/* The last part of a retract that is taken for free of contact and adhesion. Chosen; with 0.75 the
+ * neck of an adhesive contact may be in it, with 0.25 the line of drift is told three times
+ * worse. */
+static const double free_share = 0.5;
 
 static void open_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
 {
@@ -92,8 +98,10 @@ static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
 
 /* Noise as white noise and processes of the first order whose times are octaves; those slower than
  * the baseline tells are as strong as the slowest that it does. */
-enum { OCTAVES = 24 }; /* 2^24 samples: longer than any curve */
-enum { ROUNDS = 400 }; /* a heuristic */
+enum { OCTAVES = 24 }; /* more samples, 2^24, than curves have */
+/* Of a multiplicative step that comes near by its root: a bound of time, for an estimate that is
+ * known to some per cent. */
+enum { ROUNDS = 400 };
 typedef struct noise {
     double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; [s] */
     size_t n;
@@ -117,7 +125,7 @@ static void take_line(const double *time, const double *force, size_t n, double 
 }
 
 /* Mean square of the differences of means of m samples from those of the m before. */
-static double difference(const double *x, size_t n, size_t m)
+static double mean_square_difference(const double *x, size_t n, size_t m)
 {
     double sum = 0, count = 0, step = 0;
     for (size_t i = 0; i < m; i++)
@@ -184,7 +192,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
     size_t seen_n = 0;
     take_line(h->time, h->force, n, residual);
     for (size_t m = 1; 8 * m <= n && seen_n < OCTAVES; m *= 2) {
-        seen[seen_n] = difference(residual, n, m);
+        seen[seen_n] = mean_square_difference(residual, n, m);
         response[seen_n][0] = 2 / (double)m;
         seen_n++;
     }
@@ -205,7 +213,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
 }
 
 /* Covariance of the means of a noise that decays over a time, over its variance. */
-static double shared_noise(const dwell_nodes *n, size_t i, size_t k, double time)
+static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double time)
 {
     const double x = (n->to[i] - n->from[i]) / time, y = (n->to[k] - n->from[k]) / time;
     if (i == k)
@@ -223,7 +231,7 @@ static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
             const bool pressed = i >= n->first_pressed && i < n->first_free;
             double c = 0;
             for (size_t j = 0; j < v->n; j++)
-                c += v->slow[j] * shared_noise(n, i, k, v->time[j]);
+                c += v->slow[j] * noise_covariance(n, i, k, v->time[j]);
             c += i == k ? (v->white + (pressed ? v->extra : 0)) / n->count[i] : 0;
             gsl_matrix_set(n->factor, i, k, c);
             gsl_matrix_set(n->factor, k, i, c);

@@ -9,6 +9,7 @@
  */
 #include "base/gsl_quiet.h"
 #include "fit/pool_gsl.h"
+#include "model/root.h"
 #include "weartrack/fit.h"
 
 #include <complex.h>
@@ -19,17 +20,21 @@
 static const double complex unit = (double complex)I;
 
 /* Slow columns: a cubic and the logarithm of the time since the beginning. */
-enum { SLOW = 5, COLUMNS = SLOW + 2, ROUNDS = 60 /* golden sections, to 1e-12 of a bin */ };
-/* Weights of Hann part a sine from a slow change after four periods; samples for nine of each
- * column.
- */
+enum { SLOW = 5, COLUMNS = SLOW + 2 };
+/* Golden sections of two bins: down to 1e-12 of them. */
+enum { SECTIONS = 60 };
+/* A sine of fewer periods is not told from what drifts by a cubic and a logarithm, which bend four
+ * times; nine samples for each column. */
 enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
 /* In whole periods of the segment: beyond what the weights mix with the drive, and so far apart
- * that their noises are independent under the weights. */
+ * that their noises are independent under the weights: those of Hann reach two periods to each
+ * side. Sixteen of them tell the power of the noise to 25 %. */
 enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
-/* Power of the height over that beside it that is no noise: by chance once in 1e13 bins with
- * sixteen neighbours, and the amplitude is good to 7 % then. */
-static const double significant = 100, golden = 0.6180339887498949, pi = 3.14159265358979323846;
+/* Power of the height over that beside it that is no noise, which would be so strong by a chance of
+ * exp(-100); what is left is that a drive is ten times its own noise, as nothing else tells E'' to
+ * 10 %. */
+static const double significant = 100;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
 
 typedef struct samples {
     const double *time, *of[2]; /* height and force */
@@ -49,14 +54,14 @@ static void row_of(const samples *s, size_t i, double omega, double row[COLUMNS]
     row[6] = sin(omega * t);
 }
 
-static double weight(const samples *s, size_t i)
+static double hann_weight(const samples *s, size_t i)
 {
     const double x = sin(pi * ((double)i + 0.5) / (double)s->n);
     return x * x;
 }
 
 /* Coefficients of height and force at a frequency; false where the columns are not independent. */
-static bool solve(const samples *s, double omega, double to[2][COLUMNS])
+static bool fit_columns(const samples *s, double omega, double to[2][COLUMNS])
 {
     double normal[COLUMNS][COLUMNS] = {{0}}, row[COLUMNS];
     for (size_t k = 0; k < 2; k++)
@@ -64,7 +69,7 @@ static bool solve(const samples *s, double omega, double to[2][COLUMNS])
             to[k][a] = 0;
     for (size_t i = 0; i < s->n; i++) {
         row_of(s, i, omega, row);
-        const double w = weight(s, i);
+        const double w = hann_weight(s, i);
         for (size_t a = 0; a < COLUMNS; a++) {
             for (size_t b = 0; b < COLUMNS; b++)
                 normal[a][b] += w * row[a] * row[b];
@@ -83,14 +88,15 @@ static bool solve(const samples *s, double omega, double to[2][COLUMNS])
     return true;
 }
 
-static double power_at(const samples *s, double omega)
+static double power_at(double omega, void *user)
 {
+    const samples *s = user;
     double c[2][COLUMNS];
-    return solve(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
+    return fit_columns(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
 }
 
 /* The largest number up to n of no factors above 7, for the transform. */
-static size_t smooth(size_t n)
+static size_t transform_length(size_t n)
 {
     for (;; n--) {
         size_t rest = n;
@@ -103,22 +109,22 @@ static size_t smooth(size_t n)
 }
 
 /* The strongest frequency of the height [rad/s]. */
-static double search(const samples *s, pool *memory)
+static double strongest_frequency(samples *s, pool *memory)
 {
-    const size_t n = smooth(s->n);
+    const size_t n = transform_length(s->n);
     double c[2][COLUMNS], row[COLUMNS], *work = pool_numbers(memory, s->n);
     gsl_fft_real_wavetable *table = gsl_fft_real_wavetable_alloc(n);
     gsl_fft_real_workspace *space = gsl_fft_real_workspace_alloc(n);
     size_t best = 0;
     double most = 0;
     memory->failed = memory->failed || table == NULL || space == NULL;
-    if (!memory->failed && solve(s, 2 * pi / (2 * s->step), c)) {
+    if (!memory->failed && fit_columns(s, 2 * pi / (2 * s->step), c)) {
         for (size_t i = 0; i < s->n; i++) {
             row_of(s, i, 0, row);
             work[i] = s->of[0][i] - s->of[0][0];
             for (size_t a = 0; a < SLOW; a++)
                 work[i] -= c[0][a] * row[a];
-            work[i] *= weight(s, i);
+            work[i] *= hann_weight(s, i);
         }
         gsl_fft_real_transform(work, 1, n, table, space);
         for (size_t j = LEAST_PERIODS; 2 * j < n; j++) {
@@ -130,15 +136,8 @@ static double search(const samples *s, pool *memory)
     gsl_fft_real_wavetable_free(table);
     gsl_fft_real_workspace_free(space);
     const double bin = 2 * pi / ((double)n * s->step);
-    double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
-    for (int i = 0; i < ROUNDS && best > 0; i++) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (power_at(s, a) > power_at(s, b))
-            high = b;
-        else
-            low = a;
-    }
-    return best > 0 ? 0.5 * (low + high) : 0;
+    const double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
+    return best > 0 ? root_maximum(power_at, s, low, high, SECTIONS) : 0;
 }
 
 /* Mean power of what is left of the height at frequencies beside the drive, whole periods apart;
@@ -160,7 +159,7 @@ static double noise_of(const samples *s, const double own[COLUMNS], double drive
             for (size_t a = 0; a < COLUMNS; a++)
                 rest -= own[a] * row[a];
             /* The mean weight is 1/2. */
-            sum += 4 * weight(s, i) * rest * cexp(-unit * omega * (s->time[i] - s->start)) /
+            sum += 4 * hann_weight(s, i) * rest * cexp(-unit * omega * (s->time[i] - s->start)) /
                    (double)s->n;
         }
         power += creal(sum * conj(sum));
@@ -169,8 +168,8 @@ static double noise_of(const samples *s, const double own[COLUMNS], double drive
     return n > 0 ? power / (double)n : (double)NAN;
 }
 
-static const char *unusable(const double *time, const double *position, const double *force,
-                            size_t n)
+static const char *why_no_modulation(const double *time, const double *position,
+                                     const double *force, size_t n)
 {
     if (n < LEAST_SAMPLES)
         return "too few samples for a modulation";
@@ -190,13 +189,14 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     double c[2][COLUMNS];
     pool memory = {0};
     gsl_quiet();
-    *modulation = (wt_modulation){.why_not = unusable(time, position, force, n)};
+    *modulation = (wt_modulation){.why_not = why_no_modulation(time, position, force, n)};
     if (modulation->why_not[0] != '\0')
         return WT_OK;
     samples s = {.time = time, .of = {position, force}, .n = n, .start = time[0]};
     s.step = (time[n - 1] - time[0]) / (double)(n - 1);
     s.duration = s.step * (double)n;
-    const double omega = angular_frequency > 0 ? angular_frequency : search(&s, &memory);
+    const double omega =
+        angular_frequency > 0 ? angular_frequency : strongest_frequency(&s, &memory);
     const bool failed = memory.failed;
     pool_free(&memory);
     if (failed)
@@ -206,7 +206,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
         modulation->why_not = "no modulation with five periods and two samples in each";
         return WT_OK;
     }
-    if (!solve(&s, omega, c)) {
+    if (!fit_columns(&s, omega, c)) {
         modulation->why_not = "no sine goes through it";
         return WT_OK;
     }
@@ -215,7 +215,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
         modulation->amplitude[2 * k + 1] = -c[k][SLOW + 1];
     }
     for (size_t i = 0; i < n; i++) {
-        const double share = 2 * weight(&s, i) / (double)n;
+        const double share = 2 * hann_weight(&s, i) / (double)n;
         modulation->mean_time += share * time[i];
         modulation->mean[0] += share * position[i];
         modulation->mean[1] += share * force[i];

@@ -14,28 +14,47 @@
 #include "base/gsl_quiet.h"
 #include "fit/indentation/curve_model.h"
 #include "model/hereditary.h"
+#include "model/prony.h"
 #include "model/tip.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what
+ * the dwell tells of ln tau; a cosine and a sine of two ripples. */
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
 enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
-/* Steps of the history between means, terms and told frequencies a decade, heuristics: a spectrum
- * that a dwell tells is smooth over a quarter of a decade. A bound against a loop without end. */
-enum { SUBSTEPS = 4, MOST_TERMS = 64, TERMS_PER_DECADE = 4, PER_DECADE = 4, MAX_STEPS = 60 };
-/* Standard deviations of slope, bend and bumps of the spectra of rubbers, and how far the series
- * goes beyond what was measured, 1.5 decades, where a term no longer moves the force. Heuristics of
- * what rubbers have. */
-static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2, beyond = 30;
-/* Of ripples on the spectrum that are looked for, in ln tau. */
+/* Steps of the force within one of the means of the approach, over which the depth is linear. */
+enum { SUBSTEPS = 4 };
+/* Terms of the series: those of four a decade ripple by 1e-7 (fit/sweeps/master_fit.c), and 64 are
+ * sixteen decades, more than a dwell has with both ends. */
+enum { MOST_TERMS = 64, TERMS_PER_DECADE = 4 };
+/* A bound of time for what does not settle. */
+enum { MAX_STEPS = 60 };
+/* Frequencies that are told: as many as there are terms, for they are no more independent. */
+enum { PER_DECADE = 4 };
+/* Standard deviations that are believed of the spectrum, H in the logarithm: of its slope, which is
+ * -1/2 in Rouse's law and above -1 and below 1 in what a modulus shows (fit/sweeps/master_fit.c);
+ * of its bend over an e-fold of time and of bumps, 20 % of H. Beliefs: a dwell tells slope and
+ * level against them, and bend and bumps are what its intervals hold beyond; twice as wide, they
+ * are wider by about as much where the dwell tells neither. */
+static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2;
+/* How far the series goes beyond what was measured: a term that is slower by 30 relaxes by 3 %. */
+static const double beyond = 30;
+/* Of ripples on the spectrum that are looked for, in ln tau: about the width of one relaxation
+ * time, 1.14 decades, as single ones make them. */
 static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
-static const double derivative_step = 1e-5; /* between rounding and curvature */
-static const double converged = 1e-8; /* of the sum of squares: far below one standard error */
-/* Lee and Radok's integral does not hold where the contact shrinks; creep back by drift is less. */
+/* Of differences for derivatives: about the root of what rounding leaves, 1e-10 of it. */
+static const double derivative_step = 1e-5;
+/* Relative fall of the sum of squares at which a fit ends: 1e-4 of a standard error. */
+static const double converged = 1e-8;
+/* Of the indentation at the beginning of the dwell what is left at its end, less than which is no
+ * dwell at constant height or force: Ting's law for a contact that shrinks is not in the fit. 5 %
+ * of indentation are 8 to 10 % of a force. */
 static const double fell = 0.95;
-static const double least_chance = 0.01; /* customary; below it no errors are told */
+/* The customary level at which a law is said not to describe what was measured. */
+static const double least_chance = 0.01;
 
 typedef struct dwell_task {
     const wt_contact_table *table;
@@ -104,11 +123,8 @@ static void moduli_at(dwell_task *t, const double *p, double omega, double to[2]
 {
     to[0] = make_moduli(t, p);
     to[1] = 0;
-    for (size_t i = 0; i < t->n_terms; i++) {
-        const double x = omega * t->time[i], share = t->modulus[i] / (1 + x * x);
-        to[0] += share * x * x;
-        to[1] += share * x;
-    }
+    for (size_t i = 0; i < t->n_terms; i++)
+        prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
 }
 
 /* What a mean over a time has more than the middle of it, where the force bends. */
@@ -128,7 +144,7 @@ static void bend_means(const dwell_nodes *n, const double *pressed, double *forc
 }
 
 /* Forces of the nodes; and the indentation, unless NULL. */
-static void predict(dwell_task *t, const double *p, double *force, double *depth)
+static void predict_forces(dwell_task *t, const double *p, double *force, double *depth)
 {
     const dwell_nodes *n = &t->nodes;
     const wt_dwell_history *h = t->history;
@@ -176,7 +192,7 @@ static void predict(dwell_task *t, const double *p, double *force, double *depth
 }
 
 /* Divided by the factor of the covariance. */
-static void whiten(const dwell_nodes *n, double *x)
+static void whiten_residual(const dwell_nodes *n, double *x)
 {
     for (size_t i = 0; i < n->n; i++) {
         for (size_t k = 0; k < i; k++)
@@ -189,10 +205,10 @@ static void whiten(const dwell_nodes *n, double *x)
 static double cost_of(dwell_task *t, const double *p, double *residual)
 {
     double sum = 0;
-    predict(t, p, residual, NULL);
+    predict_forces(t, p, residual, NULL);
     for (size_t i = 0; i < t->nodes.n; i++)
         residual[i] = t->nodes.force[i] - residual[i];
-    whiten(&t->nodes, residual);
+    whiten_residual(&t->nodes, residual);
     for (size_t i = 0; i < t->nodes.n; i++)
         sum += residual[i] * residual[i];
     for (size_t a = 0; a < N_PARAMETERS; a++)
@@ -201,8 +217,8 @@ static double cost_of(dwell_task *t, const double *p, double *residual)
 }
 
 /* J'J with what is known beforehand, and J'r. */
-static void set_up_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
-                             double jr[N_PARAMETERS])
+static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
+                            double jr[N_PARAMETERS])
 {
     const size_t n = t->nodes.n;
     for (size_t a = 0; a < N_PARAMETERS; a++) {
@@ -229,7 +245,7 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
     double cost = cost_of(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
     for (int step = 0; step < MAX_STEPS; step++) {
         double damped[N_PARAMETERS][N_PARAMETERS], next[N_PARAMETERS], there;
-        set_up_equations(t, p, jj, jr);
+        dwell_equations(t, p, jj, jr);
         do {
             for (size_t a = 0; a < N_PARAMETERS; a++) {
                 for (size_t b = 0; b < N_PARAMETERS; b++)
@@ -257,7 +273,7 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
         if (gain <= converged * cost)
             break;
     }
-    set_up_equations(t, p, jj, jr);
+    dwell_equations(t, p, jj, jr);
     return cost;
 }
 
@@ -372,7 +388,7 @@ static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double nu = t->history->poisson_ratio, k = t->history->spring_constant;
-    predict(t, p, t->shifted, t->depth);
+    predict_forces(t, p, t->shifted, t->depth);
     for (size_t i = n->first_held; i < n->first_free; i++) {
         wt_dwell_point *point = &to->point[to->n_points++];
         const double z = n->position[i] - t->history->contact_point - p[POINT] * t->unit[POINT];
@@ -422,8 +438,8 @@ static double chance_of_two(double misfit, double ripples)
     return chance * (2 - chance);
 }
 
-static void tell_dwell(dwell_task *t, const double *p, double cost,
-                       double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
+static void tell_relaxation(dwell_task *t, const double *p, double cost,
+                            double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double freedom = (double)(n->n - N_PARAMETERS);
@@ -476,7 +492,7 @@ static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
     p[TILT] = h->baseline_tilt.value / t->unit[TILT];
 }
 
-static const char *unusable(const wt_dwell_history *h)
+static const char *why_no_relaxation(const wt_dwell_history *h)
 {
     const size_t n = h->n_approach + h->n_dwell + h->n_retract;
     if (!(h->spring_constant > 0) || !(h->modulus > 0) || !isfinite(h->contact_point) ||
@@ -491,7 +507,7 @@ static const char *unusable(const wt_dwell_history *h)
     return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
 }
 
-static void fit_history(dwell_task *t, pool *memory, wt_dwell *to)
+static void fit_relaxation(dwell_task *t, pool *memory, wt_dwell *to)
 {
     const wt_dwell_history *h = t->history;
     const double depth = h->position[h->n_approach - 1] - h->contact_point;
@@ -512,7 +528,7 @@ static void fit_history(dwell_task *t, pool *memory, wt_dwell *to)
     make_terms(t);
     (void)fit_parameters(t, BUMP, p, jj);
     const double cost = fit_parameters(t, N_PARAMETERS, p, jj);
-    tell_dwell(t, p, cost, jj, to);
+    tell_relaxation(t, p, cost, jj, to);
 }
 
 wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
@@ -523,11 +539,11 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     dwell_task t = {.table = table, .history = history};
     pool memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
-    dwell->why_not = unusable(history);
+    dwell->why_not = why_no_relaxation(history);
     gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
     if (status == WT_OK && dwell->why_not[0] == '\0')
-        fit_history(&t, &memory, dwell);
+        fit_relaxation(&t, &memory, dwell);
     if (status == WT_OK && memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
     pool_free(&memory);

@@ -13,6 +13,7 @@
  */
 #include "fit/indentation/curve_fitting.h"
 #include "fit/indentation/curve_model.h"
+#include "model/root.h"
 
 #include <gsl/gsl_fft_real.h>
 #include <math.h>
@@ -174,31 +175,17 @@ WIDE_REGISTERS static double fit_sine(const baseline *b, double number, curve_wa
     return wave->p[WAVE_COSINE] * cx + wave->p[WAVE_SINE] * sx;
 }
 
-/* The wave number of the largest gain within half a cycle. */
-static double refine_number(const baseline *b, double number)
+static double gain_at(double number, void *user)
 {
-    const double golden = 0.3819660112501051;
     curve_wave ignored;
-    double low = fmax(number - 0.5 * b->cycle, b->lowest), high = number + 0.5 * b->cycle;
-    double left = low + golden * (high - low), right = high - golden * (high - low);
-    double at_left = fit_sine(b, left, &ignored, NULL),
-           at_right = fit_sine(b, right, &ignored, NULL);
-    for (int i = 0; i < CLOSER; i++) {
-        if (at_left > at_right) {
-            high = right;
-            right = left;
-            at_right = at_left;
-            left = low + golden * (high - low);
-            at_left = fit_sine(b, left, &ignored, NULL);
-        } else {
-            low = left;
-            left = right;
-            at_left = at_right;
-            right = high - golden * (high - low);
-            at_right = fit_sine(b, right, &ignored, NULL);
-        }
-    }
-    return 0.5 * (low + high);
+    return fit_sine(user, number, &ignored, NULL);
+}
+
+/* The wave number of the largest gain within half a cycle. */
+static double refine_number(baseline *b, double number)
+{
+    return root_maximum(gain_at, b, fmax(number - 0.5 * b->cycle, b->lowest),
+                        number + 0.5 * b->cycle, CLOSER);
 }
 
 /* Chance that noise of the colour of `rest` makes a gain as large at this or another period. */

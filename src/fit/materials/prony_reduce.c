@@ -7,6 +7,7 @@
 #include "base/gsl_quiet.h"
 #include "base/param.h"
 #include "fit/pool_gsl.h"
+#include "model/prony.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_errno.h>
@@ -16,18 +17,26 @@
 #include <string.h>
 
 enum { STORAGE, LOSS, MODULI };
-/* Points a decade to fit and to judge, steps of a fit, rounds of weights and steps in each. */
-enum { POINTS = 16, JUDGED = 40, STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
-/* More terms a decade tell nothing more of two moduli. */
+/* Points a decade to fit and to judge: five and thirteen in every term of the densest series. */
+enum { POINTS = 16, JUDGED = 40 };
+/* Steps of a fit, rounds of weights and steps in each, dampings of one step: bounds of time, for
+ * the best that was met is kept. Twice as many make series hardly better; half as many, a term
+ * longer. */
+enum { STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
+/* More terms a decade tell nothing more of two moduli: they ripple by 1e-5 of E''
+ * (fit/sweeps/master_fit.c). */
 static const double most_density = 3;
-/* How far outside the measured range a relaxation time may lie [ln]: a slow term stands for a
- * long-term modulus where that is given as less than there is. */
+/* How far outside the measured range a relaxation time may lie [ln]: a term that is faster by two
+ * decades has 1e-4 of its modulus in E' and is a dashpot; one that is slower by eight lacks 1e-16
+ * of it, and stands for a long-term modulus where that is given as less than there is. */
 static const double faster = 2 * M_LN10, slower = 8 * M_LN10;
-/* Between the points a deviation may be larger by this share. */
+/* Between the points a deviation may be larger by this share: of a curve whose points are 1/16 of
+ * its period apart the top is missed by cos(pi/16), 2 %. */
 static const double between = 0.05;
-/* A term with a lesser share of any modulus is none. */
+/* A term with a lesser share of any modulus is none: no digit of a modulus that is told has it. */
 static const double none = 1e-9;
-static const double least_gain = 1e-3; /* of the sum of squares, relative */
+/* Of the sum of squares, relative: half of it of what is told as the deviation. */
+static const double least_gain = 1e-3;
 
 wt_reduction wt_reduction_defaults(void)
 {
@@ -68,18 +77,6 @@ typedef struct reducer {
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-static void series_at(const wt_prony *p, double w, double modulus[MODULI])
-{
-    modulus[STORAGE] = p->equilibrium_modulus;
-    modulus[LOSS] = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double z = w * p->relaxation_time[i],
-                     low = z < 1 ? z * z / (1 + z * z) : 1 / (1 + 1 / (z * z));
-        modulus[STORAGE] += p->modulus[i] * low;
-        modulus[LOSS] += p->modulus[i] * (z < 1 ? z / (1 + z * z) : 1 / (z + 1 / z));
-    }
-}
-
 static size_t n_unknowns(const reducer *r)
 {
     return 2 * r->terms + r->fitted;
@@ -117,7 +114,7 @@ static void terms_at(const reducer *r, const double *unknown, double x, double m
 }
 
 /* Sum of squares; with them the normal equations. */
-static double evaluate(reducer *r, const double *unknown, bool with_normal)
+static double residual_squares(reducer *r, const double *unknown, bool with_normal)
 {
     const size_t n = n_unknowns(r);
     double sum = 0;
@@ -146,7 +143,7 @@ static double evaluate(reducer *r, const double *unknown, bool with_normal)
 
 /* ---- the fit of so many terms ---------------------------------------------------------------- */
 
-static bool solve(reducer *r, double damping)
+static bool solve_normal(reducer *r, double damping)
 {
     const size_t n = n_unknowns(r);
     gsl_matrix_view factor = gsl_matrix_submatrix(r->factor, 0, 0, n, n);
@@ -173,20 +170,20 @@ static void clamp_times(const reducer *r, double *unknown)
 }
 
 /* Levenberg-Marquardt for the present weights. */
-static void descend(reducer *r, int steps)
+static void fit_unknowns(reducer *r, int steps)
 {
     const size_t n = n_unknowns(r);
     double damping = 1e-3;
     for (int i = 0; i < steps; i++) {
-        const double before = evaluate(r, r->unknown, true);
+        const double before = residual_squares(r, r->unknown, true);
         double after = before;
         for (int k = 0; k < DAMPINGS; k++) {
             after = HUGE_VAL;
-            if (solve(r, damping)) {
+            if (solve_normal(r, damping)) {
                 for (size_t u = 0; u < n; u++)
                     r->trial[u] = r->unknown[u] + gsl_vector_get(r->move, u);
                 clamp_times(r, r->trial);
-                after = evaluate(r, r->trial, false);
+                after = residual_squares(r, r->trial, false);
             }
             if (after < before)
                 break;
@@ -199,10 +196,10 @@ static void descend(reducer *r, int steps)
         if (before - after < least_gain * before)
             break;
     }
-    r->objective = evaluate(r, r->unknown, false);
+    r->objective = residual_squares(r, r->unknown, false);
 }
 
-static double largest(const reducer *r)
+static double largest_deviation(const reducer *r)
 {
     double most = 0;
     for (int q = 0; q < MODULI; q++)
@@ -224,8 +221,8 @@ static double fit_terms(reducer *r, double enough)
 {
     const size_t n = n_unknowns(r);
     weigh_alike(r);
-    descend(r, STEPS);
-    double best = largest(r);
+    fit_unknowns(r, STEPS);
+    double best = largest_deviation(r);
     memcpy(r->best, r->unknown, n * sizeof *r->best);
     for (int i = 0; i < ROUNDS && best > enough && (best < 4 * enough || enough == 0); i++) {
         double sum = 0;
@@ -235,8 +232,8 @@ static double fit_terms(reducer *r, double enough)
         for (int q = 0; q < MODULI; q++)
             for (size_t k = 0; k < r->n; k++)
                 r->weight[q][k] *= 2 * (double)r->n / sum;
-        descend(r, ROUND_STEPS);
-        const double now = largest(r);
+        fit_unknowns(r, ROUND_STEPS);
+        const double now = largest_deviation(r);
         if (now < best) {
             best = now;
             memcpy(r->best, r->unknown, n * sizeof *r->best);
@@ -246,7 +243,7 @@ static double fit_terms(reducer *r, double enough)
 }
 
 /* Times evenly over the measured range, moduli as the spectrum has them about each. */
-static void start(reducer *r, size_t terms)
+static void spread_terms(reducer *r, size_t terms)
 {
     const double from = -r->x[r->n - 1], step = (r->x[r->n - 1] - r->x[0]) / (double)terms;
     double modulus[MODULI];
@@ -260,12 +257,12 @@ static void start(reducer *r, size_t terms)
                 r->unknown[2 * i + 1] += r->from->modulus[k];
         }
         const double w = exp(-r->unknown[2 * i]);
-        series_at(r->from, w, modulus);
+        prony_moduli(r->from, w, &modulus[STORAGE], &modulus[LOSS]);
         /* none of the spectrum is nothing to start from */
         r->unknown[2 * i + 1] = log(fmax(r->unknown[2 * i + 1], 0.1 * modulus[LOSS]));
     }
     if (r->fitted) {
-        series_at(r->from, exp(r->x[0]), modulus);
+        prony_moduli(r->from, exp(r->x[0]), &modulus[STORAGE], &modulus[LOSS]);
         r->unknown[2 * terms] = log(fmax(r->from->equilibrium_modulus, 1e-3 * modulus[STORAGE]));
     } else if (terms > 1 && r->from->equilibrium_modulus > r->long_term) {
         r->unknown[2 * terms - 2] = r->high;
@@ -296,7 +293,7 @@ static void leave_out(reducer *r, size_t i)
 }
 
 /* One term less: the least if it hardly counts, else the two closest to each other become one. */
-static void merge(reducer *r, double little)
+static void merge_terms(reducer *r, double little)
 {
     for (size_t i = 0; i < r->terms; i++)
         if (largest_share(r, i) < little) {
@@ -321,7 +318,7 @@ static int by_time(const void *left, const void *right)
 }
 
 /* The best of so many terms, into `kept`; what they are off. */
-static double keep(reducer *r, double *kept, double off)
+static double fit_best_terms(reducer *r, double *kept, double off)
 {
     memcpy(r->unknown, r->best, n_unknowns(r) * sizeof *r->best);
     for (size_t i = r->terms; i-- > 0;)
@@ -334,15 +331,15 @@ static double keep(reducer *r, double *kept, double off)
 
 /* The fewest: from evenly spread starts, half as many again until they are enough, then by halves,
  * then by merging for as long as that goes on. */
-static size_t fewest(reducer *r, double enough, double *kept)
+static size_t fewest_terms(reducer *r, double enough, double *kept)
 {
     size_t low = 0, high = 0, n = r->likely;
     double off = HUGE_VAL;
     while (high == 0 || high > low + 1) {
-        start(r, n);
+        spread_terms(r, n);
         const double now = fit_terms(r, enough);
         if (now <= enough || n == r->most) {
-            off = keep(r, kept, now);
+            off = fit_best_terms(r, kept, now);
             high = r->terms;
         } else {
             low = n;
@@ -355,17 +352,17 @@ static size_t fewest(reducer *r, double enough, double *kept)
     for (r->terms = high; r->terms > 1;) {
         n = r->terms;
         memcpy(r->unknown, kept, n_unknowns(r) * sizeof *kept);
-        merge(r, 0.1 * enough);
+        merge_terms(r, 0.1 * enough);
         if (fit_terms(r, enough) > enough)
             return n;
-        keep(r, kept, off);
+        fit_best_terms(r, kept, off);
     }
     return r->terms;
 }
 
 /* ---- the whole ------------------------------------------------------------------------------- */
 
-static wt_status prepare(reducer *r, const wt_reduction *options, wt_error *err)
+static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_error *err)
 {
     const wt_prony *from = r->from;
     const double first = log(from->frequency_min), last = log(from->frequency_max);
@@ -401,7 +398,7 @@ static wt_status prepare(reducer *r, const wt_reduction *options, wt_error *err)
     for (size_t k = 0; k < r->n; k++) {
         double modulus[MODULI];
         r->x[k] = first + (last - first) * (double)k / (double)(r->n - 1);
-        series_at(from, exp(r->x[k]), modulus);
+        prony_moduli(from, exp(r->x[k]), &modulus[STORAGE], &modulus[LOSS]);
         for (int q = 0; q < MODULI; q++)
             r->y[q][k] = log(modulus[q]);
         if (!isfinite(r->y[STORAGE][k]) || !isfinite(r->y[LOSS][k]))
@@ -418,8 +415,8 @@ void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviati
     for (size_t k = 0; k < n; k++) {
         double is[MODULI], was[MODULI];
         const double w = exp(first + (last - first) * (double)k / (double)(n - 1));
-        series_at(to, w, is);
-        series_at(from, w, was);
+        prony_moduli(to, w, &is[STORAGE], &is[LOSS]);
+        prony_moduli(from, w, &was[STORAGE], &was[LOSS]);
         for (int q = 0; q < MODULI; q++)
             deviation[q] = fmax(deviation[q], fabs(is[q] / was[q] - 1));
     }
@@ -455,18 +452,18 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
     gsl_quiet();
     wt_status status = param_check(wt_reduction_params(), &o, err);
     if (status == WT_OK)
-        status = prepare(&r, &o, err);
+        status = prepare_reduction(&r, &o, err);
     double *kept = status == WT_OK ? pool_numbers(&r.memory, 2 * r.most + 1) : NULL;
     if (status == WT_OK && kept == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     if (status == WT_OK) {
         size_t terms = o.terms;
         if (terms > 0) {
-            start(&r, terms);
-            keep(&r, kept, fit_terms(&r, 0));
+            spread_terms(&r, terms);
+            fit_best_terms(&r, kept, fit_terms(&r, 0));
             terms = r.terms;
         } else {
-            terms = fewest(&r, o.error * (1 - between), kept);
+            terms = fewest_terms(&r, o.error * (1 - between), kept);
         }
         status = hand_out(&r, kept, terms, to, err);
     }

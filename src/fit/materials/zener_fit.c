@@ -2,15 +2,18 @@
  * and whether they describe the points as well. Its constants carry no errors: what it is off is
  * not noise. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
+#include "model/prony.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* Bounds of time for what does not settle; twelve dampings by ten leave a trillionth of a step. */
 enum { CONSTANTS = 4, STEPS = 200, DAMPINGS = 12 };
-/* A glass modulus so many times what was measured is none that the points tell; a modulus after a
- * long time of such a share of the least storage modulus is nothing. */
+/* A glass modulus so many times what was measured is none that the points tell: less than a tenth
+ * of the transition is seen; a modulus after a long time of such a share of the least storage
+ * modulus is nothing, for no modulus is known to that. */
 static const double beyond = 10, negligible = 1e-3;
 enum { LN_E0, LN_RISE, LN_TAU, LOGIT_ALPHA };
 
@@ -25,18 +28,18 @@ static void law_at(const double *p, double ln_w, double ln[2])
 }
 
 /* Both moduli of the point were measured and neither is far off. */
-static bool counts(const wt_master *m, size_t i)
+static bool point_counts(const wt_master *m, size_t i)
 {
     return !m->left_out[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
 }
 
 /* Sum of squares of ln at the points that were not left out, and of each modulus. */
-static double squares(const wt_master *m, const double *p, double of[2])
+static double residual_squares(const wt_master *m, const double *p, double of[2])
 {
     of[0] = of[1] = 0;
     for (size_t i = 0; i < m->n; i++) {
         double ln[2];
-        if (!counts(m, i))
+        if (!point_counts(m, i))
             continue;
         law_at(p, m->log_frequency[i] * M_LN10, ln);
         of[0] += pow(ln[0] - m->log_storage[i] * M_LN10, 2);
@@ -57,7 +60,7 @@ static void normal_equations(const wt_master *m, const double *p, double normal[
     for (size_t k = 0; k < m->n; k++) {
         double here[2], slope[2][CONSTANTS];
         const double x = m->log_frequency[k] * M_LN10;
-        if (!counts(m, k))
+        if (!point_counts(m, k))
             continue;
         law_at(p, x, here);
         for (int i = 0; i < CONSTANTS; i++) {
@@ -82,9 +85,9 @@ static void normal_equations(const wt_master *m, const double *p, double normal[
 }
 
 /* Levenberg-Marquardt; returns the sum of squares. */
-static double descend(const wt_master *m, double *p)
+static double descend_from(const wt_master *m, double *p)
 {
-    double of[2], sum = squares(m, p, of), damping = 1e-2;
+    double of[2], sum = residual_squares(m, p, of), damping = 1e-2;
     for (int i = 0; i < STEPS; i++) {
         double normal[CONSTANTS][CONSTANTS], gradient[CONSTANTS], next = HUGE_VAL;
         normal_equations(m, p, normal, gradient);
@@ -101,7 +104,7 @@ static double descend(const wt_master *m, double *p)
                 continue;
             for (int a = 0; a < CONSTANTS; a++)
                 trial[a] = p[a] + fmin(fmax(move[a], -3), 3);
-            next = squares(m, trial, of);
+            next = residual_squares(m, trial, of);
             for (int a = 0; next < sum && a < CONSTANTS; a++)
                 p[a] = trial[a];
         }
@@ -117,7 +120,7 @@ static double descend(const wt_master *m, double *p)
 }
 
 /* Akaike's criterion for few points, the variance of all alike and itself one of the constants. */
-static double criterion(double sum, double n, double constants)
+static double akaike_criterion(double sum, double n, double constants)
 {
     const double k = constants + 1;
     return n - k > 1 ? n * log(sum / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1) : (double)NAN;
@@ -127,13 +130,9 @@ static void series_squares(const wt_master *m, const wt_prony *series, double of
 {
     of[0] = of[1] = 0;
     for (size_t i = 0; i < m->n; i++) {
-        double storage = series->equilibrium_modulus, loss = 0;
-        for (size_t k = 0; k < series->n; k++) {
-            const double z = pow(10, m->log_frequency[i]) * series->relaxation_time[k];
-            storage += series->modulus[k] * z / (z + 1 / z);
-            loss += series->modulus[k] / (z + 1 / z);
-        }
-        if (!counts(m, i))
+        double storage, loss;
+        prony_moduli(series, pow(10, m->log_frequency[i]), &storage, &loss);
+        if (!point_counts(m, i))
             continue;
         of[0] += pow(log(storage) - m->log_storage[i] * M_LN10, 2);
         of[1] += pow(log(loss) - m->log_loss[i] * M_LN10, 2);
@@ -148,7 +147,7 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
     double constants[CONSTANTS] = {0};
     gsl_quiet();
     for (size_t i = 0; i < m->n; i++) {
-        if (!counts(m, i))
+        if (!point_counts(m, i))
             continue;
         points++;
         lowest = fmin(lowest, m->log_storage[i] * M_LN10);
@@ -160,7 +159,7 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
         for (int at = 1; at < 4; at++) {
             const double x = m->log_frequency[(size_t)at * m->n / 4] * M_LN10;
             double p[CONSTANTS] = {lowest, highest, -x, exponents[i]};
-            const double sum = descend(m, p);
+            const double sum = descend_from(m, p);
             if (!(sum < best))
                 continue;
             best = sum;
@@ -169,7 +168,7 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
         }
     if (!(best < HUGE_VAL))
         return wt_fail(err, WT_E_CONVERGENCE, "no fractional Zener law goes through the points");
-    (void)squares(m, constants, of);
+    (void)residual_squares(m, constants, of);
     const double x = -constants[LN_TAU] / M_LN10, rise = exp(constants[LN_RISE]);
     const double e0 = exp(constants[LN_E0]);
     *fit = (wt_zener_fit){.e0 = constants[LN_E0] < lowest + log(negligible) ? 0 : e0,
@@ -181,11 +180,11 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
                           .alpha = 1 / (1 + exp(-constants[LOGIT_ALPHA])),
                           .rms_storage = sqrt(of[0] / points),
                           .rms_loss = sqrt(of[1] / points),
-                          .aicc = criterion(best, 2 * points, CONSTANTS)};
+                          .aicc = akaike_criterion(best, 2 * points, CONSTANTS)};
     series_squares(m, series, of);
     fit->series_rms_storage = sqrt(of[0] / points);
     fit->series_rms_loss = sqrt(of[1] / points);
-    fit->series_aicc = criterion(of[0] + of[1], 2 * points,
-                                 2 * (double)series->n + (series->equilibrium_modulus > 0));
+    fit->series_aicc = akaike_criterion(of[0] + of[1], 2 * points,
+                                        2 * (double)series->n + (series->equilibrium_modulus > 0));
     return WT_OK;
 }

@@ -3,16 +3,25 @@
 #include "fit/ramp/smooth.h"
 
 #include "base/normal.h"
+#include "model/root.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* A peak is looked at down to this share of its height, and over at least so many points. Values
- * between points come from so many neighbours. */
+/* A peak is looked at down to this share of its height: a Gaussian is there one standard deviation
+ * from its top, where it bends the other way, which no parabola follows. */
 static const double share = 0.6;
-enum { LEAST = 9, NEIGHBOURS = 15, FROM_END = 2, GRID = 100, HALVINGS = 40 };
+/* And over at least so many points, three times the constants of a parabola. A largest point that
+ * is one of the outer two may be a rise that goes on. */
+enum { LEAST = 9, FROM_END = 2 };
+/* Values between points come from so many neighbours: chosen, for half of them tell their scatter
+ * to 35 %, and twice as many cover twice the bend. */
+enum { NEIGHBOURS = 15 };
+/* Places where the sign of the slope is looked for, far more than a curve of so few points has
+ * maxima; halves of one such step end at its 1e-12. */
+enum { GRID = 100, HALVINGS = 40 };
 
-static void nothing(wt_peak *peak, const char *why)
+static void tell_no_peak(wt_peak *peak, const char *why)
 {
     *peak = (wt_peak){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                       .height = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
@@ -47,21 +56,27 @@ static bool choose_points(const double *y, size_t n, size_t top, size_t asked, s
 
 /* ---- the place of a maximum ------------------------------------------------------------------ */
 
-static double falls(const smooth *s, double x)
+static double falling_probability(const smooth *s, double x)
 {
     return smooth_below(s, x, SMOOTH_SLOPE, 0);
 }
 
-/* Where it becomes as probable that the curve falls as `level`, between two places. */
-static double crossing(const smooth *s, double low, double high, double level)
+typedef struct slope_level {
+    const smooth *s;
+    double level;
+} slope_level;
+
+static bool falls_less(double x, void *user)
 {
-    for (int i = 0; i < HALVINGS; i++) {
-        const double middle = 0.5 * (low + high);
-        if (falls(s, middle) < level)
-            low = middle;
-        else
-            high = middle;
-    }
+    const slope_level *l = user;
+    return falling_probability(l->s, x) < l->level;
+}
+
+/* Where it becomes as probable that the curve falls as `level`, between two places. */
+static double slope_crossing(const smooth *s, double low, double high, double level)
+{
+    slope_level l = {s, level};
+    root_halve(falls_less, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 
@@ -74,7 +89,7 @@ static wt_interval find_top(const smooth *s, double from, double to, double larg
     wt_interval top = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     long at = -1;
     for (int i = 0; i <= GRID; i++)
-        probable[i] = falls(s, from + i * step);
+        probable[i] = falling_probability(s, from + i * step);
     for (long i = 0; i < GRID; i++)
         if (probable[i] < 0.5 && probable[i + 1] >= 0.5 &&
             (at < 0 ||
@@ -82,16 +97,18 @@ static wt_interval find_top(const smooth *s, double from, double to, double larg
             at = i;
     if (at < 0)
         return top;
-    top.value = crossing(s, from + (double)at * step, from + (double)(at + 1) * step, 0.5);
+    top.value = slope_crossing(s, from + (double)at * step, from + (double)(at + 1) * step, 0.5);
     long low = at, high = at + 1;
     while (low >= 0 && probable[low] > 0.025)
         low--;
     while (high <= GRID && probable[high] < 0.975)
         high++;
     if (low >= 0)
-        top.low = crossing(s, from + (double)low * step, from + (double)(low + 1) * step, 0.025);
+        top.low =
+            slope_crossing(s, from + (double)low * step, from + (double)(low + 1) * step, 0.025);
     if (high <= GRID)
-        top.high = crossing(s, from + (double)(high - 1) * step, from + (double)high * step, 0.975);
+        top.high =
+            slope_crossing(s, from + (double)(high - 1) * step, from + (double)high * step, 0.975);
     top.standard_error = (top.high - top.low) / (2 * NORMAL_95);
     return top;
 }
@@ -122,7 +139,7 @@ static wt_status place_peak(const double *x, const double *z, size_t n, double l
     const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
     peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
     if (status == WT_OK && !peak->found) {
-        nothing(peak, "no peak that stands out of the scatter of the points");
+        tell_no_peak(peak, "no peak that stands out of the scatter of the points");
     } else if (status == WT_OK) {
         const wt_interval height = smooth_interval(&s, peak->at.value);
         peak->misfit = relative_misfit(&s, x, z, n);
@@ -143,18 +160,19 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
                        wt_error *err)
 {
     size_t top = 0, first, last;
-    nothing(peak, "fewer than 5 points");
+    tell_no_peak(peak, "fewer than 5 points");
     if (n < SMOOTH_LEAST)
         return WT_OK;
     for (size_t i = 1; i < n; i++)
         top = y[i] > y[top] ? i : top;
     if (top < FROM_END || top + FROM_END >= n) {
-        nothing(peak, top < FROM_END ? "no peak in range: largest at the lowest temperatures"
-                                     : "no peak in range: largest at the highest temperatures");
+        tell_no_peak(peak, top < FROM_END
+                               ? "no peak in range: largest at the lowest temperatures"
+                               : "no peak in range: largest at the highest temperatures");
         return WT_OK;
     }
     if (!choose_points(y, n, top, points, &first, &last)) {
-        nothing(peak, "no peak in range: too few points on one side of the largest");
+        tell_no_peak(peak, "no peak in range: too few points on one side of the largest");
         return WT_OK;
     }
     double *z = malloc((last - first) * sizeof *z);

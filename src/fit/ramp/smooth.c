@@ -5,6 +5,7 @@
 #include "base/gsl_quiet.h"
 #include "base/normal.h"
 #include "fit/pool_gsl.h"
+#include "model/root.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
@@ -14,12 +15,17 @@
 #include <string.h>
 
 enum { PARABOLA = SMOOTH_PARABOLA };
-/* Lengths over which the departure changes, of half the range; its variance over that of the
- * scatter of a point. */
+/* Lengths over which the departure changes, of half the range: from a quarter, below which a
+ * parabola and its departure have as many bends as fifteen points, to more than all of it; its
+ * variance over that of the scatter of a point: from what is seen of ten points to exact data.
+ * Steps of a factor 1.6 and 10, of which the weights change by little from one to the next. */
 static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
 static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
-enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios), HALVINGS = 40 };
-/* What weighs less than this share of the best changes no digit that is shown. */
+enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios) };
+/* Halves of a standard error or some: 1e-12 of it. */
+enum { HALVINGS = 40 };
+/* What weighs less than this share of the best changes no digit that is shown: all 48 ways together
+ * are then less than a twentieth, and each by less than its distance. */
 static const double counts_for_nothing = 1e-3;
 
 /* One smoothness and size of the departure. */
@@ -34,7 +40,7 @@ typedef struct smooth_way {
 } smooth_way;
 
 /* Powers of x, or their slopes. */
-static void powers(double x, smooth_order order, double p[PARABOLA])
+static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
 {
     p[0] = order == SMOOTH_VALUE ? 1 : 0;
     p[1] = order == SMOOTH_VALUE ? x : 1;
@@ -42,7 +48,7 @@ static void powers(double x, smooth_order order, double p[PARABOLA])
 }
 
 /* Of the departure at x, or its slope, with that at a point. */
-static double covariance(const smooth_way *w, double x, double at, smooth_order order)
+static double departure_covariance(const smooth_way *w, double x, double at, smooth_order order)
 {
     const double away = (x - at) / w->length, value = w->ratio * exp(-0.5 * away * away);
     return order == SMOOTH_VALUE ? value : -away / w->length * value;
@@ -81,7 +87,7 @@ static bool solve_parabola(const smooth *s, smooth_way *w, gsl_vector *powers_y,
     gsl_vector_view coefficient = gsl_vector_view_array(w->coefficient, PARABOLA);
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA];
-        powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
         for (size_t a = 0; a < PARABOLA; a++)
             for (size_t b = 0; b < PARABOLA; b++)
                 data[a * PARABOLA + b] += p[a] * gsl_matrix_get(w->flat, i, b);
@@ -104,13 +110,13 @@ static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
     for (size_t i = 0; i < s->n; i++)
         for (size_t k = 0; k < s->n; k++)
             gsl_matrix_set(w->root, i, k,
-                           covariance(w, s->x[i], s->x[k], SMOOTH_VALUE) +
+                           departure_covariance(w, s->x[i], s->x[k], SMOOTH_VALUE) +
                                (i == k ? 1 / s->count[i] : 0));
     if (gsl_linalg_cholesky_decomp1(w->root) != GSL_SUCCESS)
         return false;
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA];
-        powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
         log_det += 2 * log(gsl_matrix_get(w->root, i, i));
         for (size_t a = 0; a < PARABOLA; a++)
             gsl_matrix_set(w->flat, i, a, p[a]);
@@ -126,7 +132,7 @@ static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
         return false;
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA], fitted = 0;
-        powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
         for (size_t a = 0; a < PARABOLA; a++)
             fitted += p[a] * w->coefficient[a];
         gsl_vector_set(w->pull, i, s->y[i] - fitted);
@@ -200,11 +206,11 @@ void smooth_free(smooth *s)
 static double way_mean(const smooth *s, const smooth_way *w, double x, smooth_order order)
 {
     double p[PARABOLA], mean = 0;
-    powers(x, order, p);
+    parabola_powers(x, order, p);
     for (size_t a = 0; a < PARABOLA; a++)
         mean += p[a] * w->coefficient[a];
     for (size_t i = 0; i < s->n; i++)
-        mean += covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
+        mean += departure_covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
     return mean;
 }
 
@@ -213,9 +219,9 @@ static double way_error(const smooth *s, const smooth_way *w, double x, smooth_o
     double p[PARABOLA], known[SMOOTH_POINTS];
     double square = order == SMOOTH_VALUE ? w->ratio : w->ratio / (w->length * w->length);
     gsl_vector_view column = gsl_vector_view_array(known, s->n);
-    powers(x, order, p);
+    parabola_powers(x, order, p);
     for (size_t i = 0; i < s->n; i++) {
-        known[i] = covariance(w, x, s->x[i], order);
+        known[i] = departure_covariance(w, x, s->x[i], order);
         for (size_t a = 0; a < PARABOLA; a++)
             p[a] -= known[i] * gsl_matrix_get(w->flat, i, a);
     }
@@ -248,7 +254,7 @@ typedef struct opinions {
     double weight[WAYS], mean[WAYS], error[WAYS], freedom;
 } opinions;
 
-static opinions ask(const smooth *s, double x, smooth_order order)
+static opinions opinions_at(const smooth *s, double x, smooth_order order)
 {
     opinions o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
     const double at = (x - s->centre) / s->half, scale = scale_of(s, order);
@@ -260,7 +266,7 @@ static opinions ask(const smooth *s, double x, smooth_order order)
     return o;
 }
 
-static double below(const opinions *o, double limit)
+static double probability_below(const opinions *o, double limit)
 {
     double probability = 0;
     for (size_t i = 0; i < o->n; i++) {
@@ -274,34 +280,43 @@ static double below(const opinions *o, double limit)
 
 double smooth_below(const smooth *s, double x, smooth_order order, double limit)
 {
-    const opinions o = ask(s, x, order);
-    return below(&o, limit);
+    const opinions o = opinions_at(s, x, order);
+    return probability_below(&o, limit);
+}
+
+typedef struct opinion_level {
+    const opinions *o;
+    double probability;
+} opinion_level;
+
+static bool less_probable(double x, void *user)
+{
+    const opinion_level *l = user;
+    return probability_below(l->o, x) < l->probability;
 }
 
 /* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
-static double quantile(const opinions *o, double probability, double from, double step)
+static double opinion_quantile(const opinions *o, double probability, double from, double step)
 {
     double other = from + step;
-    while (step != 0 && (below(o, other) < probability) == (step > 0) && isfinite(other))
+    while (step != 0 && (probability_below(o, other) < probability) == (step > 0) &&
+           isfinite(other))
         other += step *= 2;
-    for (int i = 0; i < HALVINGS; i++) {
-        const double middle = 0.5 * (from + other);
-        if ((below(o, middle) < probability) == (step > 0))
-            from = middle;
-        else
-            other = middle;
-    }
-    return 0.5 * (from + other);
+    opinion_level l = {o, probability};
+    double low = fmin(from, other), high = fmax(from, other);
+    root_halve(less_probable, &l, &low, &high, 0, HALVINGS);
+    return 0.5 * (low + high);
 }
 
 wt_interval smooth_interval(const smooth *s, double x)
 {
-    const opinions o = ask(s, x, SMOOTH_VALUE);
+    const opinions o = opinions_at(s, x, SMOOTH_VALUE);
     double mean = 0, error = 0;
     for (size_t i = 0; i < o.n; i++) {
         mean += o.weight[i] * o.mean[i];
         error = fmax(error, o.error[i]);
     }
-    const double low = quantile(&o, 0.025, mean, -error), high = quantile(&o, 0.975, mean, error);
+    const double low = opinion_quantile(&o, 0.025, mean, -error),
+                 high = opinion_quantile(&o, 0.975, mean, error);
     return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
 }

@@ -7,7 +7,9 @@
 #include "base/pool.h"
 #include "weartrack/fit.h"
 
-/* Coefficients of the parabola; points that the fit is made of, others are joined to so many. */
+/* Coefficients of the parabola; points that the fit is made of, others are joined to so many (for
+ * the time goes with the cube of them; a mean of neighbours loses nothing that is as wide as the
+ * shortest length); fewest, two more than coefficients. */
 enum { SMOOTH_PARABOLA = 3, SMOOTH_POINTS = 48, SMOOTH_LEAST = 5 };
 
 struct smooth_way;

@@ -4,6 +4,8 @@
  */
 #include "fit/spot/height_image.h"
 
+#include "model/cholesky.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +13,8 @@
 /* ---- planes ---------------------------------------------------------------------------------- */
 
 /* First and last pixel of an axis within a distance of a place; none: first > last. */
-static void span(double centre, double reach, double step, size_t n, size_t *first, size_t *last)
+static void pixel_span(double centre, double reach, double step, size_t n, size_t *first,
+                       size_t *last)
 {
     const double low = ceil((centre - reach) / step), high = floor((centre + reach) / step);
     *first = 1;
@@ -24,28 +27,8 @@ static void span(double centre, double reach, double step, size_t n, size_t *fir
 
 bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_UNKNOWNS])
 {
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j <= i; j++) {
-            double sum = m[i][j];
-            for (size_t k = 0; k < j; k++)
-                sum -= m[i][k] * m[j][k];
-            /* What rounding may have left of the unknowns before is nothing. */
-            if (i == j && !(sum > (double)(n * n) * DBL_EPSILON * m[i][i]))
-                return false;
-            m[i][j] = i == j ? sqrt(sum) : sum / m[j][j];
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            v[i] -= m[i][k] * v[k];
-        v[i] /= m[i][i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            v[i] -= m[k][i] * v[k];
-        v[i] /= m[i][i];
-    }
-    return true;
+    /* What rounding may have left of the unknowns before is nothing. */
+    return cholesky_solve(&m[0][0], SPOT_UNKNOWNS, n, (double)(n * n) * DBL_EPSILON, v);
 }
 
 /* Calls `visit` for each pixel of a disc; u and v are in units of its radius. */
@@ -54,8 +37,8 @@ static void visit_disc(const spot_field *f, double x, double y, double radius, d
                        void *user)
 {
     size_t first[2], last[2];
-    span(x, radius, f->dx, f->nx, &first[0], &last[0]);
-    span(y, radius, f->dy, f->ny, &first[1], &last[1]);
+    pixel_span(x, radius, f->dx, f->nx, &first[0], &last[0]);
+    pixel_span(y, radius, f->dy, f->ny, &first[1], &last[1]);
     for (size_t j = first[1]; j <= last[1]; j++)
         for (size_t i = first[0]; i <= last[0]; i++) {
             const double u = (double)i * f->dx - x, v = (double)j * f->dy - y, r = hypot(u, v);
@@ -134,10 +117,10 @@ bool spot_covers(const spot_field *f, double x, double y, double radius)
 
 /* ---- between the pixels ---------------------------------------------------------------------- */
 
-enum { NODES = 6 }; /* of a polynomial of degree 5 */
+enum { NODES = 6 }; /* of a polynomial of the fifth degree */
 
 /* Of the polynomial through the pixels -2 .. 3, at 0 <= t < 1. */
-static void weights(double t, double w[NODES])
+static void polynomial_weights(double t, double w[NODES])
 {
     const double a = t + 2, b = t + 1, d = t - 1, e = t - 2, f = t - 3;
     w[0] = -b * t * d * e * f / 120;
@@ -154,8 +137,8 @@ double spot_between(const spot_field *f, double i, double j)
     double wi[NODES], wj[NODES], sum = 0;
     if (!(bi >= 2) || !(bj >= 2) || bi + 3 > (double)(f->nx - 1) || bj + 3 > (double)(f->ny - 1))
         return (double)NAN;
-    weights(i - bi, wi);
-    weights(j - bj, wj);
+    polynomial_weights(i - bi, wi);
+    polynomial_weights(j - bj, wj);
     const double *corner = f->z + ((size_t)bj - 2) * f->nx + (size_t)bi - 2;
     for (size_t b = 0; b < NODES; b++) {
         double row = 0;
@@ -181,7 +164,7 @@ typedef struct patch {
 static bool row_mean(const spot_field *f, size_t j, double low, double high, double *u, double *z)
 {
     size_t first, last, n = 0;
-    span(0.5 * (low + high), 0.5 * (high - low), f->dx, f->nx, &first, &last);
+    pixel_span(0.5 * (low + high), 0.5 * (high - low), f->dx, f->nx, &first, &last);
     *u = *z = 0;
     for (size_t i = first; i <= last; i++) {
         const double value = f->z[j * f->nx + i];
@@ -198,8 +181,8 @@ static wt_status cut_patch(const spot_field *f, double x, double y, double radiu
                            wt_error *err)
 {
     size_t i[2], j[2];
-    span(x, 2 * radius + NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
-    span(y, 2 * radius + NODES * f->dy, f->dy, f->ny, &j[0], &j[1]);
+    pixel_span(x, 2 * radius + NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
+    pixel_span(y, 2 * radius + NODES * f->dy, f->dy, f->ny, &j[0], &j[1]);
     *to = (patch){{NULL, i[1] - i[0] + 1, j[1] - j[0] + 1, f->dx, f->dy},
                   x - (double)i[0] * f->dx,
                   y - (double)j[0] * f->dy,
@@ -225,7 +208,7 @@ static wt_status cut_patch(const spot_field *f, double x, double y, double radiu
  * points in r^2. NaN if more than a tenth is not known. */
 static double mean_depth(const patch *p, double radius)
 {
-    enum { MORE_RINGS = 8 }; /* for discs of a few pixels */
+    enum { MORE_RINGS = 8 }; /* where a disc is a pixel wide, a ring is an eighth of it */
     const double across = radius / fmin(p->field.dx, p->field.dy), gauss = 0.5 / sqrt(3);
     const size_t rings = 2 * ((size_t)ceil(across) + MORE_RINGS),
                  spokes = (size_t)ceil(2 * M_PI * across) + 2 * MORE_RINGS;

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Fewest pixels that a disc is described by. */
+/* Fewest pixels that a disc is described by: four for each constant of a plane. */
 enum { SPOT_LEAST_PIXELS = 12 };
 
 /* Heights [m] row by row, NaN where missing; places are counted from the first pixel [m]. */

@@ -8,11 +8,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Pixels along an image where the search begins: all shifts of those are tried, 4096 times 4096
- * products. Parts along an axis, and how many of them must tell a shift for a drift with an error.
- * A bound against a loop without end, and how far a finer step may go back, which a coarse pixel is
- * in. Heuristics. */
-enum { COARSE = 64, SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6, MOST_STEPS = 20, NEAR = 3 };
+/* Pixels along an image where the search over all shifts begins: time goes with their fourth power.
+ * From there on pixels are halved, by which the best shift is off by one or two: so far beside it
+ * is looked. */
+enum { COARSE = 64, NEAR = 3 };
+/* Parts along an axis, each with its own shift; fewest of all parts, twice the constants of a
+ * drift.
+ */
+enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
+/* A bound of time. */
+enum { MOST_STEPS = 20 };
 
 /* A part of the first image, pixels from..to, without a disc. */
 typedef struct region {
@@ -64,8 +69,8 @@ static double add_line(const double *was, const double *is, size_t pixels, const
 /* Variance of the difference with the second image moved by whole pixels, less its plane: a tilt
  * between the images would make the fewest pixels that meet fit best. Infinite where fewer than
  * `least` do. */
-static double misfit(const spot_field *before, const spot_field *after, const region *r,
-                     const long s[2], size_t least)
+static double height_variance(const spot_field *before, const spot_field *after, const region *r,
+                              const long s[2], size_t least)
 {
     double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0,
            first = (double)NAN;
@@ -96,14 +101,14 @@ static double misfit(const spot_field *before, const spot_field *after, const re
 }
 
 /* The best shift within from..to of both axes. */
-static bool search(const spot_field *before, const spot_field *after, const region *r,
-                   const long from[2], const long to[2], size_t least, long shift[2])
+static bool best_shift(const spot_field *before, const spot_field *after, const region *r,
+                       const long from[2], const long to[2], size_t least, long shift[2])
 {
     double best = (double)INFINITY;
     for (long b = from[1]; b <= to[1]; b++)
         for (long a = from[0]; a <= to[0]; a++) {
             const long s[2] = {a, b};
-            const double cost = misfit(before, after, r, s, least);
+            const double cost = height_variance(before, after, r, s, least);
             if (cost < best) {
                 best = cost;
                 shift[0] = a;
@@ -114,7 +119,7 @@ static bool search(const spot_field *before, const spot_field *after, const regi
 }
 
 /* Means of f x f pixels. */
-static wt_status coarsen(const spot_field *of, size_t f, spot_field *to, wt_error *err)
+static wt_status coarsen_image(const spot_field *of, size_t f, spot_field *to, wt_error *err)
 {
     *to = (spot_field){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
     double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
@@ -137,9 +142,9 @@ static wt_status search_level(const spot_field *before, const spot_field *after,
                               size_t f, bool first, long shift[2], bool *found, wt_error *err)
 {
     spot_field small[2] = {{0}, {0}};
-    wt_status status = coarsen(before, f, &small[0], err);
+    wt_status status = coarsen_image(before, f, &small[0], err);
     if (status == WT_OK)
-        status = coarsen(after, f, &small[1], err);
+        status = coarsen_image(after, f, &small[1], err);
     if (status == WT_OK) {
         const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
         const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - NEAR,
@@ -148,7 +153,8 @@ static wt_status search_level(const spot_field *before, const spot_field *after,
                               first ? (long)small[1].ny : 2 * shift[1] + NEAR};
         all.i[1] = small[0].nx;
         all.j[1] = small[0].ny;
-        *found = search(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4, shift);
+        *found =
+            best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4, shift);
     }
     free((void *)small[0].z);
     free((void *)small[1].z);
@@ -221,7 +227,8 @@ static void sum_part(const spot_field *before, const spot_field *after, const re
 }
 
 /* Shift of a part that begins with whole pixels; false if it tells none. */
-static bool refine(const spot_field *before, const spot_field *after, const region *r, part *p)
+static bool refine_shift(const spot_field *before, const spot_field *after, const region *r,
+                         part *p)
 {
     const double start[2] = {p->shift[0], p->shift[1]};
     for (int step = 0; step < MOST_STEPS; step++) {
@@ -290,12 +297,12 @@ static size_t find_parts(const spot_field *before, const spot_field *cut, const 
             const long low[2] = {whole[0] - NEAR, whole[1] - NEAR},
                        high[2] = {whole[0] + NEAR, whole[1] + NEAR};
             long shift[2] = {0, 0};
-            if (!search(cut, after, &r, low, high, count_outside(cut, &r) / 4, shift))
+            if (!best_shift(cut, after, &r, low, high, count_outside(cut, &r) / 4, shift))
                 continue;
             *p = (part){.x = 0.5 * (double)(r.i[0] + r.i[1] - 1) * before->dx,
                         .y = 0.5 * (double)(r.j[0] + r.j[1] - 1) * before->dy,
                         .shift = {(double)shift[0], (double)shift[1]}};
-            n += refine(before, after, &r, p);
+            n += refine_shift(before, after, &r, p);
         }
     return n;
 }

@@ -6,11 +6,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points of an end; points that a fit needs; a largest point that is one of the outer two is no
- * maximum. How far apart in strain the points of the start may be. */
+/* Points of an end, whose mean is told; points that a fit of four constants needs, so that three
+ * degrees of freedom tell its scatter; a largest point that is one of the outer two is no maximum.
+ */
 enum { END = 3, FEWEST_FIT = 7, FROM_END = 2 };
+/* How far apart in strain the points of the start may be: half a decade. Kraus's law falls there by
+ * (start_ratio gamma / gamma_c)^(2 m), the less the smaller the first amplitude is. */
 static const double start_ratio = 3;
+/* What is told of a fall: where it begins to show, and its half. */
 static const double tenth = 0.9, half = 0.5;
+/* Intervals of 95 %; a fall that scatter makes by a chance of more than 5 % is none. */
 static const double level = 0.975, chance = 0.05;
 
 double wt_kraus_storage(const wt_kraus *law, double strain)
@@ -27,7 +32,7 @@ double wt_kraus_loss(const wt_kraus *law, double strain)
 
 /* ---- as measured ----------------------------------------------------------------------------- */
 
-static double mean(const double *values, size_t n)
+static double mean_of(const double *values, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -44,16 +49,16 @@ static double falls_below(const payne_points *p, double to)
     return (double)NAN;
 }
 
-static void measure(const payne_points *p, wt_payne *payne)
+static void measure_softening(const payne_points *p, wt_payne *payne)
 {
     size_t first = 1, top = 0;
     while (first < END && first < p->n &&
            p->log_strain[first] - p->log_strain[0] <= log(start_ratio))
         first++;
     const size_t last = p->n < END ? p->n : END;
-    payne->storage_start = mean(p->storage, first);
-    payne->loss_start = mean(p->loss, first);
-    payne->storage_end = mean(p->storage + p->n - last, last);
+    payne->storage_start = mean_of(p->storage, first);
+    payne->loss_start = mean_of(p->loss, first);
+    payne->storage_end = mean_of(p->storage + p->n - last, last);
     payne->strain_tenth = falls_below(p, tenth * payne->storage_start);
     payne->strain_half = falls_below(p, half * payne->storage_start);
     for (size_t i = 1; i < p->n; i++)
@@ -72,8 +77,8 @@ static void measure(const payne_points *p, wt_payne *payne)
 
 /* Root mean square of the residuals; *wander: neighbours are off to the same side more often than
  * scatter would have it. */
-static double misfit(const payne_points *p, const double *y, const wt_kraus *law,
-                     double (*of)(const wt_kraus *, double), bool *wander)
+static double law_misfit(const payne_points *p, const double *y, const wt_kraus *law,
+                         double (*of)(const wt_kraus *, double), bool *wander)
 {
     double squares = 0, steps = 0, before = 0;
     for (size_t i = 0; i < p->n; i++) {
@@ -87,7 +92,7 @@ static double misfit(const payne_points *p, const double *y, const wt_kraus *law
 }
 
 /* What lies beyond the amplitudes measured is not told. */
-static void withhold(const payne_points *p, wt_payne *payne)
+static void withhold_unmeasured(const payne_points *p, wt_payne *payne)
 {
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     const double at = log(payne->law.strain_c);
@@ -103,7 +108,7 @@ static void withhold(const payne_points *p, wt_payne *payne)
     *(at > p->log_strain[0] ? &payne->storage_inf : &payne->storage_0) = unknown;
 }
 
-static void fit(const payne_points *p, wt_payne *payne)
+static void fit_law(const payne_points *p, wt_payne *payne)
 {
     double u, v;
     bool wander, loss_wander;
@@ -119,9 +124,9 @@ static void fit(const payne_points *p, wt_payne *payne)
     payne->fitted = true;
     payne->law = (wt_kraus){s.b, s.a, exp(u), exp(v), l.b, l.a};
     payne->storage_misfit =
-        misfit(p, p->storage, &payne->law, wt_kraus_storage, &wander) / payne->law.storage_0;
+        law_misfit(p, p->storage, &payne->law, wt_kraus_storage, &wander) / payne->law.storage_0;
     payne->loss_misfit =
-        misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_wander) / payne->loss_max;
+        law_misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_wander) / payne->loss_max;
     payne_intervals(p, gsl_cdf_tdist_Pinv(level, freedom), payne);
     if (wander)
         payne->note = "the points leave the law of Kraus one after the other to the same side: "
@@ -129,7 +134,7 @@ static void fit(const payne_points *p, wt_payne *payne)
     if (loss_wander && payne->loss_note[0] == '\0')
         payne->loss_note = "the points leave the law of Kraus one after the other to the same "
                            "side: intervals too narrow";
-    withhold(p, payne);
+    withhold_unmeasured(p, payne);
 }
 
 wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss, size_t n,
@@ -163,11 +168,11 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
                         .loss_misfit = nan,
                         .note = "",
                         .loss_note = ""};
-    measure(&p, payne);
+    measure_softening(&p, payne);
     if (n < FEWEST_FIT)
         payne->note = "too few points for the law of Kraus";
     else
-        fit(&p, payne);
+        fit_law(&p, payne);
     if (alone) {
         payne->loss_start = payne->loss_max = payne->strain_loss_max = nan;
         payne->law.loss_m = payne->law.loss_inf = payne->loss_misfit = nan;

@@ -7,9 +7,13 @@
 
 #include <math.h>
 
+/* Cells of strain and exponent; the best is looked for among fewer about it, again and
+ * again in a box half as wide: to 2e-7 of the range. Rounds in which a box grows by half: 1.5^20 is
+ * more than all. */
 enum { SIDE = 48, CELLS = SIDE * SIDE, CLOSER = 9, POLISH = 18, ROUNDS = 20 };
-/* Beyond the amplitudes measured the fall may be as far away as this; exponents of rubber are about
- * 0.6. */
+/* Beyond the amplitudes measured the fall may be as far away as this [ln]: a decade below, where it
+ * is over, and two above, where it has hardly begun. Exponents of rubber are about 0.6 (Kraus
+ * 1984): six times less and eight times more bound what is looked at. */
 static const double below = 2.5, above = 4.7, exponent_min = 0.1, exponent_max = 5;
 
 /* ---- levels ---------------------------------------------------------------------------------- */
@@ -25,8 +29,8 @@ static double loss_shape(double log_x)
 }
 
 /* A straight line against the shape; a level below zero is held at zero. */
-static payne_levels levels(const payne_points *p, const double *y, double (*shape)(double),
-                           double u, double v)
+static payne_levels fit_levels(const payne_points *p, const double *y, double (*shape)(double),
+                               double u, double v)
 {
     const double n = (double)p->n, m = exp(v);
     double s = 0, sy = 0, ss = 0, ssy = 0;
@@ -58,7 +62,7 @@ static payne_levels levels(const payne_points *p, const double *y, double (*shap
 
 payne_levels payne_storage_at(const payne_points *p, double u, double v)
 {
-    payne_levels l = levels(p, p->storage, storage_shape, u, v);
+    payne_levels l = fit_levels(p, p->storage, storage_shape, u, v);
     if (l.b < l.a) /* it would rise with strain */
         l.rss = payne_flat(p);
     return l;
@@ -66,7 +70,7 @@ payne_levels payne_storage_at(const payne_points *p, double u, double v)
 
 payne_levels payne_loss_at(const payne_points *p, double u, double v)
 {
-    return levels(p, p->loss, loss_shape, u, v);
+    return fit_levels(p, p->loss, loss_shape, u, v);
 }
 
 double payne_flat(const payne_points *p)
@@ -81,19 +85,20 @@ double payne_flat(const payne_points *p)
 
 /* ---- the grid -------------------------------------------------------------------------------- */
 
-static payne_box whole(const payne_points *p)
+static payne_box widest_box(const payne_points *p)
 {
     return (payne_box){{p->log_strain[0] - below, log(exponent_min)},
                        {p->log_strain[p->n - 1] + above, log(exponent_max)}};
 }
 
-static double place(const payne_box *box, int axis, size_t i, size_t side)
+static double cell_place(const payne_box *box, int axis, size_t i, size_t side)
 {
     return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)(side - 1);
 }
 
 /* A box of so many cells about a place, within another. */
-static payne_box about(const payne_box *in, const payne_box *box, const double at[2], size_t side)
+static payne_box box_about(const payne_box *in, const payne_box *box, const double at[2],
+                           size_t side)
 {
     payne_box made;
     for (int k = 0; k < 2; k++) {
@@ -106,7 +111,7 @@ static payne_box about(const payne_box *in, const payne_box *box, const double a
 
 void payne_best(const payne_points *p, double *u, double *v)
 {
-    const payne_box all = whole(p);
+    const payne_box all = widest_box(p);
     payne_box box = all;
     double at[2] = {0, 0};
     size_t side = SIDE;
@@ -114,7 +119,7 @@ void payne_best(const payne_points *p, double *u, double *v)
         double least = HUGE_VAL;
         for (size_t i = 0; i < side; i++)
             for (size_t k = 0; k < side; k++) {
-                const double x = place(&box, 0, i, side), y = place(&box, 1, k, side);
+                const double x = cell_place(&box, 0, i, side), y = cell_place(&box, 1, k, side);
                 const double rss = payne_storage_at(p, x, y).rss;
                 if (rss < least) {
                     least = rss;
@@ -122,7 +127,7 @@ void payne_best(const payne_points *p, double *u, double *v)
                     at[1] = y;
                 }
             }
-        box = about(&all, &box, at, side);
+        box = box_about(&all, &box, at, side);
         side = CLOSER;
     }
     *u = at[0];
@@ -135,8 +140,8 @@ static bool is_allowed(const payne_points *p, const double at[2], double most)
 }
 
 /* The best place and as far as one number alone may go from it. */
-static payne_box start(const payne_points *p, const payne_box *all, const double best[2],
-                       double most)
+static payne_box start_box(const payne_points *p, const payne_box *all, const double best[2],
+                           double most)
 {
     payne_box box;
     for (int k = 0; k < 2; k++)
@@ -153,12 +158,13 @@ static payne_box start(const payne_points *p, const payne_box *all, const double
 }
 
 /* The box that holds what is allowed, a cell wider: grown where it is reached. */
-static payne_box allowed(const payne_points *p, const payne_box *all, const payne_box *box,
-                         double most, bool *grown)
+static payne_box allowed_box(const payne_points *p, const payne_box *all, const payne_box *box,
+                             double most, bool *grown)
 {
     payne_box made = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {place(box, 0, i / SIDE, SIDE), place(box, 1, i % SIDE, SIDE)};
+        const double at[2] = {cell_place(box, 0, i / SIDE, SIDE),
+                              cell_place(box, 1, i % SIDE, SIDE)};
         for (int k = 0; k < 2 && is_allowed(p, at, most); k++) {
             made.low[k] = fmin(made.low[k], at[k]);
             made.high[k] = fmax(made.high[k], at[k]);
@@ -187,7 +193,7 @@ typedef struct extent {
     bool low_open, high_open;
 } extent;
 
-static void see(extent *e, double low, double high, bool border)
+static void extend_to(extent *e, double low, double high, bool border)
 {
     if (low < e->low) {
         e->low = low;
@@ -209,10 +215,10 @@ static void see_cell(const payne_points *p, const double at[2], double left, dou
     const double t = sqrt(left), value[] = {s.b, s.a, l.b, l.a},
                  error[] = {s.b_error * scatter, s.a_error * scatter, l.b_error * loss_scatter,
                             l.a_error * loss_scatter};
-    see(&e[STRAIN], at[0], at[0], border);
-    see(&e[EXPONENT], at[1], at[1], border);
+    extend_to(&e[STRAIN], at[0], at[0], border);
+    extend_to(&e[EXPONENT], at[1], at[1], border);
     for (size_t i = 0; i < COUNT_OF(value); i++)
-        see(&e[STORAGE_0 + i], value[i] - t * error[i], value[i] + t * error[i], border);
+        extend_to(&e[STORAGE_0 + i], value[i] - t * error[i], value[i] + t * error[i], border);
 }
 
 /* What the law may be where the sum of squares is above the least by at most t^2 of the scatter. */
@@ -221,16 +227,17 @@ static void find_extents(const payne_points *p, const wt_kraus *law, double t, e
     const double best[2] = {log(law->strain_c), log(law->exponent)};
     const double freedom = (double)(p->n - 4);
     const double least = payne_storage_at(p, best[0], best[1]).rss, square = least / freedom;
-    const payne_box all = whole(p);
-    payne_box box = start(p, &all, best, least + t * t * square);
+    const payne_box all = widest_box(p);
+    payne_box box = start_box(p, &all, best, least + t * t * square);
     bool grown = true;
     for (int round = 0; round < ROUNDS && grown; round++)
-        box = allowed(p, &all, &box, least + t * t * square, &grown);
+        box = allowed_box(p, &all, &box, least + t * t * square, &grown);
     /* At the best place for the storage moduli the loss moduli are off by that place's error, too:
      * their scatter is the least that they have within what is allowed. */
     double loss_least = payne_loss_at(p, best[0], best[1]).rss;
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {place(&box, 0, i / SIDE, SIDE), place(&box, 1, i % SIDE, SIDE)};
+        const double at[2] = {cell_place(&box, 0, i / SIDE, SIDE),
+                              cell_place(&box, 1, i % SIDE, SIDE)};
         if (is_allowed(p, at, least + t * t * square))
             loss_least = fmin(loss_least, payne_loss_at(p, at[0], at[1]).rss);
     }
@@ -239,7 +246,8 @@ static void find_extents(const payne_points *p, const wt_kraus *law, double t, e
         e[k] = (extent){HUGE_VAL, -HUGE_VAL, false, false};
     see_cell(p, best, t * t, sqrt(square), sqrt(loss_square), false, e);
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {place(&box, 0, i / SIDE, SIDE), place(&box, 1, i % SIDE, SIDE)};
+        const double at[2] = {cell_place(&box, 0, i / SIDE, SIDE),
+                              cell_place(&box, 1, i % SIDE, SIDE)};
         const double left = t * t - (payne_storage_at(p, at[0], at[1]).rss - least) / square;
         const bool border = at[0] <= all.low[0] || at[0] >= all.high[0] || at[1] <= all.low[1] ||
                             at[1] >= all.high[1];
@@ -248,7 +256,8 @@ static void find_extents(const payne_points *p, const wt_kraus *law, double t, e
     }
 }
 
-static wt_interval interval(double value, const extent *wide, const extent *narrow, bool logarithm)
+static wt_interval number_interval(double value, const extent *wide, const extent *narrow,
+                                   bool logarithm)
 {
     const bool open = narrow->low_open || narrow->high_open;
     const double low = logarithm ? exp(wide->low) : wide->low,
@@ -272,5 +281,5 @@ void payne_intervals(const payne_points *p, double t, wt_payne *payne)
     wt_interval *const of[NUMBERS] = {&payne->strain_c,    &payne->exponent, &payne->storage_0,
                                       &payne->storage_inf, &payne->loss_m,   &payne->loss_inf};
     for (size_t k = 0; k < NUMBERS; k++)
-        *of[k] = interval(value[k], &wide[k], &narrow[k], k <= EXPONENT);
+        *of[k] = number_interval(value[k], &wide[k], &narrow[k], k <= EXPONENT);
 }

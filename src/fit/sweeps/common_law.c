@@ -16,10 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A law is common to two at least. Steps of Newton's kind double the digits: what has not settled
+ * after so many does not. */
 enum { MOST_STEPS = 100, FEWEST = 2 };
-/* A step that is so small in standard errors is the last. */
+/* A step that is so small in standard errors is the last: seven digits of what is told to two. */
 static const double settled = 1e-6;
-/* A pole to begin with, below the coldest isotherm [K]. */
+/* A pole to begin with, below the coldest isotherm [K]: the 51.6 K below the glass transition of
+ * Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701). */
 static const double usual_distance = 50.0;
 
 /* ---- the shifts of a sample ------------------------------------------------------------------ */
@@ -99,9 +102,9 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
 /* ---- the fit --------------------------------------------------------------------------------- */
 
 /* Sum of squares, in units of the errors; with `cross` what the unknowns take from it. */
-static double squares(const law_samples *c, const law_model *model, size_t spread,
-                      const double *unknown, gsl_vector *off, gsl_matrix *columns,
-                      gsl_matrix *cross, gsl_vector *right)
+static double residual_squares(const law_samples *c, const law_model *model, size_t spread,
+                               const double *unknown, gsl_vector *off, gsl_matrix *columns,
+                               gsl_matrix *cross, gsl_vector *right)
 {
     double sum = 0.0;
     if (cross != NULL) {
@@ -147,7 +150,7 @@ static double squares(const law_samples *c, const law_model *model, size_t sprea
     return sum;
 }
 
-static void start(const law_samples *c, const law_model *model, double *unknown)
+static void start_law(const law_samples *c, const law_model *model, double *unknown)
 {
     for (size_t k = c->n_members; k-- > 0;) { /* the first one's law is that of all */
         const law_member *m = &c->members[k];
@@ -197,7 +200,7 @@ static bool is_law(const law_samples *c, const law_model *model, const solution 
 }
 
 /* Damped steps of least squares until none is left. */
-static void fit(law_samples *c, const law_model *model, size_t spread, solution *s)
+static void fit_at_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
 {
     const size_t n = model->n_unknowns;
     pool *memory = &c->memory;
@@ -211,9 +214,9 @@ static void fit(law_samples *c, const law_model *model, size_t spread, solution 
     s->good = false;
     if (memory->failed)
         return;
-    start(c, model, s->unknown);
+    start_law(c, model, s->unknown);
     bool done = false;
-    s->chi_square = squares(c, model, spread, s->unknown, off, columns, cross, right);
+    s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
     for (int i = 0; i < MOST_STEPS && !done && s->chi_square < HUGE_VAL; i++) {
         gsl_matrix_memcpy(damped, cross);
         for (size_t u = 0; u < n; u++)
@@ -227,7 +230,7 @@ static void fit(law_samples *c, const law_model *model, size_t spread, solution 
             next[u] = s->unknown[u] + gsl_vector_get(step, u);
             size = fmax(size, fabs(gsl_vector_get(step, u)) * sqrt(gsl_matrix_get(cross, u, u)));
         }
-        const double now = squares(c, model, spread, next, off, columns, NULL, NULL);
+        const double now = residual_squares(c, model, spread, next, off, columns, NULL, NULL);
         done = size < settled;
         if (!(now <= s->chi_square)) {
             damping *= 10.0;
@@ -235,7 +238,7 @@ static void fit(law_samples *c, const law_model *model, size_t spread, solution 
         }
         damping *= 0.1;
         memcpy(s->unknown, next, n * sizeof *next);
-        s->chi_square = squares(c, model, spread, s->unknown, off, columns, cross, right);
+        s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
     }
     gsl_matrix_memcpy(s->covariance, cross);
     if (!done || gsl_linalg_cholesky_decomp1(s->covariance) != GSL_SUCCESS)
@@ -252,7 +255,7 @@ static void fit(law_samples *c, const law_model *model, size_t spread, solution 
 
 /* The weights of the spreads of temperatures; false if none is left. What tells samples apart must
  * not hang on what is believed of ovens: then all spreads are alike. */
-static bool weigh(const law_samples *c, bool believed, solution s[LAW_SPREADS])
+static bool weigh_spreads(const law_samples *c, bool believed, solution s[LAW_SPREADS])
 {
     const law_data all = {.n = c->n};
     double least = HUGE_VAL, sum = 0.0;
@@ -292,8 +295,8 @@ static wt_law_kind kind_of_all(const wt_master *const *masters, size_t n)
     return bends ? WT_LAW_WLF : WT_LAW_ARRHENIUS;
 }
 
-static wt_status gather(law_samples *c, const wt_master *const *masters, size_t n,
-                        wt_common_law *common, wt_error *err)
+static wt_status gather_samples(law_samples *c, const wt_master *const *masters, size_t n,
+                                wt_common_law *common, wt_error *err)
 {
     wt_status status = WT_OK;
     c->members = pool_alloc(&c->memory, n, sizeof *c->members);
@@ -330,25 +333,25 @@ static wt_status gather(law_samples *c, const wt_master *const *masters, size_t 
     return WT_OK;
 }
 
-static wt_status make(law_samples *c, wt_common_law *common, wt_error *err)
+static wt_status make_common_law(law_samples *c, wt_common_law *common, wt_error *err)
 {
     const law_model of_all = common_model(c, false), of_each = common_model(c, true);
     solution one[LAW_SPREADS], own[LAW_SPREADS];
     for (size_t i = 0; i < LAW_SPREADS; i++) {
-        fit(c, &of_all, i, &one[i]);
-        fit(c, &of_each, i, &own[i]);
+        fit_at_spread(c, &of_all, i, &one[i]);
+        fit_at_spread(c, &of_each, i, &own[i]);
     }
     common->points = calloc(c->n, sizeof *common->points);
     if (c->memory.failed || common->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
-    if (!weigh(c, true, one)) {
+    if (!weigh_spreads(c, true, one)) {
         wt_fail(err, WT_E_RANGE, "no one law describes the shifts of all samples");
         wt_error_advice(err, "%s",
                         c->how == WT_COMMON_SAME ? "let it be moved along the temperature"
                                                  : "let each have its own");
         return WT_E_RANGE;
     }
-    const bool compared = weigh(c, false, own);
+    const bool compared = weigh_spreads(c, false, own);
     common_fill_law(c, one, common);
     common->p = compared ? common_chance(c, one, own) : (double)NAN;
     for (size_t k = 0; k < c->n_members; k++)
@@ -367,9 +370,9 @@ wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common
     gsl_quiet();
     wt_status status = made.members == NULL
                            ? wt_fail(err, WT_E_MEMORY, "no memory for a common law")
-                           : gather(&c, masters, n, &made, err);
+                           : gather_samples(&c, masters, n, &made, err);
     if (status == WT_OK)
-        status = make(&c, &made, err);
+        status = make_common_law(&c, &made, err);
     pool_free(&c.memory);
     if (status == WT_OK)
         *common_law = made;

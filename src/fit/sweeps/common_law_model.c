@@ -85,8 +85,8 @@ static wt_interval of_unknown(const solution s[LAW_SPREADS], size_t u)
 }
 
 /* A law of a sample between two temperatures at one spread, and its variance. */
-static double contrast(const law_samples *c, const law_model *model, size_t k, const solution *s,
-                       double temperature, double from, double *variance)
+static double law_difference(const law_samples *c, const law_model *model, size_t k,
+                             const solution *s, double temperature, double from, double *variance)
 {
     double by[LOCAL], less[LOCAL];
     size_t at[LOCAL];
@@ -99,7 +99,7 @@ static double contrast(const law_samples *c, const law_model *model, size_t k, c
     return value;
 }
 
-static double middle(const law_member *m)
+static double middle_temperature(const law_member *m)
 {
     double sum = 0.0;
     for (size_t i = 0; i < m->n; i++)
@@ -110,8 +110,8 @@ static double middle(const law_member *m)
 /* What a sample's own law has more than the common one, from the middle of its isotherms on, with
  * the error of its own law: what the common one takes away from it (Hausman 1978) is not known well
  * enough of so few isotherms (tests/unit/test_fit_common_law.c). */
-static wt_interval difference(const law_samples *c, size_t k, const solution one[LAW_SPREADS],
-                              const solution own[LAW_SPREADS], double temperature)
+static wt_interval own_less_common(const law_samples *c, size_t k, const solution one[LAW_SPREADS],
+                                   const solution own[LAW_SPREADS], double temperature)
 {
     const law_model of_all = common_model(c, false), of_each = common_model(c, true);
     mixture_part part[LAW_SPREADS];
@@ -120,9 +120,9 @@ static wt_interval difference(const law_samples *c, size_t k, const solution one
         double v_own, ignored;
         if (!(own[i].weight > 0.0) || !one[i].good)
             continue;
-        const double from = middle(&c->members[k]);
-        const double d = contrast(c, &of_each, k, &own[i], temperature, from, &v_own) -
-                         contrast(c, &of_all, k, &one[i], temperature, from, &ignored);
+        const double from = middle_temperature(&c->members[k]);
+        const double d = law_difference(c, &of_each, k, &own[i], temperature, from, &v_own) -
+                         law_difference(c, &of_all, k, &one[i], temperature, from, &ignored);
         part[n++] = (mixture_part){own[i].weight, d, sqrt(v_own)};
     }
     double sum = 0.0;
@@ -158,12 +158,12 @@ void common_fill_point(const law_samples *c, size_t k, size_t i, const solution 
                                .log_a_error = sqrt(gsl_matrix_get(m->covariance, i, i)),
                                .law = mixture_interval(law, n)};
     const double unknown = (double)NAN;
-    point->difference = compared ? difference(c, k, one, own, m->temperature[i])
+    point->difference = compared ? own_less_common(c, k, one, own, m->temperature[i])
                                  : (wt_interval){unknown, unknown, unknown, unknown};
 }
 
 /* Of C1 and ln of the distance, over the spreads. */
-static double correlation(const solution s[LAW_SPREADS], size_t a, size_t b)
+static double constant_correlation(const solution s[LAW_SPREADS], size_t a, size_t b)
 {
     double mean[2] = {0.0, 0.0}, sum[3] = {0.0, 0.0, 0.0};
     for (size_t i = 0; i < LAW_SPREADS; i++)
@@ -202,7 +202,8 @@ void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS], wt_c
     common->activation_energy = common_has_pole(c) ? unknown : constant;
     common->c2 =
         common_has_pole(c) ? to_c2(of_unknown(one, at[POLE]), c->reference - c->coldest) : unknown;
-    common->c_correlation = common_has_pole(c) ? correlation(one, at[MAIN], at[POLE]) : (double)NAN;
+    common->c_correlation =
+        common_has_pole(c) ? constant_correlation(one, at[MAIN], at[POLE]) : (double)NAN;
     common->spread = 0.0;
     for (size_t i = 0; i < LAW_SPREADS; i++)
         common->spread += one[i].weight * law_spread(i);

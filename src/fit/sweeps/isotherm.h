@@ -9,7 +9,8 @@
 
 enum { STORAGE, LOSS, MODULI };
 
-/* Fewest points of an isotherm, and of the overlap of two in each modulus. */
+/* Fewest points of an isotherm, and of the overlap of two in each modulus: one more than what
+ * places it, its shifts and its slope, so that something is left over. */
 #define SHIFT_MIN_POINTS 4
 
 /* The usable points of one isotherm, rising in x. */

@@ -116,7 +116,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
 }
 
 /* Which quantities all isotherms have at some point. */
-static void measured(const wt_sweep *sweep, bool has[MODULI], bool *factor)
+static void find_measured_moduli(const wt_sweep *sweep, bool has[MODULI], bool *factor)
 {
     has[STORAGE] = has[LOSS] = *factor = true;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
@@ -141,7 +141,7 @@ static wt_status choose_quantity(const wt_sweep *sweep, wt_shift_by by, shift_se
                                         [WT_BY_LOSS] = "loss modulus",
                                         [WT_BY_LOSS_FACTOR] = "loss factor"};
     bool has[MODULI], factor;
-    measured(sweep, has, &factor);
+    find_measured_moduli(sweep, has, &factor);
     if (by == WT_BY_MODULI && !(has[STORAGE] && has[LOSS]))
         by = has[STORAGE] ? WT_BY_STORAGE : has[LOSS] ? WT_BY_LOSS : WT_BY_LOSS_FACTOR;
     set->by = by;

@@ -7,13 +7,16 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* An isotherm with so many times the noise of the others is named, and a vertical shift so far from
- * the physical one [decade]. */
+/* Words only, no number changes. An isotherm with so many times the noise of the others is named
+ * (by chance ten points of both moduli have a third more in one of forty), and a vertical shift so
+ * far from the physical one [decade]: 26 %, which no change of density with temperature makes. */
 static const double noisy = 3.0, odd_vertical = 0.1;
-/* Strain amplitudes that differ by more than this factor are different points of the Payne curve.
- */
+/* Strain amplitudes that differ by more than this factor are different points of the Payne curve,
+ * which falls by a fifth of its height from one to the other where it is steepest (Kraus 1984, with
+ * m = 0.6). A word only. */
 static const double odd_strain = 2.0;
-/* Runs at one temperature are so close [K], and differ by so many standard errors. */
+/* Runs at one temperature are so close [K], which a chamber holds, and differ by so many standard
+ * errors: by chance one pair in 16,000. */
 static const double one_temperature = 0.5, odd_difference = 4.0;
 
 void master_note(wt_master_shift *shift, const char *format, ...)

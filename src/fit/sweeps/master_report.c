@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An equilibrium modulus below this share of the lowest storage modulus is a limit only: how the
- * spectrum goes on beyond the measured frequencies decides it. */
+/* An equilibrium modulus whose interval goes below this share of the lowest storage modulus is a
+ * limit only: most of the modulus there is then left to relax, and how the spectrum goes on beyond
+ * the measured frequencies decides it. */
 static const double known_equilibrium = 0.5;
 /* Quantile for a one-sided limit of 95 %, squared. */
 static const double one_sided = 2.705543454095404;
@@ -31,20 +32,20 @@ void wt_master_clear(wt_master *master)
 
 static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-static wt_interval transform(wt_interval x, double (*f)(double))
+static wt_interval interval_of(wt_interval x, double (*f)(double))
 {
     wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
     y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
     return y;
 }
 
-static wt_interval scaled(wt_interval x, double factor)
+static wt_interval interval_times(wt_interval x, double factor)
 {
     return (wt_interval){x.value * factor, x.standard_error * factor, x.low * factor,
                          x.high * factor};
 }
 
-static wt_interval moved(wt_interval x, double by)
+static wt_interval interval_plus(wt_interval x, double by)
 {
     x.value += by;
     x.low += by;
@@ -52,7 +53,7 @@ static wt_interval moved(wt_interval x, double by)
     return x;
 }
 
-static wt_interval between(wt_interval a, wt_interval b, double share)
+static wt_interval interval_between(wt_interval a, wt_interval b, double share)
 {
     return (wt_interval){a.value + share * (b.value - a.value),
                          a.standard_error + share * (b.standard_error - a.standard_error),
@@ -71,7 +72,7 @@ static wt_interval of_pole(const wt_posterior *p, double sign)
 {
     const double lead = p->shape.reference - p->shape.coldest;
     const wt_interval c2 =
-        moved(transform(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
+        interval_plus(interval_of(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
     if (sign > 0.0)
         return c2;
     return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
@@ -203,7 +204,8 @@ static void fill_fitted(const wt_posterior *p, wt_master *m)
         wt_interval *const fitted[] = {m->fitted_storage, m->fitted_loss, m->fitted_loss_factor};
         for (int q = 0; q < WITH_LOSS_FACTOR; q++)
             if (told[q])
-                fitted[q][j] = scaled(between(low[q], high[q], share), 1.0 / M_LN10);
+                fitted[q][j] =
+                    interval_times(interval_between(low[q], high[q], share), 1.0 / M_LN10);
     }
 }
 
@@ -267,8 +269,8 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
 }
 
 /* The series of unknowns of the spectrum, at the reference temperature. */
-static wt_status series(const wt_posterior *p, const double *value, double offset, wt_prony *prony,
-                        wt_error *err)
+static wt_status prony_of_terms(const wt_posterior *p, const double *value, double offset,
+                                wt_prony *prony, wt_error *err)
 {
     const spectrum *s = &p->frame;
     wt_status status = wt_prony_alloc(prony, s->n_terms, err);
@@ -318,7 +320,8 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     double unknown[LAW_MOST];
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
-    wt_status status = has_level(p->by) ? series(p, value, unknown[0], &m->prony, err) : WT_OK;
+    wt_status status =
+        has_level(p->by) ? prony_of_terms(p, value, unknown[0], &m->prony, err) : WT_OK;
     free(value);
     if (status != WT_OK)
         return status;
@@ -332,7 +335,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     if (p->frame.liquid || !has_level(p->by))
         return WT_OK;
     const wt_interval e = posterior_equilibrium(p);
-    m->equilibrium = transform(e, exp);
+    m->equilibrium = interval_of(e, exp);
     double lowest = HUGE_VAL;
     for (size_t i = 0; i < m->n; i++)
         lowest = fmin(lowest, m->log_storage[i]);
@@ -417,8 +420,10 @@ void wt_master_moduli(const wt_master *master, double angular_frequency, wt_inte
     wt_interval modulus[WITH_LOSS_FACTOR];
     const wt_shift_by by = master->posterior->by;
     posterior_moduli(master->posterior, log(angular_frequency), modulus);
-    *log_storage = has_level(by) ? scaled(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
-    *log_loss = by != WT_BY_LOSS_FACTOR ? scaled(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
+    *log_storage =
+        has_level(by) ? interval_times(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
+    *log_loss =
+        by != WT_BY_LOSS_FACTOR ? interval_times(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
 }
 
 wt_shift_by wt_master_shifted_by(const wt_master *master)
@@ -442,8 +447,8 @@ void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_d
     const size_t before = term > 0 ? term - 1 : 0, after = term + 1 < p->n ? term + 1 : term;
     const double slope =
         log(p->modulus[after] / p->modulus[before]) / (step * (double)(after - before));
-    *log_density =
-        scaled(moved(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
+    *log_density = interval_times(
+        interval_plus(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
 }
 
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
@@ -458,7 +463,7 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     double *b = value + p->frame.n_unknowns;
     wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
     if (status == WT_OK)
-        status = series(p, value, unknown[0], prony, err);
+        status = prony_of_terms(p, value, unknown[0], prony, err);
     if (status == WT_OK) {
         prony->deformation = master->deformation;
         prony->reference_temperature = master->reference_temperature;

@@ -5,9 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A shift with a larger error is not determined [decade]. */
+/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
+ * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
 static const double largest_sigma = 0.2;
-/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %. */
+/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %:
+ * the cross section to 2 %, and the free length between the clamps. */
 static const double clamping = 0.02;
 
 static size_t count_outliers(const spectrum *s, size_t curve)
@@ -20,8 +22,8 @@ static size_t count_outliers(const spectrum *s, size_t curve)
 }
 
 /* Why it is not determined, else nothing. */
-static bool undetermined(const master_work *work, size_t i, const wt_interval *a,
-                         wt_master_shift *shift)
+static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
+                            wt_master_shift *shift)
 {
     if (work->set.curves[i].n < SHIFT_MIN_POINTS)
         master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
@@ -58,7 +60,7 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         shift->n_outliers = count_outliers(work->s, curve);
         a = posterior_a(work->posterior, curve);
     }
-    if (undetermined(work, i, &a, shift))
+    if (is_undetermined(work, i, &a, shift))
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
@@ -95,7 +97,8 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
 
 /* ---- whether they do ------------------------------------------------------------------------- */
 
-/* Another isotherm that changes by so many times more shows that not all are flat. */
+/* Another isotherm that changes by so many times more shows that not all are flat: its shift has
+ * half the error of that of this one. */
 static const double much_steeper = 2.0;
 
 /* An isotherm is shifted onto the reference, or there is nothing to hand out. */

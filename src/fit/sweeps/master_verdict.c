@@ -8,24 +8,31 @@
 #include <math.h>
 #include <string.h>
 
-/* Lack of fit is real below this probability, with what is not known of the noise. A smaller one
- * would miss second processes (unit_fit_master), and be right a little more often where noise goes
- * together over most of an isotherm (tests/study: correlated_strong). */
+/* Lack of fit is real below this probability, with what is not known of the noise. The customary
+ * level, one wrong "fails" in a hundred sweeps at most, of the two counts of superposition.c
+ * together. A smaller one misses second processes (unit_fit_master); at 0.05 one sound sweep of
+ * twenty would fail. */
 static const double significant = 0.01;
-/* Superposition does not hold below this one, with the noise as estimated: its factors and their
- * place on the isotherms make small probabilities a few times too small. */
+/* Superposition is not said to hold below this one, with the noise as estimated: its factors and
+ * their place on the isotherms make small probabilities a few times too small. The same level. */
 static const double doubtful = 0.01;
 /* A misfit certainly above the first fails; possibly above the second leaves it open (relative).
- * Two processes miss by some per cent; isotherms of polyisoprene, the example of a simple rubber,
- * by what a rheometer does, 0.3 to 0.4 %. */
+ * Measured isotherms of polyisoprene, the example of a simple rubber, miss one spectrum by what a
+ * rheometer does, 0.3 to 0.4 %: a lower limit would blame the rubber for it. One per cent of a
+ * modulus is what half a per cent in each side of the cross section makes of it: less than that
+ * harms nothing that is made of a modulus so measured. */
 static const double matters = 0.004, may_matter = 0.01;
-/* Narrower windows hide a second process [decade]. */
+/* Narrower windows hide a second process [decade]: the E'' of a single relaxation time is 1.14
+ * decades wide at half its height, and a window must hold more than one to tell two apart. */
 static const double least_window = 1.5;
-/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much (as for
+ * the misfit), and by chance in one sweep of a thousand: it stands beside the other tests, which
+ * have the false alarms that are allowed. */
 static const double loss_matters = 0.01, loss_significant = 0.001;
 /* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
- * places it [decade]. */
+ * places it [decade]. One step between its terms. */
 static const double least_overlap = 0.3;
+/* Two isotherms are always placed on one another. */
 enum { LEAST_ISOTHERMS = 3 };
 
 static double widest_of_half(const master_work *work)

@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of the mixture with less than this share are left out. */
+/* Parts of the mixture with less than this share are left out: one that
+ * lies outside of an interval with all of it moves a tail of 2.5 % to 2.6 %. */
 static const double least_share = 1e-3;
 
 /* ---- making ---------------------------------------------------------------------------------- */

@@ -7,7 +7,7 @@
 #include "fit/sweeps/shift_law.h"
 #include "fit/sweeps/vertical_shift.h"
 
-enum { POSTERIOR_CELLS = 12 };
+enum { POSTERIOR_CELLS = 12 }; /* widths of geometry times those of departure in master_fit.c */
 
 /* One fit of the spectrum, for one width of the vertical shift. */
 typedef struct posterior_cell {

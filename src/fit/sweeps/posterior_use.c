@@ -266,23 +266,23 @@ struct stream {
     uint64_t state;
 };
 
-static double uniform(struct stream *s)
+static double draw_uniform(struct stream *s)
 {
     s->state = mix64(s->state);
     return ((double)(s->state >> 11) + 0.5) * 0x1p-53;
 }
 
-static double normal(struct stream *s)
+static double draw_normal(struct stream *s)
 {
-    const double radius = sqrt(-2.0 * log(uniform(s)));
-    return radius * cos(2.0 * M_PI * uniform(s));
+    const double radius = sqrt(-2.0 * log(draw_uniform(s)));
+    return radius * cos(2.0 * M_PI * draw_uniform(s));
 }
 
 /* Neighbouring draws go through the mixture evenly: steps of the golden section. */
 static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
 {
     struct stream start = {mix64(seed)};
-    double at = fmod(uniform(&start) + (double)index * 0.6180339887498949, 1.0);
+    double at = fmod(draw_uniform(&start) + (double)index * 0.6180339887498949, 1.0);
     for (size_t i = 0; i + 1 < p->n_parts; i++) {
         if (at < p->parts[i].weight)
             return &p->parts[i];
@@ -296,7 +296,7 @@ static void draw_law(const posterior_part *part, struct stream *s, double unknow
 {
     double root[LAW_MOST][LAW_MOST] = {{0}}, e[LAW_MOST];
     for (size_t u = 0; u < part->law.n_unknowns; u++) {
-        e[u] = normal(s);
+        e[u] = draw_normal(s);
         unknown[u] = part->law.unknown[u];
         for (size_t v = 0; v <= u; v++) {
             double sum = part->law.covariance[u][v];
@@ -335,7 +335,7 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
         return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
     }
     for (size_t u = 0; u < n; u++)
-        gsl_vector_set(e, u, normal(&s));
+        gsl_vector_set(e, u, draw_normal(&s));
     gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, part->cell->root, e);
     for (size_t u = 0; u < n; u++)
         value[u] = part->cell->value[u] + gsl_vector_get(e, u);
@@ -346,7 +346,7 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
             size_t column;
             const double law = law_of_isotherm(&p->data, &p->shape, unknown, k),
                          a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
-            gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * normal(&s));
+            gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * draw_normal(&s));
         }
         gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
         add_pull(p, part, pull, 1.0, value);

@@ -15,16 +15,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
- * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
- * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
-static const double believed = 0.3, steady = 0.15;
-/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
+/* Temperatures are believed to so many kelvin, the tolerance of a platinum thermometer of class B
+ * at 0 degC (IEC 60751), as the half width of a Cauchy prior. */
+static const double believed = 0.3;
+/* A programme may be so steady that nothing is seen of it: so much weight has the smallest spread
+ * beyond its own, which makes it a fifth of all. A belief, which data overrule: without it a law of
+ * steady temperatures has errors that are too wide, and twice as much would take scatter as large
+ * as the noise for none more often. */
+static const double steady = 0.15;
+/* Of n isotherms a law leaves n - 3 degrees of freedom: scatter as large as the noise looks like
+ * none, chi^2 below half of its mean, by a chance of 0.39 with five, of 0.26 with seven. */
+enum { LEAST_STEADY = 7 };
+/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd: chi^2 of one degree
+ * of freedom is above 20 by a chance of 8e-6, in none of a hundred isotherms. */
 static const double odd_gain = 20.0;
-enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6, LEAST_STEADY = 7 };
-/* Joints that are tried all over the isotherms; between the two beside the best of them all are. */
+/* By the offset, two constants, the scatter and its own shift: the fewest isotherms that leave one
+ * over. */
+enum { LEAST_ODD = 6 };
+/* Places of a pole between the nearest and the farthest, a factor 1.24 apart, before halves. */
+enum { POLE_GRID = 40 };
+/* From so many isotherms on Akaike's term for few data is 40 or less: of six it is 40 for WLF and
+ * 12 for Arrhenius, and no bend that rubber has would be worth 28. Fewer are told by the mean
+ * likelihood over the spreads. */
+enum { LEAST_CORRECTED = 7 };
+/* The criterion is finite for more isotherms than the six constants of the joined law and one. */
+enum { LEAST_JOINED = 8 };
+/* Joints that are tried all over the isotherms; between the two beside the best of them all are. A
+ * matter of time alone, as long as the best is not between two that are both bad: isotherms 24
+ * times as many as are usual would ask for more. */
 enum { JOINTS = 24 };
-/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law. */
+/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law, which
+ * sees less of a gain than there is. A matter of time: half of it tries more in vain. */
 static const double odd_tried = 0.25;
 
 double law_spread(size_t i)
@@ -41,7 +62,8 @@ static bool has_wlf(const law_shape *shape)
 
 size_t law_unknowns(const law_shape *shape)
 {
-    static const size_t count[] = {[WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4};
+    static const size_t count[] = {
+        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* of unknowns */
     return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
 }
 
@@ -222,7 +244,7 @@ static struct gls gls_new(const law_data *data, const law_shape *shape, const gs
     return g;
 }
 
-/* The covariance of the first unknowns, which solve() leaves as its inverse. */
+/* The covariance of the first unknowns, which solve_at_pole() leaves as its inverse. */
 static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
 {
     return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
@@ -230,7 +252,8 @@ static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
 
 /* Least squares for a given distance of the pole, with `used` columns; false if they are
  * dependent. In the place of the covariance is the factor of its inverse. */
-static bool solve(struct gls *g, double distance, double main_factor, size_t used, law_fit *fit)
+static bool solve_at_pole(struct gls *g, double distance, double main_factor, size_t used,
+                          law_fit *fit)
 {
     gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
     gsl_matrix_view cross = covariance_of(fit, used);
@@ -256,7 +279,7 @@ static bool solve(struct gls *g, double distance, double main_factor, size_t use
 
 static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 {
-    const bool good = solve(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
+    const bool good = solve_at_pole(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
     /* a law that rises with temperature is none */
     return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
 }
@@ -294,12 +317,12 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_m
     *fit = (law_fit){.n_unknowns = k};
     bool good;
     if (pole == LAW_MOST) {
-        good = solve(&g, 1.0, 1.0, k, fit);
+        good = solve_at_pole(&g, 1.0, 1.0, k, fit);
     } else {
         const double p = best_pole(&g, fit);
         good = chi_square_at(&g, p, fit) < HUGE_VAL;
         const law_fit linear = *fit;
-        good = good && solve(&g, exp(p), linear.unknown[1], k, fit);
+        good = good && solve_at_pole(&g, exp(p), linear.unknown[1], k, fit);
         memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
         fit->unknown[pole] = p;
         fit->chi_square = linear.chi_square;
@@ -356,8 +379,8 @@ static wt_status make_roots(struct search *search, wt_error *err)
 }
 
 /* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
-static wt_status likelihoods(const struct search *search, const law_shape *shape, double *largest,
-                             double *mean, wt_error *err)
+static wt_status law_likelihoods(const struct search *search, const law_shape *shape,
+                                 double *largest, double *mean, wt_error *err)
 {
     const law_data *data = search->data;
     double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
@@ -380,7 +403,8 @@ static wt_status likelihoods(const struct search *search, const law_shape *shape
     return WT_OK;
 }
 
-static double score(const law_data *data, const law_shape *shape, double largest, double mean)
+static double law_criterion(const law_data *data, const law_shape *shape, double largest,
+                            double mean)
 {
     /* offset, constants and spread; the odd isotherm counts for every law alike */
     const double n = (double)data->n,
@@ -391,18 +415,19 @@ static double score(const law_data *data, const law_shape *shape, double largest
 }
 
 /* better: whether it is the best so far. */
-static wt_status consider(struct search *search, law_shape shape, bool *better, wt_error *err)
+static wt_status consider_law(struct search *search, law_shape shape, bool *better, wt_error *err)
 {
     double largest, mean;
     wt_error failure = WT_ERROR_INIT;
-    const wt_status status = likelihoods(search, &shape, &largest, &mean, &failure);
+    const wt_status status = law_likelihoods(search, &shape, &largest, &mean, &failure);
     *better = false;
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
         return status;
     }
-    const double s = status == WT_OK ? score(search->data, &shape, largest, mean) : HUGE_VAL;
+    const double s =
+        status == WT_OK ? law_criterion(search->data, &shape, largest, mean) : HUGE_VAL;
     if (s < search->best) {
         *better = true;
         search->best = s;
@@ -424,7 +449,7 @@ static wt_status consider_joints(struct search *search, law_shape shape, size_t 
         shape.joint = data->temperature[i];
         shape.coldest = fmin(shape.joint, shape.reference);
         if (data->temperature[i] > data->temperature[0])
-            status = consider(search, shape, &better, err);
+            status = consider_law(search, shape, &better, err);
         if (better)
             *best = i;
     }
@@ -438,10 +463,10 @@ static wt_status consider_all(struct search *search, const law_shape *start, wt_
     size_t joint = 0;
     law_shape shape = *start;
     shape.kind = WT_LAW_ARRHENIUS;
-    wt_status status = consider(search, shape, &better, err);
+    wt_status status = consider_law(search, shape, &better, err);
     shape.kind = WT_LAW_WLF;
     if (status == WT_OK && n >= LAW_LEAST_TOLD)
-        status = consider(search, shape, &better, err);
+        status = consider_law(search, shape, &better, err);
     if (status == WT_OK && n >= LEAST_JOINED)
         status = consider_joints(search, shape, 2, n - 3, step, &joint, err);
     if (status == WT_OK && joint > 0 && step > 1)
@@ -506,7 +531,7 @@ static wt_status find_odd(struct search *search, wt_error *err)
         shape.odd = (long)i;
         if (gain[i] < odd_tried * odd_gain)
             continue;
-        status = likelihoods(search, &shape, &largest, &mean, err);
+        status = law_likelihoods(search, &shape, &largest, &mean, err);
         if (status == WT_E_RANGE) {
             status = WT_OK; /* without this isotherm there is no such law */
             continue;
@@ -530,8 +555,8 @@ static void set_slopes(law_data *data, const law_shape *shape, const double *unk
 }
 
 /* Slopes of a WLF law first, then with the law that is chosen. */
-static wt_status choose(struct search *search, const law_shape *start, gsl_matrix *root,
-                        wt_error *err)
+static wt_status choose_law(struct search *search, const law_shape *start, gsl_matrix *root,
+                            wt_error *err)
 {
     law_data *data = search->data;
     wt_status status = WT_OK;
@@ -567,7 +592,7 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
     gsl_quiet();
     for (size_t i = 0; i < data->n; i++)
         data->slope[i] = 0.1;
-    wt_status status = choose(&search, &start, root, err);
+    wt_status status = choose_law(&search, &start, root, err);
     if (status == WT_OK && data->n >= LEAST_ODD)
         status = find_odd(&search, err);
     pool_free(&search.memory);

@@ -11,19 +11,23 @@
  * energy), the activation energy below the joint, the shift of an odd isotherm, ln of the distance
  * of the pole below the coldest isotherm. Not every law has all. */
 enum { LAW_MOST = 5 };
-/* With fewer isotherms a law is Arrhenius because more cannot be asked. */
+/* With fewer isotherms a law is Arrhenius because more cannot be asked: an offset and two constants
+ * leave nothing over of three. */
 enum { LAW_LEAST_TOLD = 4 };
 
-/* Standard deviations of the temperature of an isotherm that are averaged over [K]. */
+/* Standard deviations of the temperature of an isotherm that are averaged over: from 4 mK, which
+ * no chamber holds, by factors of 2 to 4 K, which none is off by. */
 enum { LAW_SPREADS = 11 };
 double law_spread(size_t i);
 
-/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured;
- * farther, the law is a straight line. */
+/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured, for
+ * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955); farther, the law
+ * is a straight line, which bends by 1 % over 100 K. */
 #define POLE_NEAREST 2.0
 #define POLE_FARTHEST 1e4
-/* A pole whose distance is known to less than this (error of its ln) bends nothing that is seen:
- * constants and draws of such a law would mean nothing, and it counts as impossible. */
+/* A pole whose distance is known to less than this (error of its ln, a factor 50 to either side at
+ * 95 %) bends nothing that is seen: constants and draws of such a law would mean nothing, and it
+ * counts as impossible. */
 #define POLE_ERROR 2.0
 
 typedef struct law_shape {

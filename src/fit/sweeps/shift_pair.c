@@ -6,14 +6,19 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-/* Shared range of ordinates below which two curves do not overlap [decade]. */
+/* These place isotherms before the fit of one spectrum moves them: they decide where that begins,
+ * and no number that is told.
+ * Shared range of ordinates below which two curves do not overlap [decade]: 12 %, beyond noise and
+ * clamping. */
 static const double least_overlap = 0.05;
 /* A point outside the overlap counts as one that is off by this much: what a shift that uses few
- * points has to beat. Below it, more overlap wins; above it, less residual. [decade] */
+ * points has to beat. Below it, more overlap wins; above it, less residual. [decade] As the shared
+ * range above; at half of it noise of 5 % would be taken for a wrong place. */
 static const double indifferent_residual = 0.05;
-/* Residuals below this are equally good [decade]. */
+/* Residuals below this are equally good [decade]: 0.7 %, the noise of a good rheometer. */
 static const double equal_residual = 0.003;
 
+/* Shifts that are tried over the range in which two overlap: 40 a decade where it is ten. */
 enum { GRID = 400 };
 
 struct pair {
@@ -98,7 +103,7 @@ static bool ordinates_overlap(const struct pair *pair)
 }
 
 /* Whether enough points lie on the other curve. */
-static bool overlaps(const struct pair *pair, const struct overlap *sum)
+static bool overlap_suffices(const struct pair *pair, const struct overlap *sum)
 {
     bool enough = true;
     for (int q = 0; q < MODULI; q++)
@@ -118,7 +123,7 @@ bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b,
     double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
     for (int g = 1; g < GRID; g++) {
         const struct overlap sum = overlap_at(&pair, lowest + g * step);
-        if (!overlaps(&pair, &sum))
+        if (!overlap_suffices(&pair, &sum))
             continue;
         double vertical;
         const double square = mean_square(&pair, &sum, &vertical);

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Correlations of neighbours along an isotherm, of which the criterion takes one: steps of about
+ * one standard error of a correlation of 30 points. */
 static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
 enum { RHOS = sizeof rhos / sizeof *rhos };
 
@@ -31,17 +33,23 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
 
 /* A polynomial of its own through the residuals of an isotherm in a modulus, of as many
  * coefficients as its points allow: what a second process leaves bends more than a parabola, and
- * would be taken for noise that goes together over decades. */
+ * would be taken for noise that goes together over decades. Two points a coefficient are left. */
 enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICIENTS + 1 };
-/* Points beyond the coefficients below which an isotherm says nothing. */
+/* Points beyond the coefficients below which an isotherm says nothing: a correlation is of two
+ * neighbours at least, and their mean. */
 enum { LEAST_LEFT = 3 };
-/* atanh of the correlation is looked for in such steps. Few points, of which a polynomial takes the
- * slow part, do not tell it from 0: it is believed to be about so much (half width of a Cauchy
- * prior). */
+/* atanh of the correlation is looked for in such steps, the standard error of 30 points,
+ * 1/sqrt(n - 3) (R. A. Fisher 1921), up to a correlation of 0.97. Few points, of which a polynomial
+ * takes the slow part, do not tell it from 0: it is believed to be about so much (half width of a
+ * Cauchy prior). Chosen: many points overrule it; with half of it a correlation of few points
+ * counts for chance, and with twice as much few points make noise of what a second process leaves.
+ */
 enum { CORRELATIONS = 15 };
 static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
 /* Noise that changes along all isotherms alike: ln of its size by their place from -1 to 1, a line
- * and a parabola, each believed to be below so much. */
+ * and a parabola, each believed to be below so much: a factor 2.2 from one end to the other.
+ * Chosen: the standard error of such a slope is 0.2 with 30 values, so that a whole sweep overrules
+ * it. Rounds: each shape moves the other little. */
 enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
 static const double shape_believed = 0.4;
 
@@ -58,7 +66,7 @@ struct noise_work {
 };
 
 /* Where on its isotherm a point lies, -1 to 1. */
-static double place(const spectrum *s, size_t curve, size_t k)
+static double place_on_isotherm(const spectrum *s, size_t curve, size_t k)
 {
     const double from = s->x[s->first[curve]], to = s->x[s->first[curve + 1] - 1];
     return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
@@ -78,7 +86,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
         double power = spectrum_weight(s, k, q);
         sum.freedom += power > 0.0;
         v[k * width + n] = s->residual[q][k];
-        for (size_t i = 0; i < n; i++, power *= place(s, curve, k))
+        for (size_t i = 0; i < n; i++, power *= place_on_isotherm(s, curve, k))
             v[k * width + i] = power;
     }
     if (sum.freedom < (double)LEAST_LEFT)
@@ -154,13 +162,13 @@ static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work 
 {
     double sum = 0.0, mean[SHAPES] = {0.0};
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
-        const double u = place(s, curve, k);
+        const double u = place_on_isotherm(s, curve, k);
         sum += w->left[k];
         mean[0] += w->left[k] * u;
         mean[1] += w->left[k] * u * u;
     }
     for (size_t k = s->first[curve]; sum > 0.0 && k < s->first[curve + 1]; k++) {
-        const double u = place(s, curve, k);
+        const double u = place_on_isotherm(s, curve, k);
         const double by[SHAPES] = {u - mean[0] / sum, u * u - mean[1] / sum};
         for (int i = 0; i < SHAPES; i++) {
             w->score[i] += by[i] * (w->rest[k] * w->rest[k] / w->scale[q] - w->left[k]);
@@ -212,7 +220,7 @@ void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
     for (size_t i = 0; i < s->n_curves; i++) {
         s->kappa[i] *= exp(-mean);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-            const double u = place(s, i, k);
+            const double u = place_on_isotherm(s, i, k);
             for (int q = 0; q < MODULI; q++)
                 s->spread[q][k] = s->kappa[i] * exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0));
         }

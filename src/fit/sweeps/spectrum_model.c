@@ -7,29 +7,34 @@
 
 #include <math.h>
 
-/* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: it holds
- * what the data leave open, and is nothing beside what they say. */
+/* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: a factor
+ * 20 either way, so that it holds what the data leave open, and is nothing beside what they say. */
 static const double equilibrium_spread = 3.0;
-/* How far the relaxation times go beyond the measured range [decade]: those that are longer than
- * the second are no different from an equilibrium modulus. */
+/* How far the relaxation times go beyond the measured range [decade]. E'' of a term that is slower
+ * by d decades is 10^-d of its modulus at the lowest frequency, and what its E' lacks 10^-2d: at
+ * 2.5 it is no different from an equilibrium modulus, to 0.3 % and 1e-5. One that is faster by 1.5
+ * has 3 % of its modulus in E'' and 0.1 % in E', and those beyond are all alike to E''. */
 static const double fast_margin = 1.5, slow_margin = 2.5;
 /* Weight of the second differences of terms slower than the measured range: beyond it a spectrum
- * rather goes on as it did, but does not have to. Larger ones narrow the equilibrium modulus and
- * miss it where a slower process begins there (tests/study: D3). */
+ * rather goes on as it did, but does not have to. Chosen, for no data are there: 1 is the belief
+ * within the range, and leaves the equilibrium modulus wider than it need be; at 4 it is narrower
+ * than what a slower process, which may begin there, does to it. */
 static const double slow_stiffness = 2.0;
-/* Isotherms that span more once shifted have frequencies or shifts of another unit: no law of
- * rubber goes over half of it. [decade] */
+/* Isotherms that span more once shifted have frequencies or shifts of another unit [decade]: from
+ * vibrations of molecules, 1e13 Hz, to a century, 1e-10 Hz, are 23, and WLF of universal constants
+ * gives 17 above the glass transition. It bounds the terms, too. */
 static const double most_decades = 100.0;
-/* Slope of the terms to start from beyond the slowest measured point. */
+/* Slope of the terms to start from beyond the slowest measured point: that of Rouse's spectrum. */
 static const double start_fall = 0.5;
-/* Slopes of ln E' that a spectrum can have. */
+/* Slopes of ln E' to start from. A spectrum makes 0 to 2, and both ends have no start: of slope 0
+ * there is no loss, and with 2 all relaxes beyond the range. */
 static const double flattest = 0.01, steepest = 1.5;
-/* Rows that go into the normal equations together. */
+/* Rows that go into the normal equations together: as many as dense_add takes at a time. */
 enum { ROWS = 4 };
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
-static wt_status allocate(spectrum *s, wt_error *err)
+static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
     pool *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
@@ -160,7 +165,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->log_tau = -(high + fast_margin) * M_LN10;
     s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
     s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
-    wt_status status = allocate(s, err);
+    wt_status status = allocate_spectrum(s, err);
     if (status != WT_OK) {
         spectrum_free(s);
         return status;
@@ -430,7 +435,7 @@ void spectrum_normal(spectrum *s)
 /* ---- priors ---------------------------------------------------------------------------------- */
 
 /* Weight of a second difference, of terms j to j + 2. */
-static double stiffness(const spectrum *s, size_t j)
+static double bend_stiffness(const spectrum *s, size_t j)
 {
     return s->bend[j] * (j + 1 < s->n_measured ? 1.0 : slow_stiffness);
 }
@@ -480,28 +485,28 @@ double spectrum_roughness(const spectrum *s, const double *value)
     double sum = 0.0;
     for (size_t j = 1; j + 1 < s->n_terms; j++) {
         const double bend = value[j - 1] - 2.0 * value[j] + value[j + 1];
-        sum += stiffness(s, j - 1) * bend * bend;
+        sum += bend_stiffness(s, j - 1) * bend * bend;
     }
     return sum;
 }
 
 double spectrum_roughness_trace(const spectrum *s)
 {
-    static const double weight[3] = {1.0, -2.0, 1.0};
+    static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
     double sum = 0.0;
     for (size_t j = 0; j + 2 < s->n_terms; j++)
         for (size_t i = 0; i < 3; i++)
             for (size_t k = 0; k < 3; k++)
-                sum += stiffness(s, j) * weight[i] * weight[k] *
+                sum += bend_stiffness(s, j) * weight[i] * weight[k] *
                        gsl_matrix_get(s->covariance, j + i, j + k);
     return sum;
 }
 
 static void add_priors(spectrum *s)
 {
-    static const double weight[3] = {1.0, -2.0, 1.0};
+    static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
     for (size_t j = 0; j + 2 < s->n_terms; j++) {
-        const double rough = stiffness(s, j) / (s->smooth * s->smooth);
+        const double rough = bend_stiffness(s, j) / (s->smooth * s->smooth);
         const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
         for (size_t i = 0; i < 3; i++) {
             *gsl_vector_ptr(s->gradient, j + i) -= rough * weight[i] * bend;

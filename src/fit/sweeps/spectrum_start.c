@@ -4,12 +4,14 @@
 
 #include <math.h>
 
+/* Isotherms to one side that one is tried on before it counts as unplaced: a bad one, and another.
+ */
 enum { NEIGHBOURS = 3 };
 
 /* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
  * that is not to be had. */
-static void place(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
-                  bool *placed, double *a, double *b)
+static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
+                           bool *placed, double *a, double *b)
 {
     const bool free_b = set->used[STORAGE] && set->used[LOSS] &&
                         (kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED);
@@ -48,12 +50,12 @@ void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
                                                                           : physical[i];
     }
     for (size_t i = anchor + 1; i < set->n; i++)
-        place(set, anchor, kind, i, placed, a, b);
+        place_isotherm(set, anchor, kind, i, placed, a, b);
     for (size_t i = anchor; i-- > 0;)
-        place(set, anchor, kind, i, placed, a, b);
+        place_isotherm(set, anchor, kind, i, placed, a, b);
 }
 
-static double shared(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
+static double shared_decades(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
 {
     return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
 }
@@ -73,7 +75,7 @@ size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, 
                 if (p == i || !placed[p])
                     continue;
                 const double both =
-                    fmin(shared(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
+                    fmin(shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
                 if (both > overlap[i]) {
                     overlap[i] = both;
                     grown = true;

@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +26,8 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
-/* Processor time of one call: so many calls that the clock tells it. */
+/* Processor time of one call: so many calls that a clock of microseconds tells it to half a per
+ * cent. */
 #define LEAST_SECONDS 2e-4
 
 typedef struct timing {
@@ -34,8 +35,8 @@ typedef struct timing {
     size_t repeats;
 } timing;
 
-static wt_status measure(const accuracy_method *m, void *problem, double value, double *seconds,
-                         wt_error *err)
+static wt_status time_solution(const accuracy_method *m, void *problem, double value,
+                               double *seconds, wt_error *err)
 {
     size_t n = 0;
     const double start = wt_time_cpu();
@@ -60,7 +61,7 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
     wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     size_t n = 0;
     while (status == WT_OK && n < repeats && sum < MOST_SECONDS) {
-        status = measure(m, problem, value, &seconds[n], err);
+        status = time_solution(m, problem, value, &seconds[n], err);
         sum += seconds[n++];
     }
     if (status == WT_OK) {
@@ -72,25 +73,11 @@ static wt_status time_method(const accuracy_method *m, void *problem, double val
     return status;
 }
 
-static void put(const accuracy_part *part, const accuracy_method *m, double value,
-                accuracy_errors errors, double reference_error, const timing *time, table_writer *t)
-{
-    table_row(t);
-    work_precision_put_text(t, WORK_PRECISION_PART, part->name);
-    work_precision_put_text(t, WORK_PRECISION_METHOD, m->name);
-    work_precision_put_text(t, WORK_PRECISION_SETTING, m->setting);
-    work_precision_put(t, WORK_PRECISION_VALUE, value);
-    work_precision_put(t, WORK_PRECISION_TRUE_ERROR, errors.true_error);
-    work_precision_put(t, WORK_PRECISION_STATED_ERROR, errors.stated_error);
-    work_precision_put(t, WORK_PRECISION_REFERENCE_ERROR, reference_error);
-    work_precision_put(t, WORK_PRECISION_SECONDS, time->median);
-    work_precision_put(t, WORK_PRECISION_SPREAD, time->spread);
-    work_precision_put(t, WORK_PRECISION_REPEATS, (double)time->repeats);
-    work_precision_put_text(t, WORK_PRECISION_WORDS, part->words);
-}
+TABLE_ROW(work_precision, WORK_PRECISION, const char *part, *method, *setting, *words;
+          double value, reference_error; accuracy_errors errors; timing time;)
 
-static wt_status sweep(const accuracy_part *part, void *problem, double reference_error,
-                       size_t repeats, table_writer *t, wt_error *err)
+static wt_status sweep_setting(const accuracy_part *part, void *problem, double reference_error,
+                               size_t repeats, table_writer *t, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const accuracy_method *m = part->methods; m->name != NULL; m++)
@@ -98,7 +85,8 @@ static wt_status sweep(const accuracy_part *part, void *problem, double referenc
             timing time;
             status = time_method(m, problem, m->values[i], repeats, &time, err);
             if (status == WT_OK)
-                put(part, m, m->values[i], part->judge(problem), reference_error, &time, t);
+                TABLE_ADD(work_precision, t, part->name, m->name, m->setting, part->words,
+                          m->values[i], reference_error, part->judge(problem), time);
         }
     return status;
 }
@@ -111,7 +99,7 @@ static wt_status run_part(const accuracy_part *part, size_t repeats, table_write
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = part->begin(problem, &reference_error, err);
     if (status == WT_OK)
-        status = sweep(part, problem, reference_error, repeats, t, err);
+        status = sweep_setting(part, problem, reference_error, repeats, t, err);
     part->end(problem);
     free(problem);
     return status;

@@ -13,7 +13,7 @@ typedef struct accuracy_errors {
     double true_error, stated_error;
 } accuracy_errors;
 
-enum { ACCURACY_METHODS = 3, ACCURACY_VALUES = 8 };
+enum { ACCURACY_METHODS = 3, ACCURACY_VALUES = 8 }; /* room in the lists below */
 
 typedef struct accuracy_method {
     const char *name, *setting;
@@ -35,6 +35,18 @@ typedef struct accuracy_part {
 /* Each ends with a name that is NULL. */
 extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_angular[],
     accuracy_friction[], accuracy_layer[];
+
+/* Where `below` ceases to hold, by so many halves of the range. */
+static inline long double accuracy_bisect(bool (*below)(const void *user, long double x),
+                                          const void *user, long double low, long double high,
+                                          int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        const long double middle = (low + high) / 2;
+        *(below(user, middle) ? &low : &high) = middle;
+    }
+    return (low + high) / 2;
+}
 
 /* |value / truth - 1|, 0 for two zeros. */
 static inline double accuracy_relative(double value, double truth)

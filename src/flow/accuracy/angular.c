@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { PLACES = 32, MOST_ANGLES = 3000 };
+enum { PLACES = 32, MOST_ANGLES = 3000 }; /* of the problem */
 
 typedef struct angular_problem {
     wt_material *material;

@@ -9,7 +9,7 @@ static const char tip_words[] = "pyramid:half-angle=20deg,radius=20nm";
 
 /* ---- force of a blunted pyramid -------------------------------------------------------------- */
 
-enum { DEPTHS = 1000 };
+enum { DEPTHS = 1000 }; /* of the problem */
 
 typedef struct force_problem {
     wt_tip tip;
@@ -43,22 +43,29 @@ static long double force_of(const wt_tip *tip, long double a)
                 cot_facets(tip) * (a * a * acosl(b / a) - b * s) / 2);
 }
 
-static long double bisect(const wt_tip *tip, double at, int steps)
+typedef struct depth_search {
+    const wt_tip *tip;
+    long double depth;
+} depth_search;
+
+static bool not_so_deep(const void *user, long double a)
 {
-    const long double depth = (long double)at;
-    long double low = 0, high = 1e-9L;
-    while (depth_of(tip, high) < depth)
+    const depth_search *s = user;
+    return depth_of(s->tip, a) < s->depth;
+}
+
+static long double bisect_radius(const wt_tip *tip, double depth, int steps)
+{
+    const depth_search s = {tip, (long double)depth};
+    long double high = 1e-9L;
+    while (not_so_deep(&s, high))
         high *= 2;
-    for (int i = 0; i < steps; i++) {
-        const long double middle = (low + high) / 2;
-        *(depth_of(tip, middle) < depth ? &low : &high) = middle;
-    }
-    return (low + high) / 2;
+    return accuracy_bisect(not_so_deep, &s, 0, high, steps);
 }
 
 static wt_status begin_force(void *problem, double *reference_error, wt_error *err)
 {
-    enum { STEPS = 80 };
+    enum { STEPS = 80 }; /* to the last bit of a long double */
     force_problem *p = problem;
     wt_status status = wt_tip_parse(tip_words, &p->tip, err);
     if (status == WT_OK)
@@ -66,7 +73,7 @@ static wt_status begin_force(void *problem, double *reference_error, wt_error *e
     *reference_error = 0;
     for (int i = 0; i < DEPTHS && status == WT_OK; i++) {
         p->depth[i] = 1e-10 * pow(1e4, i / (DEPTHS - 1.0));
-        const long double a = bisect(&p->tip, p->depth[i], STEPS);
+        const long double a = bisect_radius(&p->tip, p->depth[i], STEPS);
         const long double g = force_of(&p->tip, a);
         p->truth[i] = (double)g;
         /* dG = 2 a ddelta: what the root and the cancelling terms leave */
@@ -110,7 +117,7 @@ static wt_status solve_bisection(void *problem, double value, wt_error *err)
     force_problem *p = problem;
     (void)err;
     for (int i = 0; i < DEPTHS; i++)
-        p->force[i] = (double)force_of(&p->tip, bisect(&p->tip, p->depth[i], (int)value));
+        p->force[i] = (double)force_of(&p->tip, bisect_radius(&p->tip, p->depth[i], (int)value));
     p->stated = (double)NAN;
     return WT_OK;
 }
@@ -126,8 +133,9 @@ static accuracy_errors judge_force(const void *problem)
 
 /* ---- fit of a curve -------------------------------------------------------------------------- */
 
-enum { CURVES = 4, MOST_SAMPLES = 4000 };
+enum { CURVES = 4, MOST_SAMPLES = 4000 }; /* of the problem */
 
+/* The problem [Pa, m, N/m]. */
 #define MODULUS 4e6
 #define CONTACT 1.2e-6
 #define SPRING_CONSTANT 0.5

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+/* Of the problems; nodes of the reference, and those that tell its error. */
 enum { TERMS = 6, KNOTS = 107, ORDER = 16, CHECK = 12 };
 
 typedef struct friction_problem {
@@ -29,13 +30,13 @@ static const reference_contact contact = {.material = {.e0 = 5e6,
                                           .hurst = 0.8,
                                           .c0 = 6e-16};
 
-static wt_status begin(friction_problem *p, wt_error *err)
+static wt_status make_surface(friction_problem *p, wt_error *err)
 {
     const reference_contact *c = &p->contact;
     return wt_roughness_self_affine(c->q0, c->qr, c->q1, c->hurst, c->c0, &p->roughness, err);
 }
 
-static void end(void *problem)
+static void end_friction(void *problem)
 {
     friction_problem *p = problem;
     wt_material_free(p->material);
@@ -71,7 +72,7 @@ static wt_status begin_prony(void *problem, double *reference_error, wt_error *e
 {
     friction_problem *p = problem;
     p->contact = contact;
-    wt_status status = begin(p, err);
+    wt_status status = make_surface(p, err);
     if (status == WT_OK)
         status = make_prony(&p->contact, &p->material, err);
     if (status == WT_OK)
@@ -86,7 +87,7 @@ static wt_status begin_zener(void *problem, double *reference_error, wt_error *e
     p->contact = contact;
     p->contact.material =
         (reference_material){.e0 = e0, .alpha = alpha, .n = 1, .e = {glass - e0}, .tau = {tau}};
-    wt_status status = begin(p, err);
+    wt_status status = make_surface(p, err);
     if (status == WT_OK)
         status = wt_material_fractional_zener(e0, glass, tau, alpha, p->contact.poisson_ratio,
                                               &p->material, err);
@@ -108,7 +109,7 @@ static wt_status begin_transverse(void *problem, double *reference_error, wt_err
     p->contact.material.axial_storage = factors.axial_storage;
     p->contact.material.axial_loss = factors.axial_loss;
     p->contact.material.poisson_ratio = p->contact.poisson_ratio;
-    wt_status status = begin(p, err);
+    wt_status status = make_surface(p, err);
     if (status == WT_OK)
         status = make_prony(&p->contact, &series, err);
     if (status == WT_OK)
@@ -119,7 +120,7 @@ static wt_status begin_transverse(void *problem, double *reference_error, wt_err
     return status;
 }
 
-static wt_status solve(friction_problem *p, double tolerance, wt_estimate *mu, wt_error *err)
+static wt_status solve_kernel(friction_problem *p, double tolerance, wt_estimate *mu, wt_error *err)
 {
     wt_friction_options options = wt_friction_defaults();
     wt_friction_workspace *workspace = NULL;
@@ -159,11 +160,11 @@ static wt_status begin_table(void *problem, double *reference_error, wt_error *e
     friction_problem *p = problem;
     wt_estimate tight = {0};
     p->contact = contact;
-    wt_status status = begin(p, err);
+    wt_status status = make_surface(p, err);
     if (status == WT_OK)
         status = make_table(&p->contact, &p->material, err);
     if (status == WT_OK)
-        status = solve(p, 1e-13, &tight, err);
+        status = solve_kernel(p, 1e-13, &tight, err);
     p->truth = tight.value;
     *reference_error = tight.numerical_error / tight.value;
     return status;
@@ -173,7 +174,7 @@ static wt_status solve_weartrack(void *problem, double value, wt_error *err)
 {
     friction_problem *p = problem;
     wt_estimate mu = {0};
-    const wt_status status = solve(p, 1 / value, &mu, err);
+    const wt_status status = solve_kernel(p, 1 / value, &mu, err);
     p->found = mu.value;
     p->stated = mu.numerical_error / mu.value;
     return status;
@@ -182,7 +183,7 @@ static wt_status solve_weartrack(void *problem, double value, wt_error *err)
 /* A tenth as many angles as wavenumbers. */
 static wt_status solve_textbook(void *problem, double value, wt_error *err)
 {
-    enum { LEAST_ANGLES = 20 };
+    enum { LEAST_ANGLES = 20 }; /* a rule that any textbook takes */
     friction_problem *p = problem;
     const size_t n = (size_t)value, angles = n / 20 * 2;
     textbook_friction result = {0, 0, 0};
@@ -194,7 +195,7 @@ static wt_status solve_textbook(void *problem, double value, wt_error *err)
     return status == WT_OK ? status : wt_fail(err, status, "the textbook method failed");
 }
 
-static accuracy_errors judge(const void *problem)
+static accuracy_errors friction_errors(const void *problem)
 {
     const friction_problem *p = problem;
     return (accuracy_errors){accuracy_relative(p->found, p->truth), p->stated};
@@ -212,15 +213,15 @@ const accuracy_part accuracy_friction[] = {
     {"friction-prony",
      "Hysteresis friction at one velocity with set-up, Prony series of 6 terms; reference: long "
      "double, other rules",
-     sizeof(friction_problem), begin_prony, judge, end, METHODS},
+     sizeof(friction_problem), begin_prony, friction_errors, end_friction, METHODS},
     {"friction-zener", "The same for a fractional Zener law; reference: long double, other rules",
-     sizeof(friction_problem), begin_zener, judge, end, METHODS},
+     sizeof(friction_problem), begin_zener, friction_errors, end_friction, METHODS},
     {"friction-transverse",
      "The same for the series with directions: along the surface normal 1.5 E' and 2 E''; "
      "reference: long double, other rules",
-     sizeof(friction_problem), begin_transverse, judge, end, METHODS},
+     sizeof(friction_problem), begin_transverse, friction_errors, end_friction, METHODS},
     {"friction-table",
      "The same for a table of 107 knots; reference: the kernel at the tolerance 1e-13",
-     sizeof(friction_problem), begin_table, judge, end, METHODS},
+     sizeof(friction_problem), begin_table, friction_errors, end_friction, METHODS},
     {.name = NULL},
 };

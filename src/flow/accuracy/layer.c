@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { WAVES = 400, MOST_TIMES = 64 };
+enum { WAVES = 400, MOST_TIMES = 64 }; /* of the problem */
 
 typedef struct layer_problem {
     wt_energy_source source;
@@ -48,7 +48,7 @@ static accuracy_errors judge_layer(const void *problem)
 /* ---- balance --------------------------------------------------------------------------------- */
 
 /* Qf(z) / Qw - 1 at a depth, in long double. */
-static long double excess(const layer_problem *p, long double z)
+static long double formation_excess(const layer_problem *p, long double z)
 {
     const wt_layer_parameters *q = &p->parameters;
     const long double wear =
@@ -60,14 +60,14 @@ static long double excess(const layer_problem *p, long double z)
     return power / ((long double)q->critical_energy * wear) - 1;
 }
 
-static long double bisect(const layer_problem *p, int steps)
+static bool still_forms(const void *problem, long double z)
 {
-    long double low = 0, high = 1e-2L;
-    for (int i = 0; i < steps; i++) {
-        const long double middle = (low + high) / 2;
-        *(excess(p, middle) > 0 ? &low : &high) = middle;
-    }
-    return (low + high) / 2;
+    return formation_excess(problem, z) > 0;
+}
+
+static long double bisect_thickness(const layer_problem *p, int steps)
+{
+    return accuracy_bisect(still_forms, p, 0, 1e-2L, steps);
 }
 
 static wt_status begin_balance(void *problem, double *reference_error, wt_error *err)
@@ -82,7 +82,7 @@ static wt_status begin_balance(void *problem, double *reference_error, wt_error 
         p->source.power[i] = 5e3 / WAVES;
     }
     p->n = 1;
-    p->truth[0] = (double)bisect(p, 70);
+    p->truth[0] = (double)bisect_thickness(p, 70);
     *reference_error = LDBL_EPSILON * WAVES;
     return WT_OK;
 }
@@ -102,7 +102,7 @@ static wt_status solve_bisection(void *problem, double value, wt_error *err)
 {
     layer_problem *p = problem;
     (void)err;
-    p->found[0] = (double)bisect(p, (int)value);
+    p->found[0] = (double)bisect_thickness(p, (int)value);
     p->stated = (double)NAN;
     return WT_OK;
 }
@@ -147,7 +147,7 @@ static wt_status solve_march(void *problem, double value, wt_error *err)
     return status;
 }
 
-static double growth(const layer_problem *p, double thickness)
+static double growth_rate(const layer_problem *p, double thickness)
 {
     const wt_layer_parameters *l = &p->parameters;
     return p->source.power[0] / l->critical_energy * exp(-2 * p->source.wavenumber[0] * thickness) -
@@ -163,8 +163,9 @@ static wt_status solve_runge_kutta(void *problem, double value, wt_error *err)
     for (size_t i = 0; i < p->n; i++) {
         const double h = (p->time[i] - time) / value;
         for (double k = 0; k < value; k++) {
-            const double a = growth(p, thickness), b = growth(p, thickness + h / 2 * a),
-                         c = growth(p, thickness + h / 2 * b), d = growth(p, thickness + h * c);
+            const double a = growth_rate(p, thickness), b = growth_rate(p, thickness + h / 2 * a),
+                         c = growth_rate(p, thickness + h / 2 * b),
+                         d = growth_rate(p, thickness + h * c);
             thickness += h / 6 * (a + 2 * b + 2 * c + d);
         }
         time = p->time[i];

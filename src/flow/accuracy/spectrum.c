@@ -2,15 +2,17 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
 #include "flow/work/draws.h"
+#include "model/cholesky.h"
+#include "model/prony.h"
 
 #include <math.h>
 #include <string.h>
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 };
+enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 }; /* of the problem */
 
-#define NOISE 0.005
+#define NOISE 0.005 /* relative, of the moduli: a good rheometer */
 
 typedef struct shift_problem {
     wt_sweep sweep;
@@ -19,15 +21,13 @@ typedef struct shift_problem {
 } shift_problem;
 
 /* Slower and faster than all isotherms, too. */
-static void moduli(double omega, double *storage, double *loss)
+static void true_moduli(double omega, double *storage, double *loss)
 {
     *storage = 1e6;
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
         const double decade = 0.25 * k;
-        const double z = omega * pow(10, 4 - decade), e = 9e4 * pow(10, 0.22 * decade);
-        *storage += e * z * z / (1 + z * z);
-        *loss += e * z / (1 + z * z);
+        prony_add(9e4 * pow(10, 0.22 * decade), pow(10, 4 - decade), omega, storage, loss);
     }
 }
 
@@ -46,7 +46,7 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
             const double omega = 0.1 * pow(10, 3.0 * j / (POINTS - 1));
             const uint64_t place = (uint64_t)(i * POINTS + j);
             double storage = 0, loss = 0;
-            moduli(omega * pow(10, p->truth[i]), &storage, &loss);
+            true_moduli(omega * pow(10, p->truth[i]), &storage, &loss);
             iso->angular_frequency[j] = omega;
             iso->storage_modulus[j] =
                 storage * (1 + NOISE * flow_draw_normal(1, place, FLOW_DRAW_NOISE));
@@ -63,7 +63,8 @@ static void end_shift(void *problem)
     wt_sweep_clear(&p->sweep);
 }
 
-static wt_status fit(const shift_problem *p, double terms, wt_master *master, wt_error *err)
+static wt_status fit_spectrum(const shift_problem *p, double terms, wt_master *master,
+                              wt_error *err)
 {
     wt_master_options options = wt_master_options_defaults();
     options.reference_temperature = p->sweep.isotherms[REFERENCE].temperature;
@@ -76,7 +77,7 @@ static wt_status solve_shift(void *problem, double value, wt_error *err)
 {
     shift_problem *p = problem;
     wt_master master = {0};
-    const wt_status status = fit(p, value, &master, err);
+    const wt_status status = fit_spectrum(p, value, &master, err);
     double sum = 0;
     for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++) {
         p->log_a[i] = master.shifts[i].log_a.value;
@@ -88,7 +89,7 @@ static wt_status solve_shift(void *problem, double value, wt_error *err)
 }
 
 /* log10 E' at log10 omega x by linear interpolation; NaN outside. */
-static double interpolate(const wt_isotherm *iso, double x)
+static double interpolate_storage(const wt_isotherm *iso, double x)
 {
     for (size_t j = 0; j + 1 < iso->n; j++) {
         const double x0 = log10(iso->angular_frequency[j]);
@@ -109,7 +110,7 @@ static double pair_shift(const wt_isotherm *from, const wt_isotherm *to, int tri
         double sum = 0;
         int n = 0;
         for (size_t j = 0; j < from->n; j++) {
-            const double y = interpolate(to, log10(from->angular_frequency[j]) + shift);
+            const double y = interpolate_storage(to, log10(from->angular_frequency[j]) + shift);
             if (isnan(y))
                 continue;
             sum += pow(log10(from->storage_modulus[j]) - y, 2);
@@ -160,7 +161,7 @@ static double judged_frequency(const shift_problem *p, int i)
 static double squares_of(double log_storage, double log_loss, double omega)
 {
     double storage = 0, loss = 0;
-    moduli(omega, &storage, &loss);
+    true_moduli(omega, &storage, &loss);
     return pow(log_storage - log(storage), 2) + pow(log_loss - log(loss), 2);
 }
 
@@ -169,7 +170,7 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
     shift_problem *p = problem;
     wt_master master = {0};
     double sum = 0, stated = 0;
-    const wt_status status = fit(p, value, &master, err);
+    const wt_status status = fit_spectrum(p, value, &master, err);
     for (int i = 0; i < JUDGED && status == WT_OK; i++) {
         wt_interval storage, loss;
         const double omega = judged_frequency(p, i);
@@ -183,42 +184,15 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
     return status;
 }
 
-enum { MOST_TERMS = 64 };
-
-/* Symmetric and positive: Cholesky. False if it is not, as far as rounding tells. */
-static bool solve_normal(double a[MOST_TERMS][MOST_TERMS], double *x, size_t n)
-{
-    for (size_t j = 0; j < n; j++) {
-        for (size_t k = 0; k < j; k++)
-            a[j][j] -= a[j][k] * a[j][k];
-        if (!(a[j][j] > 0))
-            return false;
-        a[j][j] = sqrt(a[j][j]);
-        for (size_t i = j + 1; i < n; i++) {
-            for (size_t k = 0; k < j; k++)
-                a[i][j] -= a[i][k] * a[j][k];
-            a[i][j] /= a[j][j];
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            x[i] -= a[i][k] * x[k];
-        x[i] /= a[i][i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            x[i] -= a[k][i] * x[k];
-        x[i] /= a[i][i];
-    }
-    return true;
-}
+enum { MOST_TERMS = 64 }; /* more than the problem asks for */
 
 /* What a term with a modulus of 1, the first one without relaxation, gives to E' and E''. */
 static void term_at(double omega, size_t j, double first, double density, double part[2])
 {
-    const double z = omega * pow(10, first + ((double)j - 1) / density);
-    part[0] = j == 0 ? 1 : z * z / (1 + z * z);
-    part[1] = j == 0 ? 0 : z / (1 + z * z);
+    part[0] = j == 0 ? 1 : 0;
+    part[1] = 0;
+    if (j > 0)
+        prony_add(1, pow(10, first + ((double)j - 1) / density), omega, &part[0], &part[1]);
 }
 
 /* Terms at fixed times, so many a decade, by linear least squares of the relative residuals, with
@@ -250,7 +224,7 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
                         a[j][l] += row[q][j] * row[q][l];
                 }
         }
-    const bool solved = solve_normal(a, x, n);
+    const bool solved = cholesky_solve(&a[0][0], MOST_TERMS, n, 0, x);
     double sum = 0;
     for (int i = 0; i < JUDGED; i++) {
         const double omega = judged_frequency(p, i);

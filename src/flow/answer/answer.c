@@ -12,42 +12,152 @@
 #include <math.h>
 #include <string.h>
 
+static const char in_short[] = "In short";
 static const char what_rubber[] = "What is the rubber like?";
 static const char is_there[] = "Is there a modified layer?";
 static const char how_different[] = "How different is it?";
 static const char how_thick[] = "How thick is it?";
 static const char what_friction[] = "What does it do to friction?";
+static const char not_asked[] = "What was not asked?";
 
 /* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
 #define MM3_PER_N_M 1e9
 
-/* The message of a stage that failed. */
+/* The message of a stage that failed, or that failed to take more into account. */
 static const char *why_failed(const answer_story *story, const char *stage)
 {
+    const size_t length = strlen(stage);
     for (size_t i = 0; i < story->failures.n_rows; i++) {
         const char *name = failures_text(&story->failures, i, FAILURES_FILE);
-        if (strncmp(name, "stage ", 6) == 0 && strcmp(name + 6, stage) == 0)
+        if (strncmp(name, "stage ", 6) == 0 && strncmp(name + 6, stage, length) == 0 &&
+            (name[6 + length] == '\0' || name[6 + length] == ' '))
             return failures_text(&story->failures, i, FAILURES_MESSAGE);
     }
     return "the stage failed";
 }
 
-/* Why a stage gave nothing, as a sentence. */
+/* The stage whose failure keeps another from running: the first that failed of those that give what
+ * it takes, or that are kept from running themselves. */
+static flow_stage_id root_of(const flow_plan *plan, flow_stage_id stage, unsigned level)
+{
+    const flow_things takes = flow_needs(plan, stage, level) | flow_stages[stage].any;
+    for (size_t i = 0; i < FLOW_N_STAGES && i < (size_t)stage; i++) {
+        if ((flow_stages[i].gives & takes) == 0)
+            continue;
+        if (plan->outcome[i] == FLOW_FAILED)
+            return (flow_stage_id)i;
+        if (plan->outcome[i] == FLOW_BLOCKED)
+            return root_of(plan, (flow_stage_id)i, 0);
+    }
+    return stage;
+}
+
+/* Why something that was asked for was not given, as a sentence. */
+static void say_why_not(const answer_story *story, flow_stage_id stage, flow_outcome outcome,
+                        const char *question, const char *kind)
+{
+    const flow_plan *plan = story->plan;
+    if (outcome == FLOW_FAILED)
+        answer_say(story, question, kind, "Not answered: %s.",
+                   why_failed(story, flow_stages[stage].id));
+    else if (outcome == FLOW_BLOCKED) {
+        const flow_stage_id root = root_of(plan, stage, plan->level[stage]);
+        answer_say(story, question, kind, "Not answered: a stage that %s needs failed (%s): %s.",
+                   flow_stages[stage].id, flow_stages[root].id,
+                   why_failed(story, flow_stages[root].id));
+    }
+}
+
 static void say_missing(const answer_story *story, flow_stage_id stage, const char *question,
                         const char *kind)
 {
+    say_why_not(story, stage, story->plan->outcome[stage], question, kind);
+}
+
+/* What the case does not ask for, or gives no data for, behind everything else. */
+static void say_not_asked(const answer_story *story)
+{
+    static const struct {
+        flow_stage_id stage;
+        const char *question, *kind;
+    } asked[] = {{FLOW_STAGE_COMPARISON, is_there, "layer"},
+                 {FLOW_STAGE_LAYER, how_thick, "thickness"},
+                 {FLOW_STAGE_FRICTION, what_friction, "friction"}};
     static const char left_out[] = "left out because ";
-    const char *because = story->plan->because[stage], *id = flow_stages[stage].id;
-    if (story->plan->outcome[stage] == FLOW_FAILED) {
-        answer_say(story, question, kind, "Not answered: %s.", why_failed(story, id));
-    } else if (story->plan->outcome[stage] == FLOW_BLOCKED) {
-        answer_say(story, question, kind,
-                   "Not answered: a stage that %s needs failed; the table failures says why.", id);
-    } else {
-        if (strncmp(because, left_out, strlen(left_out)) == 0)
-            because += strlen(left_out);
-        answer_say(story, question, kind, "Not asked: %s.", because);
+    const flow_plan *plan = story->plan;
+    for (size_t i = 0; i < COUNT_OF(asked); i++) {
+        const char *because = plan->because[asked[i].stage];
+        if (plan->outcome[asked[i].stage] == FLOW_LEFT_OUT &&
+            strncmp(because, left_out, strlen(left_out)) == 0)
+            answer_say(story, not_asked, asked[i].kind, "%s Not asked: %s.", asked[i].question,
+                       because + strlen(left_out));
     }
+    if (plan->outcome[FLOW_STAGE_FRICTION] == FLOW_DONE &&
+        plan->fuller[FLOW_STAGE_FRICTION] == FLOW_LEFT_OUT &&
+        plan->without[FLOW_STAGE_FRICTION][0] != '\0')
+        answer_say(story, not_asked, "friction", "What the layer does to friction. Not asked: %s.",
+                   plan->without[FLOW_STAGE_FRICTION]);
+}
+
+/* ---- in short -------------------------------------------------------------------------------- */
+
+static void say_short(const answer_story *story, const char *what, const char *text)
+{
+    answer_say(story, in_short, "short", "%s: %s.", what, text);
+}
+
+/* Of what was asked for and was not given. */
+static void short_of_missing(const answer_story *story, const char *what, flow_stage_id stage)
+{
+    const flow_outcome outcome = story->plan->outcome[stage];
+    if (outcome == FLOW_FAILED)
+        answer_say(story, in_short, "short", "%s: not answered: %s.", what,
+                   why_failed(story, flow_stages[stage].id));
+    else if (outcome == FLOW_BLOCKED)
+        answer_say(story, in_short, "short", "%s: not answered, for what it needs failed.", what);
+}
+
+static void short_of_friction(const answer_story *story, telling *t)
+{
+    const finding_tables *found = &story->found;
+    const finding total = finding_of_friction(found, FRICTION_KEY_FRICTION),
+                  hysteresis = finding_of_friction(found, FRICTION_KEY_HYSTERESIS),
+                  with_layer = finding_of_friction(found, FRICTION_KEY_WITH_LAYER);
+    if (!isnan(with_layer.number.value)) {
+        tell_change(t, found, true);
+        tell(t, "; mu = %s without it and %s with it", words_of_number(&total).text,
+             words_of_number(&with_layer).text);
+    } else if (!isnan(total.number.value))
+        tell(t, "mu = %s without a layer", words_of_finding(&total).text);
+    else
+        tell(t, "hysteresis part %s without a layer", words_of_finding(&hysteresis).text);
+    tell(t, ", at %s", words_of(total.velocity, "m/s").text);
+}
+
+static void answer_in_short(const answer_story *story)
+{
+    char text[1000];
+    telling t = {text, sizeof text, 0};
+    const char *thickness = strncmp(words_of_origin(&story->found), "put in", 6) == 0
+                                ? "Thickness"
+                                : "Thickness (predicted)";
+    if (story->found.comparison.table != NULL) {
+        tell_ratio(&t, &story->found);
+        say_short(story, "Layer (measured)", text);
+    } else
+        short_of_missing(story, "Layer (measured)", FLOW_STAGE_COMPARISON);
+    t.used = 0;
+    if (story->found.layer.table != NULL) {
+        tell_thickness(&t, &story->found);
+        say_short(story, thickness, text);
+    } else
+        short_of_missing(story, thickness, FLOW_STAGE_LAYER);
+    t.used = 0;
+    if (story->found.friction.table != NULL) {
+        short_of_friction(story, &t);
+        say_short(story, "Friction (predicted)", text);
+    } else
+        short_of_missing(story, "Friction (predicted)", FLOW_STAGE_FRICTION);
 }
 
 /* ---- layer, difference ----------------------------------------------------------------------- */
@@ -55,19 +165,19 @@ static void say_missing(const answer_story *story, flow_stage_id stage, const ch
 /* The first row of the comparison is that over all rates. */
 static double over_all(const answer_story *story, comparison_column column)
 {
-    return comparison_get(&story->comparison, 0, column);
+    return comparison_get(&story->found.comparison, 0, column);
 }
 
 static bool said(const answer_story *story, const char *verdict)
 {
-    const char *differs = comparison_words(&story->comparison, COMPARISON_KEY_DIFFERS);
+    const char *differs = comparison_words(&story->found.comparison, COMPARISON_KEY_DIFFERS);
     return differs != NULL && strncmp(differs, verdict, strlen(verdict)) == 0;
 }
 
 /* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
 static void list_evidence(const answer_story *story, char *text, size_t size)
 {
-    const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = over_all(story, COMPARISON_MANN_WHITNEY_SMALLEST_P);
     char least[96] = "";
     if (smallest > 0.05)
@@ -84,53 +194,47 @@ static void list_evidence(const answer_story *story, char *text, size_t size)
 
 static void answer_layer(const answer_story *story)
 {
-    if (story->comparison.table == NULL) {
+    if (story->found.comparison.table == NULL) {
         say_missing(story, FLOW_STAGE_COMPARISON, is_there, "layer");
         return;
     }
-    const char *differs = comparison_words(&story->comparison, COMPARISON_KEY_DIFFERS);
-    const char *settled = comparison_words(&story->comparison, COMPARISON_KEY_SETTLED_BY);
-    const double low = over_all(story, COMPARISON_RATIO_LOW);
-    char evidence[320] = "";
-    if (!isnan(low)) {
-        char found[256];
+    const finding ratio = finding_of_ratio(&story->found);
+    char evidence[480] = "";
+    if (!isnan(ratio.low)) {
+        char found[320];
         list_evidence(story, found, sizeof found);
-        clocale_print(evidence, sizeof evidence,
-                      " E_track/E_bulk = %#.3g, 95 %% interval %#.3g to %#.3g (%s).",
-                      over_all(story, COMPARISON_RATIO), low,
-                      over_all(story, COMPARISON_RATIO_HIGH), found);
+        clocale_print(evidence, sizeof evidence, " E_track/E_bulk = %s, %s (%s).",
+                      words_of_number(&ratio).text, words_of_interval(&ratio).text, found);
     }
-    answer_say(story, is_there, "layer", "%c%s.%s%s%s%s", toupper((unsigned char)differs[0]),
-               differs + 1, evidence, settled != NULL ? " What would settle it: " : "",
-               settled != NULL ? settled : "", settled != NULL ? "." : "");
+    answer_say(story, is_there, "layer", "%c%s.%s%s%s%s", toupper((unsigned char)ratio.verdict[0]),
+               ratio.verdict + 1, evidence, ratio.remedy != NULL ? " What would settle it: " : "",
+               ratio.remedy != NULL ? ratio.remedy : "", ratio.remedy != NULL ? "." : "");
 }
 
 static void say_group(const answer_story *story, const char *name, const char *words)
 {
-    const table_view *groups = &story->modulus_groups;
+    const table_view *groups = &story->found.groups;
     size_t row = 0;
     while (row < groups->n_rows &&
            strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), name) != 0)
         row++;
     if (row == groups->n_rows)
         return;
-    double low = modulus_groups_get(groups, row, MODULUS_GROUPS_LOW);
-    double high = modulus_groups_get(groups, row, MODULUS_GROUPS_HIGH);
-    double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
-    char interval[224] = "no interval from fewer than two spots";
-    if (!isnan(low) && !isnan(high))
-        snprintf(interval, sizeof interval, "95 %% interval %s to %s", words_of(low, "Pa").text,
-                 words_of(high, "Pa").text);
+    const finding modulus = finding_of_group(&story->found, row);
+    const double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
+    char interval[480] = "no interval from fewer than two spots";
+    if (!isnan(modulus.low))
+        snprintf(interval, sizeof interval, "%s by %s", words_of_interval(&modulus).text,
+                 modulus.includes);
     answer_say(story, how_different, "difference",
-               "%s: E = %s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.",
-               words,
-               words_of(modulus_groups_get(groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN), "Pa").text,
-               interval, modulus_groups_get(groups, row, MODULUS_GROUPS_N), n_spots,
-               n_spots > 1 ? "s" : "", modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED));
+               "%s: E = %s%s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.",
+               words, words_of_number(&modulus).text, words_of_frequency(&modulus).text, interval,
+               modulus_groups_get(groups, row, MODULUS_GROUPS_N), n_spots, n_spots > 1 ? "s" : "",
+               modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED));
 }
 
 /* What depth does to the modulus. */
-static void say_depth(const answer_story *story, const char *name, const char *words)
+static void say_depth(answer_story *story, const char *name, const char *words)
 {
     table_view depth = story->modulus_depth;
     depth.suffix = name;
@@ -143,22 +247,22 @@ static void say_depth(const answer_story *story, const char *name, const char *w
                "%c%s.",
                words, toupper((unsigned char)changes[0]), changes + 1);
     if (reading != NULL)
-        answer_say(story, how_different, "caveat", "%c%s.", toupper((unsigned char)reading[0]),
-                   reading + 1);
+        answer_caveat(story, CAVEAT_VERDICT, "%c%s.", toupper((unsigned char)reading[0]),
+                      reading + 1);
 }
 
 static void say_rates(const answer_story *story)
 {
     double low = (double)NAN, high = (double)NAN, largest_p = (double)NAN;
     size_t n = 0;
-    for (size_t i = 1; i < story->comparison.n_rows; i++) {
-        double ratio = comparison_get(&story->comparison, i, COMPARISON_RATIO);
+    for (size_t i = 1; i < story->found.comparison.n_rows; i++) {
+        double ratio = comparison_get(&story->found.comparison, i, COMPARISON_RATIO);
         if (isnan(ratio))
             continue;
         n++;
         low = fmin(low, ratio);
         high = fmax(high, ratio);
-        largest_p = fmax(largest_p, comparison_get(&story->comparison, i, COMPARISON_HOLM_P));
+        largest_p = fmax(largest_p, comparison_get(&story->found.comparison, i, COMPARISON_HOLM_P));
     }
     if (n >= 2)
         answer_say(story, how_different, "difference",
@@ -169,53 +273,48 @@ static void say_rates(const answer_story *story)
 
 static void say_dma(const answer_story *story)
 {
-    const table_view *dma = &story->dma_comparison;
-    double low = (double)NAN, high = (double)NAN;
-    for (size_t i = 0; i < dma->n_rows; i++) {
-        if (strcmp(dma_comparison_text(dma, i, DMA_COMPARISON_GROUP), "bulk") != 0)
-            continue;
-        double ratio = dma_comparison_get(dma, i, DMA_COMPARISON_RATIO);
-        low = fmin(low, ratio);
-        high = fmax(high, ratio);
-    }
-    if (isnan(low))
+    double low, high;
+    if (!ratio_to_dma(&story->dma_comparison, &low, &high))
         return;
-    const bool alarm = low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
-    char range[64], end[32], lever[128] = "";
-    clocale_print(range, sizeof range, "%.3g", low);
-    clocale_print(end, sizeof end, "%.3g", high);
-    if (strcmp(range, end) != 0)
-        clocale_print(range, sizeof range, "%.3g to %s", low, end);
+    const bool alarm = is_other_rubber(low, high);
+    const number_words first = words_of(low, "1"), last = words_of(high, "1");
+    const bool one = strcmp(first.text, last.text) == 0;
+    char lever[128] = "";
     wt_estimate k = indentation_value(&story->indentation[0], INDENTATION_KEY_SPRING_CONSTANT);
     if (k.standard_error > 0)
         clocale_print(lever, sizeof lever,
                       ", of which the spring constant leaves %.2g %% uncertain",
                       100 * k.standard_error / k.value);
     answer_say(story, how_different, "difference",
-               "%sAt equal frequency the indentation modulus of the bulk is %s times |E*| of the "
-               "DMA%s.%s",
-               alarm ? "Alarm: indentation and DMA do not describe one rubber. " : "", range, lever,
+               "%sAt equal frequency the indentation modulus of the bulk is %s%s%s times |E*| of "
+               "the DMA%s.%s",
+               alarm ? "Alarm: indentation and DMA do not describe one rubber. " : "", first.text,
+               one ? "" : " to ", one ? "" : last.text, lever,
                alarm ? " Units, spring constant, sensitivity, tip, temperature and the files "
                        "themselves are to be checked before anything else is believed."
                      : "");
 }
 
-static void answer_difference(const answer_story *story)
+static void answer_difference(answer_story *story)
 {
-    if (story->comparison.table == NULL) {
+    if (story->found.comparison.table == NULL) {
         say_missing(story, FLOW_STAGE_COMPARISON, how_different, "difference");
     } else if (isnan(over_all(story, COMPARISON_RATIO))) {
         answer_say(story, how_different, "difference",
                    "The ratio of the moduli cannot be told, for the reason above.");
     } else {
-        const double ratio = over_all(story, COMPARISON_RATIO);
+        const finding ratio = finding_of_ratio(&story->found);
         const double effect = over_all(story, COMPARISON_EFFECT_SIZE);
         char size[96] = "; an interval cannot be told, for the reason above";
         if (!isnan(effect))
             clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
+        char rates[256] = "";
+        telling t = {rates, sizeof rates, 0};
+        tell_rates(&t, &story->found);
         answer_say(story, how_different, "difference",
-                   "The modulus of the wear track is %.3g times that of the bulk (%+.0f %%)%s.",
-                   ratio, 100 * (ratio - 1), size);
+                   "The modulus of the wear track is %s times that of the bulk (%+.0f %%)%s%s%s.",
+                   words_of_number(&ratio).text, 100 * (ratio.number.value - 1),
+                   words_of_frequency(&ratio).text, rates, size);
     }
     say_group(story, "bulk", "Bulk");
     say_group(story, "track", "Wear track");
@@ -225,64 +324,67 @@ static void answer_difference(const answer_story *story)
     say_dma(story);
 }
 
-/* Of a number, how far it moves with the model: " (2.60 um to 11.0 um if ...)". */
-typedef struct range_text {
-    char text[256];
-} range_text;
-
-static range_text range_of(const answer_story *story, what_if_key key)
-{
-    const char *range = what_if_words(&story->what_if, key);
-    range_text words = {""};
-    if (range != NULL)
-        snprintf(words.text, sizeof words.text, " (%s)", range);
-    return words;
-}
-
 /* ---- thickness ------------------------------------------------------------------------------- */
 
 static void say_times(const answer_story *story)
 {
-    wt_estimate incubation = layer_value(&story->layer, LAYER_KEY_INCUBATION_TIME);
-    wt_estimate settled = layer_value(&story->layer, LAYER_KEY_TIME_TO_90_PERCENT);
+    wt_estimate incubation = layer_value(&story->found.layer, LAYER_KEY_INCUBATION_TIME);
+    wt_estimate settled = layer_value(&story->found.layer, LAYER_KEY_TIME_TO_90_PERCENT);
     if (isnan(incubation.value))
         return;
     char then[192] = "";
     if (!isnan(settled.value))
         clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
-                      words_of_estimate(settled).text);
-    answer_say(story, how_thick, "thickness", "It begins to form after %s%s (time under load).",
-               words_of_estimate(incubation).text, then);
+                      words_of_known(settled).text);
+    answer_say(story, how_thick, "thickness", "It begins to form after %s%s, time under load.",
+               words_of_known(incubation).text, then);
 }
 
 /* Indentation and layer model need not agree; where they do not, the reader is told. */
-static void say_disagreement(const answer_story *story, bool modelled)
+static void say_disagreement(answer_story *story, bool modelled)
 {
-    if (story->comparison.table == NULL)
+    if (story->found.comparison.table == NULL)
         return;
     if (said(story, "yes") && !modelled)
-        answer_say(story, how_thick, "caveat",
-                   "This does not agree with the indentation, which shows a modified track: the "
-                   "specific wear rate, the critical energy or the model does not fit it.");
+        answer_caveat(story, CAVEAT_THICKNESS,
+                      "That there is no layer does not agree with the indentation, which shows a "
+                      "modified track: the specific wear rate, the critical energy or the model "
+                      "does not fit it.");
     if (!said(story, "yes") && modelled)
-        answer_say(story, how_thick, "caveat",
-                   "The indentation %s this layer: it is what the model makes of the specific wear "
-                   "rate and the critical energy given.",
-                   said(story, "no") ? "does not show" : "cannot say whether there is");
+        answer_caveat(story, CAVEAT_THICKNESS,
+                      "The indentation %s this layer: it is what the model makes of the specific "
+                      "wear rate and the critical energy given.",
+                      said(story, "no") ? "does not show" : "cannot say whether there is");
 }
 
-static void answer_thickness(const answer_story *story)
+/* With the choices of the model that make the ends of the range. */
+static finding_words thickness_words(const answer_story *story)
 {
-    const table_view *layer = &story->layer;
+    const finding thickness = finding_of_thickness(&story->found);
+    const finding_words choices = words_of_choices(&thickness);
+    const bool none = !(thickness.number.value > 0);
+    finding_words words = {""};
+    telling t = {words.text, sizeof words.text, 0};
+    if (none && choices.text[0] != '\0')
+        tell(&t, ", but %s", choices.text);
+    else if (!none)
+        tell(&t, "%s (%s)%s%s", words_of_number(&thickness).text,
+             words_of_interval(&thickness).text, choices.text[0] != '\0' ? "; " : "", choices.text);
+    return words;
+}
+
+static void answer_thickness(answer_story *story)
+{
+    const table_view *layer = &story->found.layer;
     if (layer->table == NULL) {
         say_missing(story, FLOW_STAGE_LAYER, how_thick, "thickness");
         return;
     }
-    const wt_estimate thickness = layer_value(layer, LAYER_KEY_BALANCE_THICKNESS);
-    const number_words ratio =
-        words_of_estimate(layer_value(layer, LAYER_KEY_FORMATION_WEAR_RATIO));
-    const number_words velocity = words_of_value(layer_value(layer, LAYER_KEY_VELOCITY));
-    const number_words pressure = words_of_value(layer_value(layer, LAYER_KEY_PRESSURE));
+    const finding thickness = finding_of_thickness(&story->found);
+    const number_words ratio = words_of_known(layer_value(layer, LAYER_KEY_FORMATION_WEAR_RATIO));
+    const number_words velocity = words_of(thickness.velocity, "m/s"),
+                       pressure = words_of(thickness.pressure, "Pa");
+    const finding_words words = thickness_words(story);
     const bool none = strcmp(layer_words(layer, LAYER_KEY_REGIME), "none") == 0;
     if (none)
         answer_say(
@@ -290,88 +392,93 @@ static void answer_thickness(const answer_story *story)
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
             "below %.3g mm^3/(N m).",
-            velocity.text, pressure.text, range_of(story, WHAT_IF_KEY_THICKNESS).text, ratio.text,
+            velocity.text, pressure.text, words.text, ratio.text,
             MM3_PER_N_M * layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value);
-    else if (isinf(thickness.value))
+    else if (isinf(thickness.number.value))
         answer_say(story, how_thick, "thickness",
                    "Without wear it grows without end, ever more slowly; the table layer gives its "
                    "thickness in time.");
     else
         answer_say(story, how_thick, "thickness",
-                   "%s%s where formation balances wear, at %s and %s (formation over wear R = %s). "
-                   "With 1 %% more wear it is %.2g %% thinner.",
-                   words_of_estimate(thickness).text, range_of(story, WHAT_IF_KEY_THICKNESS).text,
-                   velocity.text, pressure.text, ratio.text,
-                   -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
+                   "%s. That is where formation balances wear, at %s and %s; %s. Formation over "
+                   "wear R = %s. With 1 %% more wear it is %.2g %% thinner.",
+                   words.text, velocity.text, pressure.text, words_of_origin(&story->found),
+                   ratio.text, -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
     if (!none)
         say_times(story);
+    if (thickness.range.widest != NULL)
+        answer_say(story, how_thick, "thickness",
+                   "What would settle it most: a measurement that settles the %s.",
+                   thickness.range.widest);
     say_disagreement(story, !none);
 }
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
-static wt_estimate friction_at(const answer_story *story, friction_key key)
-{
-    return friction_value(&story->friction, key);
-}
-
 static void say_friction(const answer_story *story)
 {
-    const wt_estimate total = friction_at(story, FRICTION_KEY_FRICTION);
-    const wt_estimate hysteresis = friction_at(story, FRICTION_KEY_HYSTERESIS);
-    const number_words velocity =
-        words_of_value(friction_at(story, FRICTION_KEY_REFERENCE_VELOCITY));
-    const number_words area = words_of_estimate(friction_at(story, FRICTION_KEY_AREA_RATIO));
-    if (isnan(total.value))
+    const finding_tables *found = &story->found;
+    const finding total = finding_of_friction(found, FRICTION_KEY_FRICTION),
+                  hysteresis = finding_of_friction(found, FRICTION_KEY_HYSTERESIS),
+                  area = finding_of_friction(found, FRICTION_KEY_AREA_RATIO);
+    const number_words velocity = words_of(total.velocity, "m/s");
+    if (isnan(total.number.value))
         answer_say(story, what_friction, "friction",
-                   "Without a layer, at %s, the hysteresis part is %s%s with a real contact of %s "
-                   "of the nominal area; the total is not known because no shear stress is given.",
-                   velocity.text, words_of_estimate(hysteresis).text,
-                   range_of(story, WHAT_IF_KEY_HYSTERESIS).text, area.text);
+                   "Without a layer, at %s, the hysteresis part is %s, with a real contact of the "
+                   "nominal area of %s; the total is not known because no shear stress is given.",
+                   velocity.text, words_of_finding(&hysteresis).text, words_of_finding(&area).text);
     else
         answer_say(story, what_friction, "friction",
-                   "Without a layer, at %s, mu = %s%s: hysteresis %s%s, shearing of the real "
-                   "contact %.3g (contact area %s of the nominal one).",
-                   velocity.text, words_of_estimate(total).text,
-                   range_of(story, WHAT_IF_KEY_FRICTION).text, words_of_estimate(hysteresis).text,
-                   range_of(story, WHAT_IF_KEY_HYSTERESIS).text, total.value - hysteresis.value,
-                   area.text);
+                   "Without a layer, at %s, mu = %s: hysteresis %s, shearing of the real contact "
+                   "%.3g; contact area of the nominal one %s.",
+                   velocity.text, words_of_finding(&total).text, words_of_finding(&hysteresis).text,
+                   total.number.value - hysteresis.number.value, words_of_finding(&area).text);
 }
 
 static void say_change(const answer_story *story)
 {
-    const size_t n = story->friction.n_rows;
-    char range[256] = "";
+    const finding_tables *found = &story->found;
+    const table_view *friction = &found->friction;
+    const finding with_layer = finding_of_friction(found, FRICTION_KEY_WITH_LAYER),
+                  change = finding_of_friction(found, FRICTION_KEY_RELATIVE_CHANGE);
+    const size_t n = friction->n_rows;
+    char text[1000];
+    telling t = {text, sizeof text, 0};
+    tell_change(&t, found, true);
     if (n > 1)
-        snprintf(range, sizeof range, " From %s to %s the change is %+.0f %% to %+.0f %%.",
-                 words_of(friction_get(&story->friction, 0, FRICTION_VELOCITY), "m/s").text,
-                 words_of(friction_get(&story->friction, n - 1, FRICTION_VELOCITY), "m/s").text,
-                 100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
-                 100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
+        tell(&t, ". From %s to %s the change is %+.0f %% to %+.0f %%",
+             words_of(friction_get(friction, 0, FRICTION_VELOCITY), "m/s").text,
+             words_of(friction_get(friction, n - 1, FRICTION_VELOCITY), "m/s").text,
+             100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
+             100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
     answer_say(story, what_friction, "friction",
-               "With the layer (%s thick, modulus ratio %s), at %s, mu = %s%s: a change of %s "
-               "(%+.0f %%).%s",
-               words_of_estimate(friction_at(story, FRICTION_KEY_LAYER_THICKNESS)).text,
-               words_of_estimate(friction_at(story, FRICTION_KEY_LAYER_MODULUS_RATIO)).text,
-               words_of_value(friction_at(story, FRICTION_KEY_REFERENCE_VELOCITY)).text,
-               words_of_estimate(friction_at(story, FRICTION_KEY_WITH_LAYER)).text,
-               range_of(story, WHAT_IF_KEY_WITH_LAYER).text,
-               words_of_estimate(friction_at(story, FRICTION_KEY_CHANGE)).text,
-               100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE).value, range);
+               "With the layer (%s thick, modulus ratio %s), at %s, mu "
+               "= %s.",
+               words_of_value(friction_value(friction, FRICTION_KEY_LAYER_THICKNESS)).text,
+               words_of_value(friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO)).text,
+               words_of(with_layer.velocity, "m/s").text, words_of_finding(&with_layer).text);
+    answer_say(story, what_friction, "friction", "%c%s.", toupper((unsigned char)text[0]),
+               text + 1);
+    if (change.range.widest != NULL)
+        answer_say(story, what_friction, "friction",
+                   "What would settle it most: a measurement that settles the %s.",
+                   change.range.widest);
 }
 
 static void answer_friction(const answer_story *story)
 {
-    if (story->friction.table == NULL) {
+    const finding_tables *found = &story->found;
+    if (found->friction.table == NULL) {
         say_missing(story, FLOW_STAGE_FRICTION, what_friction, "friction");
         return;
     }
     say_friction(story);
-    if (friction_words(&story->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
-        say_missing(story, FLOW_STAGE_FRICTION_WITH_LAYER, what_friction, "friction");
-    else if (isnan(friction_at(story, FRICTION_KEY_WITH_LAYER).value))
+    if (friction_words(&found->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
+        say_why_not(story, FLOW_STAGE_FRICTION, story->plan->fuller[FLOW_STAGE_FRICTION],
+                    what_friction, "friction");
+    else if (isnan(finding_of_friction(found, FRICTION_KEY_WITH_LAYER).number.value))
         return;
-    else if (!(friction_at(story, FRICTION_KEY_LAYER_THICKNESS).value > 0))
+    else if (!(friction_value(&found->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0))
         answer_say(story, what_friction, "friction",
                    "Where wear leaves no layer, that is the friction: nothing changes.");
     else
@@ -391,12 +498,10 @@ static struct law_text law_words(const table_view *shift)
     if (isnan(c1.value) && isnan(energy.value))
         snprintf(words.text, sizeof words.text, "no law of the shift factors");
     else if (isnan(c1.value))
-        snprintf(words.text, sizeof words.text, "Arrhenius with %s",
-                 words_of_estimate(energy).text);
+        snprintf(words.text, sizeof words.text, "Arrhenius with %s", words_of_known(energy).text);
     else
-        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s",
-                 words_of_estimate(c1).text,
-                 words_of_estimate(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
+        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s", words_of_known(c1).text,
+                 words_of_known(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
                  isnan(energy.value) ? "" : ", Arrhenius in the cold");
     return words;
 }
@@ -405,8 +510,8 @@ static struct law_text law_words(const table_view *shift)
 static void answer_rubber(const answer_story *story)
 {
     const table_view *shift = &story->shift_factors, *prony = &story->prony;
-    if (shift->table == NULL || prony->table == NULL || story->comparison.table != NULL ||
-        story->friction.table != NULL)
+    if (shift->table == NULL || prony->table == NULL || story->found.comparison.table != NULL ||
+        story->found.friction.table != NULL)
         return;
     const double reference =
         shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
@@ -418,7 +523,7 @@ static void answer_rubber(const answer_story *story)
                "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
                words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
                isnan(limit.value) ? "" : "at most ",
-               words_of_estimate(isnan(limit.value) ? equilibrium : limit).text,
+               words_of_known(isnan(limit.value) ? equilibrium : limit).text,
                prony_words(prony, PRONY_KEY_DEFORMATION),
                holds ? " Time-temperature superposition " : "", holds ? verdict : "",
                holds ? "." : "");
@@ -435,19 +540,13 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
     } tables[] = {
         {&indentation_schema, "bulk", &story->indentation[0]},
         {&indentation_schema, "track", &story->indentation[1]},
-        {&modulus_groups_schema, "", &story->modulus_groups},
-        {&modulus_budget_schema, "", &story->modulus_budget},
         {&modulus_depth_schema, "", &story->modulus_depth},
-        {&comparison_schema, "", &story->comparison},
         {&dma_comparison_schema, "", &story->dma_comparison},
         {&shift_factors_schema, "", &story->shift_factors},
         {&prony_schema, "", &story->prony},
         {&roughness_schema, "", &story->roughness},
-        {&friction_schema, "", &story->friction},
-        {&layer_schema, "", &story->layer},
-        {&what_if_schema, "", &story->what_if},
     };
-    wt_status status = WT_OK;
+    wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
         status = table_bind_of(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
     return status;
@@ -465,13 +564,25 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
         return status;
     table_writer answer = table_begin(&answer_schema, err);
     story.answer = &answer;
+    answer_in_short(&story);
     answer_rubber(&story);
     answer_layer(&story);
     answer_difference(&story);
     answer_thickness(&story);
     answer_friction(&story);
     answer_caveats(&story);
+    answer_put_caveats(&story);
+    say_not_asked(&story);
+    answer_story_clear(&story);
     if (wt_case_title(c)[0] != '\0') /* the title of the page */
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
-    return table_end(&answer, table);
+    wt_table *made = NULL;
+    status = table_end(&answer, &made);
+    if (status == WT_OK && story.status != WT_OK)
+        status = wt_fail(err, story.status, "out of memory");
+    if (status == WT_OK)
+        *table = made;
+    else
+        wt_table_free(made);
+    return status;
 }

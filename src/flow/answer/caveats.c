@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CAVEAT(story, ...) answer_say(story, "What must be kept in mind?", "caveat", __VA_ARGS__)
-
 static const char *const group_words[2] = {"bulk", "wear-track"};
 
 /* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
@@ -56,7 +54,7 @@ static const char *spots_caveat(const answer_story *story, const char *spots)
 }
 
 /* What is true of both groups is said once. */
-static void indentation_caveats(const answer_story *story)
+static void indentation_caveats(answer_story *story)
 {
     char reasons[2][512];
     size_t rejected[2];
@@ -66,14 +64,15 @@ static void indentation_caveats(const answer_story *story)
         rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
         spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
-    for (int g = 0; g < 2; g++)
-        if (rejected[g] > 0)
-            CAVEAT(story, "%zu of %zu %s curves were rejected: %s.", rejected[g],
-                   story->indentation[g].n_rows, group_words[g], reasons[g]);
     const bool both = spots[0] != NULL && spots[1] == spots[0];
     for (int g = 0; g < (both ? 1 : 2); g++)
         if (spots[g] != NULL)
-            CAVEAT(story, "The %s %s.", both ? "bulk and wear-track" : group_words[g], spots[g]);
+            answer_caveat(story, CAVEAT_VERDICT, "The %s %s.",
+                          both ? "bulk and wear-track" : group_words[g], spots[g]);
+    for (int g = 0; g < 2; g++)
+        if (rejected[g] > 0)
+            answer_caveat(story, CAVEAT_CONDITIONS, "%zu of %zu %s curves were rejected: %s.",
+                          rejected[g], story->indentation[g].n_rows, group_words[g], reasons[g]);
 }
 
 /* "1.3 % and 1.2 %", or one of them, by group. */
@@ -91,7 +90,7 @@ static void list_gains(const double gain[2], char *text, size_t size)
 
 /* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
  * were calibrated separately, or as far as the gains differ. */
-static void calibration_caveats(const answer_story *story)
+static void calibration_caveats(answer_story *story)
 {
     double gain[2];
     wt_estimate k[2];
@@ -112,49 +111,51 @@ static void calibration_caveats(const answer_story *story)
     else if (error[0] > 0 || error[1] > 0)
         clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
                       error[0] > 0 ? error[0] : error[1]);
-    CAVEAT(story,
-           "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring "
-           "constant by about as much as itself. %s. The intervals of the moduli do not include "
-           "errors of sensitivity, spring constant and tip%s.",
-           gains, lever,
-           story->modulus_budget.table != NULL ? "; those of the table modulus_budget do" : "");
-    const char *cantilevers = comparison_words(&story->comparison, COMPARISON_KEY_CANTILEVERS);
-    const char *includes = comparison_words(&story->comparison, COMPARISON_KEY_INCLUDES);
-    if (cantilevers == NULL)
-        return;
-    if (strcmp(cantilevers, "one") == 0)
-        CAVEAT(story,
-               "Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
-               "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
-               story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
-                                                         : "for no spring constants differ",
-               fabs(gain[1] - gain[0]));
-    else
-        CAVEAT(story,
-               "Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
-               "errors do not cancel in the ratio%s%s.",
-               words_of_value(k[0]).text, words_of_value(k[1]).text,
-               includes != NULL ? "; its interval includes: " : "",
-               includes != NULL ? includes : "");
+    char text[1000];
+    telling t = {text, sizeof text, 0};
+    tell(
+        &t,
+        "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring constant "
+        "by about as much as itself. %s",
+        gains, lever);
+    tell(&t, "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    const char *cantilevers =
+        comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
+    const char *includes = comparison_words(&story->found.comparison, COMPARISON_KEY_INCLUDES);
+    if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
+        tell(&t,
+             " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
+             "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
+             story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
+                                                       : "for no spring constants differ",
+             fabs(gain[1] - gain[0]));
+    else if (cantilevers != NULL)
+        tell(&t,
+             " Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
+             "errors do not cancel in the ratio%s%s.",
+             words_of_value(k[0]).text, words_of_value(k[1]).text,
+             includes != NULL ? "; its interval includes: " : "", includes != NULL ? includes : "");
+    answer_caveat(story, CAVEAT_MODULI, "%s", text);
 }
 
-/* A temperature that the case does not say is taken from the material. */
-static void temperature_caveats(const answer_story *story)
+/* What the case does not say is taken from the material, or taken to be equal. */
+static void temperature_caveats(answer_story *story)
 {
-    const double sliding = friction_value(&story->friction, FRICTION_KEY_TEMPERATURE).value;
-    if (story->friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
+    const double sliding = friction_value(&story->found.friction, FRICTION_KEY_TEMPERATURE).value;
+    if (story->found.friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
         if (isnan(sliding))
-            CAVEAT(story, "Neither the case nor its material says a temperature: friction is that "
+            answer_caveat(story, CAVEAT_FRICTION,
+                          "Neither the case nor its material says a temperature: friction is that "
                           "at the temperature the material was given for.");
         else
-            CAVEAT(story,
-                   "The case does not say the temperature of sliding: friction is that at the "
-                   "reference temperature of the material, %s.",
-                   words_of_celsius(sliding).text);
+            answer_caveat(story, CAVEAT_FRICTION,
+                          "The case does not say the temperature of sliding: friction is that at "
+                          "the reference temperature of the material, %s.",
+                          words_of_celsius(sliding).text);
     }
     if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature.value))
-        CAVEAT(
-            story,
+        answer_caveat(
+            story, CAVEAT_MODULI,
             "The case does not say the temperature of indentation: it is compared with DMA at "
             "the reference temperature, %s.",
             words_of_celsius(
@@ -163,37 +164,40 @@ static void temperature_caveats(const answer_story *story)
 }
 
 /* What was done to the track before the ratio was taken. */
-static void ratio_caveats(const answer_story *story)
+static void ratio_caveats(answer_story *story)
 {
-    const table_view *comparison = &story->comparison;
+    const table_view *comparison = &story->found.comparison;
     const wt_compare_job *job = &story->c->compare;
     const double track = job->track_temperature.value;
     if (comparison->table == NULL)
         return;
     if (isnan(track))
-        CAVEAT(story, "The case does not say that the track was indented at another temperature "
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "The case does not say that the track was indented at another temperature "
                       "than the bulk: they are taken to be as warm as each other.");
     if (isnan(comparison_value(comparison, COMPARISON_KEY_MODULUS_RATIO).value))
         return;
     if (!isnan(track) && track != job->temperature.value)
-        CAVEAT(story,
-               "The track was indented at %s: the ratio is brought to the temperature of the bulk "
-               "by %s; the moduli of bulk and track are as measured.",
-               words_of_celsius(track).text,
-               isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
+        answer_caveat(
+            story, CAVEAT_VERDICT,
+            "The track was indented at %s: the ratio is brought to the temperature of the bulk "
+            "by %s; the moduli of bulk and track are as measured.",
+            words_of_celsius(track).text,
+            isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
     const char *rates = comparison_words(comparison, COMPARISON_KEY_RATES);
     if (strncmp(rates, "brought", 7) == 0)
-        CAVEAT(story, "Bulk and track have no indentation rate in common: the rates are %s.",
-               rates);
+        answer_caveat(story, CAVEAT_VERDICT,
+                      "Bulk and track have no indentation rate in common: the rates are %s.",
+                      rates);
 }
 
-/* "The standard errors of the friction include: ...; they do not include the model." */
-static void say_includes(const answer_story *story, const char *what, const char *includes,
-                         const char *lacks)
+/* " The intervals of friction hold: ...; not the choices of the model, nor, because no error is
+ * known: ..." */
+static void tell_interval(telling *t, const char *whose, const finding *f)
 {
-    CAVEAT(story, "The standard errors of the %s include: %s. They do not include the model%s%s.",
-           what, includes, lacks != NULL ? ", nor, because no error is known: " : "",
-           lacks != NULL ? lacks : "");
+    tell(t, " The interval of the %s holds: %s; not the model%s%s.", whose, f->includes,
+         f->lacks != NULL ? ", nor, because no error is known: " : "",
+         f->lacks != NULL ? f->lacks : "");
 }
 
 /* What material_caveats says. */
@@ -207,40 +211,41 @@ static bool is_superposition(const answer_story *story, const char *text)
 }
 
 /* The first warnings in full, the others by number. */
-static void warnings(const answer_story *story)
+static void warnings(answer_story *story)
 {
-    enum { SHOWN = 5 };
+    enum { SHOWN = 5 }; /* as many as a sentence holds */
     size_t n = 0;
     for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
         wt_log_entry entry = wt_parselog_get(story->log, i);
         if (entry.severity != WT_NOTE && !is_superposition(story, entry.text) && ++n <= SHOWN)
-            CAVEAT(story, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
-                   entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
+            answer_caveat(
+                story, CAVEAT_DATA, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
+                entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
     }
     if (n > SHOWN)
-        CAVEAT(story, "%zu more warning%s in the table notes.", n - SHOWN,
-               n == SHOWN + 1 ? " is" : "s are");
+        answer_caveat(story, CAVEAT_DATA, "%zu more warning%s in the table notes.", n - SHOWN,
+                      n == SHOWN + 1 ? " is" : "s are");
 }
 
-static void comparison_caveats(const answer_story *story)
+static void comparison_caveats(answer_story *story)
 {
     const table_view *dma = &story->dma_comparison;
-    const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const char *statement = dma_comparison_words(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
+    const size_t extrapolated = n_extrapolated(dma);
     if (unit != NULL && strncmp(unit, "curve", 5) == 0)
-        CAVEAT(story, "The tables name no spots: each curve counts as one in the comparison, which "
+        answer_caveat(story, CAVEAT_VERDICT,
+                      "The tables name no spots: each curve counts as one in the comparison, which "
                       "makes its interval too narrow if some are of one place.");
-    size_t extrapolated = 0;
-    for (size_t i = 0; i < dma->n_rows; i++)
-        extrapolated += dma_comparison_get(dma, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
     if (extrapolated > 0)
-        CAVEAT(story, "%zu of %zu comparisons with DMA lie outside the measured frequencies.",
-               extrapolated, dma->n_rows);
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "%zu of %zu comparisons with DMA lie outside the measured frequencies.",
+                      extrapolated, dma->n_rows);
     if (statement != NULL)
-        CAVEAT(story, "Comparison with DMA: %s.", statement);
+        answer_caveat(story, CAVEAT_DATA, "Comparison with DMA: %s.", statement);
 }
 
-static void material_caveats(const answer_story *story)
+static void material_caveats(answer_story *story)
 {
     const table_view *shifts = &story->shift_factors;
     if (shifts->table == NULL)
@@ -250,112 +255,129 @@ static void material_caveats(const answer_story *story)
     for (size_t i = 0; i < shifts->n_rows; i++)
         undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
     if (strncmp(superposition, "fails", 5) == 0)
-        CAVEAT(story,
-               "Time-temperature superposition %s. What rests on the master curve is doubtful.",
-               superposition);
+        answer_caveat(story, CAVEAT_DATA,
+                      "Time-temperature superposition %s. What rests on the master curve is "
+                      "doubtful.",
+                      superposition);
     else if (shifts->n_rows < 2)
-        CAVEAT(story, "The material is known from one isotherm: no time-temperature superposition "
+        answer_caveat(story, CAVEAT_DATA,
+                      "The material is known from one isotherm: no time-temperature superposition "
                       "widens its frequencies.");
     else if (strncmp(superposition, "cannot say", 10) == 0)
-        CAVEAT(story, "Whether time-temperature superposition holds the data %s.", superposition);
+        answer_caveat(story, CAVEAT_DATA,
+                      "Whether time-temperature superposition holds the data %s.", superposition);
     if (undetermined > 0)
-        CAVEAT(story,
-               "The shift of %zu of %zu isotherms is not determined by the data; they are not in "
-               "the master curve.",
-               undetermined, shifts->n_rows);
+        answer_caveat(story, CAVEAT_DATA,
+                      "The shift of %zu of %zu isotherms is not determined by the data; they are "
+                      "not in the master curve.",
+                      undetermined, shifts->n_rows);
 }
 
-static void friction_caveats(const answer_story *story)
+static void tell_theory(telling *t, const table_view *friction)
 {
-    const table_view *friction = &story->friction;
-    if (friction->table == NULL)
-        return;
-    double share = 0;
-    for (size_t i = 0; i < friction->n_rows; i++)
-        share = fmax(share, friction_get(friction, i, FRICTION_EXTRAPOLATED_SHARE));
-    const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
-    if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
-        CAVEAT(story, "How much of the hysteresis friction comes from frequencies that were not "
-                      "measured is not known: the material does not say which were.");
-    if (isnan(story->c->sliding.reference_velocity) && friction->n_rows > 1)
-        CAVEAT(story,
-               "The case does not say at which velocity the answer is wanted: %s is a default.",
-               words_of_value(friction_value(friction, FRICTION_KEY_REFERENCE_VELOCITY)).text);
-    if (share > 0) {
-        char percent[32] = "Less than 0.1";
-        if (share >= 0.001)
-            clocale_print(percent, sizeof percent, share >= 0.1 ? "Up to %.0f" : "Up to %.2g",
-                          100 * share);
-        CAVEAT(story,
-               "%s %% of the hysteresis friction comes from frequencies outside the measured range "
-               "of the material.",
-               percent);
-    }
-    if (statement != NULL)
-        CAVEAT(story, "Friction: %s.", statement);
-    say_includes(story, "friction", friction_words(friction, FRICTION_KEY_ERROR_INCLUDES),
-                 friction_words(friction, FRICTION_KEY_ERROR_LACKS));
     const char *softening = friction_words(friction, FRICTION_KEY_SOFTENING);
     if (softening != NULL)
-        CAVEAT(story,
-               "Friction is that of Persson's theory at one temperature with moduli that soften "
-               "with strain (%s; the largest strain met is %.3g): no flash heating, dry contact.",
-               softening, friction_value(friction, FRICTION_KEY_STRAIN).value);
+        tell(t,
+             "Friction is that of Persson's theory at one temperature with moduli that soften with "
+             "strain (%s; the largest strain met is %.3g): no flash heating, dry contact.",
+             softening, friction_value(friction, FRICTION_KEY_STRAIN).value);
     else
-        CAVEAT(story, "Friction is that of Persson's theory for small strain at one temperature: "
-                      "no flash heating, no strain softening, dry contact.");
+        tell(t,
+             "Friction is that of Persson's theory for small strain at one temperature: no flash "
+             "heating, no strain softening, dry contact.");
     if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
-        CAVEAT(story, "With the layer, its modulus is the bulk's times one ratio at all "
-                      "frequencies, and the shear stress is scaled by the same ratio; neither is "
-                      "measured at the frequencies of sliding.");
+        tell(t,
+             " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
+             "shear stress is scaled by the same ratio; neither is measured at the frequencies "
+             "of sliding.");
 }
 
-static void layer_caveats(const answer_story *story)
+static void friction_caveats(answer_story *story)
 {
-    const table_view *layer = &story->layer;
-    if (layer->table == NULL)
+    const table_view *friction = &story->found.friction;
+    if (friction->table == NULL)
         return;
-    const char *from = layer_words(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
-    const number_words energy = words_of_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
-    if (strncmp(from, "calibrated", 10) == 0)
-        CAVEAT(story,
-               "The critical energy U_c = %s is calibrated so that the observed thickness is the "
-               "balance: the thickness is put in, not predicted.",
-               energy.text);
-    else
-        CAVEAT(story, "The critical energy U_c = %s is given: nothing in this case measures it.",
-               energy.text);
-    say_includes(story, "thickness", layer_words(layer, LAYER_KEY_ERROR_INCLUDES),
-                 layer_words(layer, LAYER_KEY_ERROR_LACKS));
-    CAVEAT(story, "The layer model (energy closure, wear by Archard's law) is not validated "
-                  "against measured thicknesses. Its energy is the hysteresis of the bulk alone: "
-                  "the layer does not act back on it, and shearing of the surface is not counted.");
-    const double thickness = layer_value(layer, LAYER_KEY_BALANCE_THICKNESS).value;
+    const finding hysteresis = finding_of_friction(&story->found, FRICTION_KEY_HYSTERESIS);
+    const double share = largest_share(friction);
+    const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
+    char text[1100];
+    telling t = {text, sizeof text, 0};
+    if (statement != NULL)
+        answer_caveat(story, CAVEAT_DATA, "Friction: %s.", statement);
+    if (share >= ANSWER_ODD_SHARE)
+        answer_caveat(story, CAVEAT_FRICTION,
+                      "Up to %s of the hysteresis friction comes from frequencies outside the "
+                      "measured range of the material.",
+                      words_of_share(share).text);
+    if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
+        answer_caveat(story, CAVEAT_FRICTION,
+                      "How much of the hysteresis friction comes from frequencies that were not "
+                      "measured is not known: the material does not say which were.");
+    tell_theory(&t, friction);
+    tell_interval(&t, "friction", &hysteresis);
+    answer_caveat(story, CAVEAT_FRICTION, "%s", text);
+    if (isnan(story->c->sliding.reference_velocity) && friction->n_rows > 1)
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "The case does not say at which velocity the answer is wanted: %s is a "
+                      "default.",
+                      words_of(hysteresis.velocity, "m/s").text);
+}
+
+/* Where the layer is outside the range of its model, or of what indented it. */
+static void depth_caveats(answer_story *story, double thickness)
+{
     if (!isfinite(thickness))
         return;
     if (story->roughness.n_rows > 0) {
         const double longest = 1 / roughness_get(&story->roughness, 0, ROUGHNESS_WAVENUMBER);
         if (thickness > longest)
-            CAVEAT(story,
-                   "The layer is thicker than the longest wave of the roughness reaches (1/q0 = "
-                   "%s): the layer model is outside its range.",
-                   words_of(longest, "m").text);
+            answer_caveat(story, CAVEAT_THICKNESS,
+                          "The layer is thicker than the longest wave of the roughness reaches "
+                          "(1/q0 = %s): the layer model is outside its range.",
+                          words_of(longest, "m").text);
     }
     const double depth = median_accepted(&story->indentation[1], INDENTATION_MAX_INDENTATION);
     if (thickness > 0 && depth > DEEP_SHARE * thickness)
-        CAVEAT(story,
-               "Indentations in the track go %s deep, %.2g times the thickness of the layer: the "
-               "bulk below it is felt, so the layer differs more than the ratio says.",
-               words_of(depth, "m").text, depth / thickness);
+        answer_caveat(
+            story, CAVEAT_VERDICT,
+            "Indentations in the track go %s deep, %.2g times the thickness of the layer: the "
+            "bulk below it is felt, so the layer differs more than the ratio says.",
+            words_of(depth, "m").text, depth / thickness);
 }
 
-void answer_caveats(const answer_story *story)
+static void layer_caveats(answer_story *story)
+{
+    const table_view *layer = &story->found.layer;
+    if (layer->table == NULL)
+        return;
+    const finding thickness = finding_of_thickness(&story->found);
+    const char *from = layer_words(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    const number_words energy = words_of_known(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
+    char text[1100];
+    telling t = {text, sizeof text, 0};
+    if (strncmp(from, "calibrated", 10) == 0)
+        tell(&t,
+             "The critical energy U_c = %s is calibrated so that the observed thickness is the "
+             "balance: the thickness is put in, not predicted.",
+             energy.text);
+    else
+        tell(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
+             energy.text);
+    tell(&t, " The layer model (energy closure, wear by Archard's law) is not validated against "
+             "measured thicknesses. Its energy is the hysteresis of the bulk alone: the layer does "
+             "not act back on it, and shearing of the surface is not counted.");
+    tell_interval(&t, "thickness", &thickness);
+    answer_caveat(story, CAVEAT_THICKNESS, "%s", text);
+    depth_caveats(story, thickness.number.value);
+}
+
+void answer_caveats(answer_story *story)
 {
     if (story->failures.n_rows > 0)
-        CAVEAT(story,
-               "%zu files or stages failed and are not in these results; the table failures lists "
-               "them.",
-               story->failures.n_rows);
+        answer_caveat(story, CAVEAT_WHOLE,
+                      "%zu files or stages failed and are not in these results; the table failures "
+                      "lists them.",
+                      story->failures.n_rows);
     warnings(story);
     indentation_caveats(story);
     calibration_caveats(story);
@@ -365,7 +387,4 @@ void answer_caveats(const answer_story *story)
     layer_caveats(story);
     temperature_caveats(story);
     ratio_caveats(story);
-    CAVEAT(story,
-           "\xc2\xb1 is one standard error in these sentences; an interval of 95 %% is about "
-           "twice as wide to each side, and wider where few spots stand behind it.");
 }

@@ -4,7 +4,7 @@
 
 #include "flow/answer/story.h"
 
-/* Rows of kind "caveat". */
-void answer_caveats(const answer_story *story);
+/* Remembers them all. */
+void answer_caveats(answer_story *story);
 
 #endif

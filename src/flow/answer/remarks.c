@@ -7,35 +7,29 @@
 
 #include <math.h>
 
-/* A share of the friction below this is not worth a remark. */
-static const double odd_share = 0.01;
-
 static void of_material(double share, const char *statement, wt_parselog *log)
 {
-    if (share >= odd_share)
+    if (share >= ANSWER_ODD_SHARE)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "friction: up to %.0f %% of the hysteresis comes from frequencies outside "
-                        "the measured ones",
-                        100 * share);
+                        "friction: up to %s of the hysteresis comes from frequencies outside the "
+                        "measured ones",
+                        words_of_share(share).text);
     if (statement != NULL)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", statement);
 }
 
 static void of_friction(const table_view *v, wt_parselog *log)
 {
-    double share = 0;
     const char *numerical = friction_words(v, FRICTION_KEY_NUMERICAL_STATEMENT);
-    for (size_t i = 0; i < v->n_rows; i++)
-        share = fmax(share, friction_get(v, i, FRICTION_EXTRAPOLATED_SHARE));
     if (numerical != NULL)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
-    of_material(share, friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
+    of_material(largest_share(v), friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
 }
 
 static void of_softening(const table_view *v, wt_parselog *log)
 {
     const double share = softening_value(v, SOFTENING_KEY_SHARE_ABOVE).value;
-    if (share >= odd_share)
+    if (share >= ANSWER_ODD_SHARE)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "friction: up to %.0f %% of the hysteresis comes from strains above those "
                         "of the softening, up to %.3g, for which its last f and g were taken",
@@ -44,22 +38,15 @@ static void of_softening(const table_view *v, wt_parselog *log)
 
 static void of_comparison(const table_view *v, wt_parselog *log)
 {
-    size_t n = 0;
-    double factor = 1;
+    const size_t n = n_extrapolated(v);
     const char *statement = dma_comparison_words(v, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
-    for (size_t i = 0; i < v->n_rows; i++)
-        n += dma_comparison_get(v, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
-    for (size_t i = 0; i < v->n_rows; i++) {
-        const double ratio = dma_comparison_get(v, i, DMA_COMPARISON_RATIO);
-        if (fabs(log10(ratio)) > fabs(log10(factor)))
-            factor = ratio;
-    }
-    if (fabs(log10(factor)) > log10(ANSWER_DMA_FACTOR))
+    double low, high;
+    if (ratio_to_dma(v, &low, &high) && is_other_rubber(low, high))
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "indentation and DMA do not describe one rubber: at equal frequency the "
-                        "indentation modulus is %.3g times |E*|; units, spring constant, "
+                        "indentation modulus of the bulk is %s times |E*|; units, spring constant, "
                         "sensitivity, tip, temperature and the files are to be checked",
-                        factor);
+                        words_of(1 / low > high ? low : high, "1").text);
     if (n > 0)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "%zu of %zu comparisons with DMA lie outside the measured frequencies", n,

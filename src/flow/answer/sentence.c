@@ -6,45 +6,26 @@
 #include "weartrack/flow.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 typedef struct sentence {
-    char *text;
-    size_t size, used;
+    telling told;
     const wt_result *result;
-    table_view what_if;
+    finding_tables found;
 } sentence;
 
-static void say(sentence *s, const char *format, ...) WT_PRINTF(2, 3);
-static void say(sentence *s, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const int n =
-        s->used < s->size ? vsnprintf(s->text + s->used, s->size - s->used, format, arguments) : 0;
-    va_end(arguments);
-    s->used += n > 0 ? (size_t)n : 0;
-}
+#define say(s, ...) tell(&(s)->told, __VA_ARGS__)
 
 static void next(sentence *s)
 {
-    say(s, "%s", s->used > 0 ? "; " : "");
-}
-
-/* How far the number before moves with the model. */
-static void say_range(sentence *s, what_if_key key)
-{
-    const char *range = what_if_words(&s->what_if, key);
-    if (range != NULL)
-        say(s, " (%s)", range);
+    say(s, "%s", s->told.used > 0 ? "; " : "");
 }
 
 static void say_groups(sentence *s, const table_view *v)
 {
     for (size_t i = 0; i < v->n_rows; i++) {
+        const finding modulus = finding_of_group(&s->found, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
-        const double mean = modulus_groups_get(v, i, MODULUS_GROUPS_GEOMETRIC_MEAN);
         const char *group = modulus_groups_text(v, i, MODULUS_GROUPS_GROUP);
         next(s);
         say(s, "%s: %.0f of %.0f curves accepted", group, n,
@@ -54,13 +35,11 @@ static void say_groups(sentence *s, const table_view *v)
         if (table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK &&
             words_of_rejected(&curves, reasons, sizeof reasons) > 0)
             say(s, " (rejected: %s)", reasons);
-        if (isnan(mean))
+        if (isnan(modulus.number.value))
             continue;
-        say(s, ", E = %s", words_of(mean, "Pa").text);
-        if (!isnan(modulus_groups_get(v, i, MODULUS_GROUPS_LOW)))
-            say(s, " (95 %% interval %s to %s, from %.0f spots)",
-                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_LOW), "Pa").text,
-                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_HIGH), "Pa").text,
+        say(s, ", E = %s%s", words_of_number(&modulus).text, words_of_frequency(&modulus).text);
+        if (!isnan(modulus.low))
+            say(s, " (%s, from %.0f spots)", words_of_interval(&modulus).text,
                 modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
 }
@@ -70,14 +49,7 @@ static void say_ratio(sentence *s, const table_view *v)
     if (v->n_rows == 0)
         return;
     next(s);
-    say(s, "%s", comparison_words(v, COMPARISON_KEY_DIFFERS));
-    if (isnan(comparison_get(v, 0, COMPARISON_RATIO_LOW)))
-        return;
-    next(s);
-    say(s, "E_track/E_bulk = %s (95 %% interval %s to %s)",
-        words_of(comparison_get(v, 0, COMPARISON_RATIO), "1").text,
-        words_of(comparison_get(v, 0, COMPARISON_RATIO_LOW), "1").text,
-        words_of(comparison_get(v, 0, COMPARISON_RATIO_HIGH), "1").text);
+    tell_ratio(&s->told, &s->found);
 }
 
 static void say_materials(sentence *s, const table_view *v)
@@ -168,7 +140,7 @@ static void say_transition(sentence *s, const table_view *v)
 
 static void say_payne(sentence *s, const table_view *v)
 {
-    enum { MOST = 3 };
+    enum { MOST = 3 }; /* as many as a sentence holds */
     for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         next(s);
@@ -325,51 +297,40 @@ static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const wt_estimate total = friction_value(v, FRICTION_KEY_FRICTION);
-    const wt_estimate with_layer = friction_value(v, FRICTION_KEY_WITH_LAYER);
+    const finding hysteresis = finding_of_friction(&s->found, FRICTION_KEY_HYSTERESIS),
+                  area = finding_of_friction(&s->found, FRICTION_KEY_AREA_RATIO),
+                  total = finding_of_friction(&s->found, FRICTION_KEY_FRICTION),
+                  with_layer = finding_of_friction(&s->found, FRICTION_KEY_WITH_LAYER);
     next(s);
-    say(s, "at %s ", words_of_value(friction_value(v, FRICTION_KEY_REFERENCE_VELOCITY)).text);
-    if (!isnan(total.value)) {
-        say(s, "mu = %s", words_of_estimate(total).text);
-        say_range(s, WHAT_IF_KEY_FRICTION);
+    say(s, "at %s ", words_of(hysteresis.velocity, "m/s").text);
+    if (!isnan(total.number.value))
+        say(s, "mu = %s, ", words_of_finding(&total).text);
+    if (!isnan(with_layer.number.value)) {
+        say(s, "with layer %s, ", words_of_finding(&with_layer).text);
+        tell_change(&s->told, &s->found, false);
         say(s, ", ");
     }
-    if (!isnan(with_layer.value)) {
-        say(s, "with layer %s", words_of_estimate(with_layer).text);
-        say_range(s, WHAT_IF_KEY_WITH_LAYER);
-        say(s, ", ");
-    }
-    say(s, "hysteresis %s", words_of_estimate(friction_value(v, FRICTION_KEY_HYSTERESIS)).text);
-    say_range(s, WHAT_IF_KEY_HYSTERESIS);
-    say(s, ", contact area %s of the nominal one",
-        words_of_estimate(friction_value(v, FRICTION_KEY_AREA_RATIO)).text);
+    say(s, "hysteresis %s, contact area of the nominal one %s", words_of_finding(&hysteresis).text,
+        words_of_finding(&area).text);
 }
 
 static void say_layer(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const wt_estimate thickness = layer_value(v, LAYER_KEY_BALANCE_THICKNESS);
     next(s);
-    if (isinf(thickness.value)) {
-        say(s, "without wear the layer grows without end");
-        return;
-    }
-    if (!(thickness.value > 0))
-        say(s, "no layer where formation balances wear");
-    else
-        say(s, "layer of %s where formation balances wear", words_of_estimate(thickness).text);
-    say_range(s, WHAT_IF_KEY_THICKNESS);
-    if (thickness.value > 0)
+    tell_thickness(&s->told, &s->found);
+    const finding thickness = finding_of_thickness(&s->found);
+    if (thickness.number.value > 0 && isfinite(thickness.number.value))
         say(s, ", 90 %% of it after %s",
-            words_of_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
+            words_of_known(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
 size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
 {
     static const struct {
         const table_schema *schema;
-        void (*say)(sentence *s, const table_view *view);
+        void (*of)(sentence *s, const table_view *view);
     } parts[] = {{&dwell_schema, say_dwell},
                  {&dwell_dma_schema, say_dwell_dma},
                  {&sensitivity_schema, say_sensitivity},
@@ -383,16 +344,17 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&payne_schema, say_payne},
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer}};
-    sentence s = {.text = buffer, .size = size, .result = result};
+    sentence s = {.told = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';
-    if (table_bind_of(result, &what_if_schema, "", &s.what_if, NULL) != WT_OK)
-        s.what_if = (table_view){.schema = &what_if_schema};
+    if (findings_bind(result, &s.found, NULL) != WT_OK) {
+        /* a table that lacks what it must have tells nothing, the others do */
+    }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         table_view view;
         if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)
-            parts[i].say(&s, &view);
+            parts[i].of(&s, &view);
     }
     for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* of several samples */
         static const char prefix[] = "shift_factors/";
@@ -403,5 +365,5 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
             say_material(&s, &view);
     }
     clocale_leave(previous);
-    return s.used;
+    return s.told.used;
 }

@@ -6,22 +6,46 @@
 #include "flow/answer/words.h"
 #include "flow/plan/plan.h"
 
-#include "data/tables/tables.h"
+/* What a caveat changes, in the order in which they are told. */
+typedef enum caveat_of {
+    CAVEAT_WHOLE, /* files or stages that failed */
+    CAVEAT_DATA,  /* whether the data mean what they are taken for */
+    CAVEAT_VERDICT,
+    CAVEAT_THICKNESS,
+    CAVEAT_FRICTION,
+    CAVEAT_MODULI,
+    CAVEAT_CONDITIONS, /* what was taken for granted */
+    CAVEATS_OF
+} caveat_of;
+
+enum { CAVEATS_OPEN = 5 }; /* the others are folded */
+
+typedef struct caveat {
+    caveat_of of;
+    char *text;
+} caveat;
 
 typedef struct answer_story {
     const wt_case *c;
     const flow_plan *plan;
     const wt_parselog *log;
+    finding_tables found;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
-    table_view modulus_groups, modulus_budget, modulus_depth, comparison, dma_comparison;
-    table_view shift_factors, prony, roughness;
-    table_view friction, layer, what_if;
+    table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_writer *answer;
+    caveat *caveats;
+    size_t n_caveats;
+    wt_status status; /* of remembering a caveat */
 } answer_story;
 
 /* A row of the answer; the sentence is a format. */
 void answer_say(const answer_story *story, const char *question, const char *kind,
                 const char *format, ...) WT_PRINTF(4, 5);
+/* Kept until all are known. */
+void answer_caveat(answer_story *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
+/* The rows of kind "caveat", those that change most first, then the others of kind "folded". */
+void answer_put_caveats(answer_story *story);
+void answer_story_clear(answer_story *story);
 
 #endif

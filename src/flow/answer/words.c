@@ -2,24 +2,45 @@
 #include "flow/answer/words.h"
 
 #include "base/clocale.h"
+#include "base/normal.h"
 #include "base/number.h"
 #include "weartrack/fit.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
-number_words words_of(double value, const char *unit)
+void tell(telling *t, const char *format, ...)
+{
+    const bool room = t->used < t->size;
+    va_list arguments;
+    va_start(arguments, format);
+    const int n = clocale_vprint(room ? t->text + t->used : NULL, room ? t->size - t->used : 0,
+                                 format, arguments);
+    va_end(arguments);
+    t->used += n > 0 ? (size_t)n : 0;
+}
+
+static number_words words_with(double value, const char *unit, int digits)
 {
     number_words words = {""};
     if (isnan(value))
         snprintf(words.text, sizeof words.text, "not known");
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
-    else if (strcmp(unit, "1") == 0)
-        clocale_print(words.text, sizeof words.text, "%.3g", value);
-    else
-        wt_format_si(value, unit, 3, words.text, sizeof words.text);
+    else if (strcmp(unit, "1") == 0) {
+        clocale_print(words.text, sizeof words.text, "%#.*g", digits, value);
+        const size_t length = strlen(words.text);
+        if (words.text[length - 1] == '.') /* all digits before it */
+            words.text[length - 1] = '\0';
+    } else
+        wt_format_si(value, unit, digits, words.text, sizeof words.text);
     return words;
+}
+
+number_words words_of(double value, const char *unit)
+{
+    return words_with(value, unit, 3);
 }
 
 number_words words_of_value(wt_estimate e)
@@ -60,6 +81,20 @@ number_words words_of_estimate(wt_estimate e)
     return words;
 }
 
+number_words words_of_known(wt_estimate e)
+{
+    const double half = NORMAL_95 * e.standard_error, low = e.value - half, high = e.value + half;
+    const int digits = finding_digits(e.value, low, high);
+    number_words words = words_with(e.value, e.unit, digits);
+    telling t = {words.text, sizeof words.text, strlen(words.text)};
+    if (isfinite(e.value) && isnan(half))
+        tell(&t, " (error not known)");
+    else if (isfinite(e.value) && half > 0)
+        tell(&t, " (95 %%: %s to %s)", words_with(low, e.unit, digits).text,
+             words_with(high, e.unit, digits).text);
+    return words;
+}
+
 number_words words_of_celsius(double kelvin)
 {
     number_words words;
@@ -68,6 +103,196 @@ number_words words_of_celsius(double kelvin)
                   "C",
                   kelvin - WT_ZERO_CELSIUS);
     return words;
+}
+
+/* ---- findings -------------------------------------------------------------------------------- */
+
+/* A change is told in per cent. */
+static bool is_change(const finding *f)
+{
+    return f->neutral == 0;
+}
+
+static number_words number_of_finding(const finding *f, double value, int digits)
+{
+    if (!is_change(f) || !isfinite(value))
+        return words_with(value, f->number.unit, digits);
+    number_words words;
+    clocale_print(words.text, sizeof words.text, "%+.0f %%", 100 * value);
+    return words;
+}
+
+number_words words_of_number(const finding *f)
+{
+    return number_of_finding(f, f->number.value, finding_digits(f->number.value, f->low, f->high));
+}
+
+finding_words words_of_interval(const finding *f)
+{
+    const int digits = finding_digits(f->number.value, f->low, f->high);
+    finding_words words;
+    if (isnan(f->low) || isnan(f->high))
+        snprintf(words.text, sizeof words.text, "error not known");
+    else
+        clocale_print(words.text, sizeof words.text, "95 %% interval %s to %s",
+                      number_of_finding(f, f->low, digits).text,
+                      number_of_finding(f, f->high, digits).text);
+    return words;
+}
+
+finding_words words_of_range(const finding *f)
+{
+    finding_words words = {""};
+    if (!isnan(f->range.low))
+        clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
+                      number_of_finding(f, f->range.low, 3).text,
+                      number_of_finding(f, f->range.high, 3).text);
+    return words;
+}
+
+finding_words words_of_choices(const finding *f)
+{
+    finding_words words = {""};
+    telling t = {words.text, sizeof words.text, 0};
+    const finding_range *r = &f->range;
+    const struct {
+        double value;
+        const char *choice, *tried;
+    } ends[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
+    for (int i = 0; i < 2 && !isnan(r->low); i++) {
+        tell(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
+             number_of_finding(f, ends[i].value, 3).text);
+        if (ends[i].choice[0] != '\0')
+            tell(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
+        else
+            tell(&t, " (as used)");
+    }
+    return words;
+}
+
+finding_words words_of_finding(const finding *f)
+{
+    const finding_words range = words_of_range(f);
+    finding_words words;
+    clocale_print(words.text, sizeof words.text, "%s (%s%s%s)", words_of_number(f).text,
+                  words_of_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
+    return words;
+}
+
+number_words words_of_frequency(const finding *f)
+{
+    number_words words = {""};
+    const number_words low = words_of(f->frequency[0], "rad/s"),
+                       high = words_of(f->frequency[1], "rad/s");
+    const bool one = strcmp(low.text, high.text) == 0;
+    if (!isnan(f->frequency[0]))
+        clocale_print(words.text, sizeof words.text, " at %.40s%s%.40s", low.text,
+                      one ? "" : " to ", one ? "" : high.text);
+    return words;
+}
+
+const char *words_of_origin(const finding_tables *tables)
+{
+    const char *from = layer_words(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    return from != NULL && strncmp(from, "calibrated", 10) == 0
+               ? "put in, not predicted: U_c is calibrated to it"
+               : "predicted from a given U_c";
+}
+
+/* Of the rates that both groups have, where the moduli of all rates say something else. */
+void tell_rates(telling *t, const finding_tables *tables)
+{
+    const char *rates = comparison_words(&tables->comparison, COMPARISON_KEY_RATES);
+    const double of_all = finding_ratio_of_all(tables);
+    if (!isnan(of_all) && rates != NULL)
+        tell(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
+             words_of(of_all, "1").text);
+}
+
+void tell_ratio(telling *t, const finding_tables *tables)
+{
+    const finding ratio = finding_of_ratio(tables);
+    tell(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
+    if (isnan(ratio.low))
+        return;
+    tell(t, "; E_track/E_bulk = %s%s", words_of_finding(&ratio).text,
+         words_of_frequency(&ratio).text);
+    tell_rates(t, tables);
+}
+
+void tell_thickness(telling *t, const finding_tables *tables)
+{
+    const finding thickness = finding_of_thickness(tables);
+    const finding_words range = words_of_range(&thickness);
+    const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
+    if (isinf(thickness.number.value))
+        tell(t, "without wear the layer grows without end");
+    else if (!(thickness.number.value > 0))
+        tell(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
+             words_of_origin(tables));
+    else
+        tell(t, "layer of %s where formation balances wear, %s", words_of_finding(&thickness).text,
+             words_of_origin(tables));
+}
+
+void tell_change(telling *t, const finding_tables *tables, bool with_choices)
+{
+    const finding change = finding_of_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
+    const finding_sign sign = finding_sign_of(&change);
+    const finding_words range = with_choices ? words_of_choices(&change) : words_of_range(&change);
+    const char *and = range.text[0] != '\0' ? "; " : "";
+    if (!(friction_value(&tables->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0)) {
+        tell(t, "no change, for wear leaves no layer%s%s", and, range.text);
+        return;
+    }
+    tell(t, "%s: %s (%s)%s%s",
+         sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
+         : sign == FINDING_LESS ? "less friction with the layer"
+                                : "more friction with the layer",
+         words_of_number(&change).text, words_of_interval(&change).text, and, range.text);
+}
+
+/* ---- what several sentences tell ------------------------------------------------------------- */
+
+double largest_share(const table_view *friction)
+{
+    double share = 0;
+    for (size_t i = 0; i < friction->n_rows; i++)
+        share = fmax(share, friction_get(friction, i, FRICTION_EXTRAPOLATED_SHARE));
+    return share;
+}
+
+number_words words_of_share(double share)
+{
+    number_words words;
+    clocale_print(words.text, sizeof words.text, share >= 0.1 ? "%.0f %%" : "%.2g %%", 100 * share);
+    return words;
+}
+
+bool ratio_to_dma(const table_view *dma, double *low, double *high)
+{
+    *low = *high = (double)NAN;
+    for (size_t i = 0; i < dma->n_rows; i++) {
+        if (strcmp(dma_comparison_text(dma, i, DMA_COMPARISON_GROUP), "bulk") != 0)
+            continue;
+        const double ratio = dma_comparison_get(dma, i, DMA_COMPARISON_RATIO);
+        *low = fmin(*low, ratio);
+        *high = fmax(*high, ratio);
+    }
+    return !isnan(*low);
+}
+
+bool is_other_rubber(double low, double high)
+{
+    return low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
+}
+
+size_t n_extrapolated(const table_view *dma)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < dma->n_rows; i++)
+        n += dma_comparison_get(dma, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    return n;
 }
 
 size_t words_of_rejected(const table_view *indentation, char *text, size_t size)

@@ -4,11 +4,20 @@
 #ifndef WEARTRACK_FLOW_WORDS_H
 #define WEARTRACK_FLOW_WORDS_H
 
-#include "data/tables/tables.h"
+#include "data/findings.h"
 
 /* Indentation and DMA further apart than this factor do not describe one rubber: strain and the
  * equivalent frequency do not explain it. */
 #define ANSWER_DMA_FACTOR 3.0
+/* A share of the friction below this is not worth a remark. */
+#define ANSWER_ODD_SHARE 0.01
+
+/* A text that grows in a buffer, cut where that ends. */
+typedef struct telling {
+    char *text;
+    size_t size, used;
+} telling;
+void tell(telling *t, const char *format, ...) WT_PRINTF(2, 3);
 
 /* "1.15 um" in a buffer of its own, for use in a format. */
 typedef struct number_words {
@@ -18,7 +27,51 @@ typedef struct number_words {
 number_words words_of(double value, const char *unit);
 number_words words_of_value(wt_estimate estimate);    /* without its errors */
 number_words words_of_estimate(wt_estimate estimate); /* +- the standard error where it is known */
+/* "1.20 s (95 %: 0.90 s to 1.50 s)", of a number that is no finding. */
+number_words words_of_known(wt_estimate estimate);
 number_words words_of_celsius(double kelvin);
+
+/* ---- findings -------------------------------------------------------------------------------- */
+
+typedef struct finding_words {
+    char text[400];
+} finding_words;
+
+/* "3.16 um", of a relative change "-18 %". */
+number_words words_of_number(const finding *f);
+/* "95 % interval 1.63 um to 4.69 um", or why there is none. */
+finding_words words_of_interval(const finding *f);
+/* "1.04 um to 10.8 um over all choices of the model", or "" */
+finding_words words_of_range(const finding *f);
+/* "over all choices of the model 1.04 um (...: 0.5) to 10.8 um (...)", or "" */
+finding_words words_of_choices(const finding *f);
+/* Number, and interval and range in brackets: "3.16 um (95 % interval 1.63 um to 4.69 um; 1.04 um
+ * to 10.8 um over all choices of the model)". */
+finding_words words_of_finding(const finding *f);
+/* " at 0.784 rad/s to 87.9 rad/s", or "" */
+number_words words_of_frequency(const finding *f);
+/* The findings that answer the questions, as a sentence on standard error and on top of the answer.
+ * "yes: the wear track is softer than the bulk; E_track/E_bulk = 0.666 (...) at ..." */
+void tell_ratio(telling *t, const finding_tables *tables);
+/* ", for the rates are ...; the moduli of all rates have the ratio 0.175", where it is another. */
+void tell_rates(telling *t, const finding_tables *tables);
+/* "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c" */
+void tell_thickness(telling *t, const finding_tables *tables);
+/* "open whether the layer lowers or raises friction: -18 % (...)" */
+void tell_change(telling *t, const finding_tables *tables, bool with_choices);
+/* "predicted from a given U_c" */
+const char *words_of_origin(const finding_tables *tables);
+
+/* ---- what several sentences tell ------------------------------------------------------------- */
+
+/* The largest share of the hysteresis from frequencies that were not measured; "less than 0.1 %" */
+double largest_share(const table_view *friction);
+number_words words_of_share(double share);
+/* The ratio of indentation and DMA of the bulk, from its lowest to its highest; false: there is
+ * none. The track may differ, for its layer. */
+bool ratio_to_dma(const table_view *dma, double *low, double *high);
+bool is_other_rubber(double low, double high);
+size_t n_extrapolated(const table_view *dma);
 /* "3 poor fit, 1 saturated" of the rejected curves; how many there are. */
 size_t words_of_rejected(const table_view *indentation, char *text, size_t size);
 

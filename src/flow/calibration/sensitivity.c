@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Approach and retract; those and both. */
 enum { WAYS = 2, ROWS = 3 };
 /* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
  * not known well enough to call one far. */
@@ -183,25 +184,25 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has_slope(const item *it, size_t way)
+static bool has_way(const item *it, size_t way)
 {
     return it->there[way] && it->way[way].found;
 }
 
 /* Travel per signal. */
-static double inverse(const item *it, size_t way)
+static double travel_per_signal(const item *it, size_t way)
 {
     return 1 / it->way[way].slope;
 }
 
 static double sensitivity_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) : (double)NAN;
+    return it->volts ? travel_per_signal(it, way) : (double)NAN;
 }
 
 static double factor_of(const item *it, size_t way)
 {
-    return it->volts ? inverse(it, way) / it->of_file : inverse(it, way);
+    return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
 }
 
 /* Curves of one file whose slope is far from that of the others, by one way. */
@@ -209,13 +210,14 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has_slope(&items[i], way))
-            values[m++] = inverse(&items[i], way);
+        if (has_way(&items[i], way))
+            values[m++] = travel_per_signal(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
     const usual_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has_slope(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
+        if (has_way(&items[i], way) &&
+            fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
             items[i].outlier = true;
 }
 
@@ -374,7 +376,7 @@ static double tilt_of(const item *it, size_t way)
 static double difference_of(const item *it, size_t way)
 {
     (void)way;
-    return inverse(it, 1) / inverse(it, 0);
+    return travel_per_signal(it, 1) / travel_per_signal(it, 0);
 }
 
 static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *c, size_t *n_units,
@@ -383,7 +385,7 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        const bool usable = row < WAYS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1);
+        const bool usable = row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1);
         if (usable && !it->outlier)
             add_value(c, over_ways(it, row, of), it->unit);
     }
@@ -394,8 +396,7 @@ static const item *first_of(const sensitivity_task *task, size_t row)
 {
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        if (!it->outlier &&
-            (row < WAYS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1)))
+        if (!it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1)))
             return it;
     }
     return NULL;
@@ -475,7 +476,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
  * parabola through the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 }; /* of midpoints: the sums are good to 1e-5 */
+    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;
@@ -538,8 +539,8 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
 {
     size_t left_out = 0;
     for (size_t i = 0; i < task->n; i++)
-        left_out += task->items[i].outlier ||
-                    !(has_slope(&task->items[i], 0) || has_slope(&task->items[i], 1));
+        left_out +=
+            task->items[i].outlier || !(has_way(&task->items[i], 0) || has_way(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);

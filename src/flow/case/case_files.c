@@ -34,13 +34,13 @@ static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *s
     return status;
 }
 
-static bool same(double a, double b)
+static bool is_same_value(double a, double b)
 {
     return !(a < b) && !(a > b) && !isnan(a) && !isnan(b);
 }
 
 /* One value for the group, or none if its files differ, and an error that is none too small. */
-static void join(wt_estimate *group, double *error, wt_estimate of_file, bool first)
+static void join_file(wt_estimate *group, double *error, wt_estimate of_file, bool first)
 {
     const double relative = of_file.standard_error / of_file.value;
     if (first) {
@@ -49,7 +49,7 @@ static void join(wt_estimate *group, double *error, wt_estimate of_file, bool fi
         return;
     }
     *error = relative > 0 && !isnan(*error) ? fmax(*error, relative) : (double)NAN;
-    if (same(group->value, of_file.value))
+    if (is_same_value(group->value, of_file.value))
         group->standard_error = fmax(group->standard_error, of_file.standard_error);
     else
         group->value = (double)NAN;
@@ -80,8 +80,8 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
             status = case_node_text(c, node, &patterns[i], err);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
-        join(&files->spring_constant, &files->lever_error, lever.spring_constant, i == 0);
-        join(&files->sensitivity, &files->sensitivity_error, lever.sensitivity, i == 0);
+        join_file(&files->spring_constant, &files->lever_error, lever.spring_constant, i == 0);
+        join_file(&files->sensitivity, &files->sensitivity_error, lever.sensitivity, i == 0);
     }
     return status;
 }

@@ -49,7 +49,7 @@ wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err)
 }
 
 /* Text owned by the case, blanks around it removed; takes `raw`. */
-static wt_status keep(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
+static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
 {
     static const char blanks[] = " \t\r\n";
     char *copy = NULL;
@@ -69,7 +69,7 @@ static wt_status keep(wt_case *c, xmlChar *raw, const char **text, wt_error *err
 
 wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_error *err)
 {
-    return keep(c, xmlNodeGetContent(node), text, err);
+    return keep_text(c, xmlNodeGetContent(node), text, err);
 }
 
 static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
@@ -80,7 +80,7 @@ static wt_status read_param(wt_case *c, const xmlNode *section, const char *para
     const xmlNode *node = case_child(section, name);
     if (node == NULL && xmlHasProp(section, attribute) == NULL)
         return WT_OK;
-    wt_status status = keep(
+    wt_status status = keep_text(
         c, node != NULL ? xmlNodeGetContent(node) : xmlGetProp(section, attribute), &text, err);
     if (status == WT_OK)
         status =

@@ -13,7 +13,8 @@
 /* ---- schema messages in our form ------------------------------------------------------------- */
 
 /* The text between `begin` and `end` in a message; "" if they are not there. */
-static void between(const char *message, const char *begin, const char *end, char *out, size_t size)
+static void text_between(const char *message, const char *begin, const char *end, char *out,
+                         size_t size)
 {
     out[0] = '\0';
     const char *from = strstr(message, begin);
@@ -35,7 +36,7 @@ typedef struct complaint {
 } complaint;
 
 /* Keeps the first message: the others follow from it. */
-static void complain(void *user, xmlErrorPtr error)
+static void keep_first_message(void *user, xmlErrorPtr error)
 {
     complaint *c = user;
     if (c->any || error == NULL)
@@ -49,12 +50,12 @@ static void complain(void *user, xmlErrorPtr error)
 static wt_status schema_error(const complaint *c, wt_error *err)
 {
     char element[96], expected[160], value[96], said[256];
-    between(c->message, "Element '", "'", element, sizeof element);
-    between(c->message, "Expected is ", ".", expected, sizeof expected);
+    text_between(c->message, "Element '", "'", element, sizeof element);
+    text_between(c->message, "Expected is ", ".", expected, sizeof expected);
     if (expected[0] == '\0')
-        between(c->message, "is not an element of the set {", "}", expected, sizeof expected);
-    between(c->message, "The value '", "'", value, sizeof value);
-    between(c->message, "': ", "\n", said, sizeof said);
+        text_between(c->message, "is not an element of the set {", "}", expected, sizeof expected);
+    text_between(c->message, "The value '", "'", value, sizeof value);
+    text_between(c->message, "': ", "\n", said, sizeof said);
     char *tail = strstr(said, " Expected is");
     if (tail != NULL)
         *tail = '\0';
@@ -70,7 +71,7 @@ static wt_status schema_error(const complaint *c, wt_error *err)
     return WT_E_SCHEMA;
 }
 
-static wt_status validate(xmlDoc *doc, wt_error *err)
+static wt_status validate_case(xmlDoc *doc, wt_error *err)
 {
     wt_status status = WT_OK;
     complaint c = {0};
@@ -82,7 +83,7 @@ static wt_status validate(xmlDoc *doc, wt_error *err)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the schema of case files");
         goto done;
     }
-    xmlSchemaSetValidStructuredErrors(valid, complain, &c);
+    xmlSchemaSetValidStructuredErrors(valid, keep_first_message, &c);
     int result = xmlSchemaValidateDoc(valid, doc);
     if (result > 0 || c.any)
         status = schema_error(&c, err);
@@ -135,7 +136,7 @@ static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
     return WT_OK;
 }
 
-static wt_status parse(wt_case *c, wt_error *err)
+static wt_status parse_case(wt_case *c, wt_error *err)
 {
     static const struct {
         const char *name;
@@ -152,7 +153,7 @@ static wt_status parse(wt_case *c, wt_error *err)
     xmlDoc *doc = NULL;
     wt_status status = read_document(c, &doc, err);
     if (status == WT_OK)
-        status = validate(doc, err);
+        status = validate_case(doc, err);
     if (status != WT_OK)
         goto done;
     const xmlNode *root = xmlDocGetRootElement(doc);
@@ -191,7 +192,7 @@ wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt
     }
     status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
                  ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                 : parse(c, err);
+                 : parse_case(c, err);
 done:
     free(folder);
     if (status != WT_OK) {

@@ -9,7 +9,7 @@
 
 #include "base/clocale.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,24 +17,21 @@
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
+TABLE_ROW(modulus_groups, MODULUS_GROUPS, const char *group; wt_group data;
+          wt_group_summary summary; wt_interval modulus;)
+
+static wt_interval mean_of(const wt_group_summary *s)
+{
+    return (wt_interval){s->geometric_mean, (double)NAN, s->low, s->high};
+}
+
 static void group_row(table_writer *t, const char *name, const wt_group *group)
 {
-    wt_group_summary s = {0};
+    const double none = (double)NAN;
+    wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none};
     if (group->n > 0 && t->status == WT_OK)
         t->status = wt_group_summarise(group, &s, t->err);
-    table_row(t);
-    modulus_groups_put_text(t, MODULUS_GROUPS_GROUP, name);
-    modulus_groups_put(t, MODULUS_GROUPS_N, (double)group->n);
-    modulus_groups_put(t, MODULUS_GROUPS_N_REJECTED, (double)group->n_rejected);
-    modulus_groups_put(t, MODULUS_GROUPS_N_SPOTS, (double)s.n_spots);
-    if (group->n == 0)
-        return;
-    modulus_groups_put(t, MODULUS_GROUPS_MEAN, s.mean);
-    modulus_groups_put(t, MODULUS_GROUPS_STANDARD_DEVIATION, s.standard_deviation);
-    modulus_groups_put(t, MODULUS_GROUPS_MEDIAN, s.median);
-    modulus_groups_put(t, MODULUS_GROUPS_GEOMETRIC_MEAN, s.geometric_mean);
-    modulus_groups_put(t, MODULUS_GROUPS_LOW, s.low);
-    modulus_groups_put(t, MODULUS_GROUPS_HIGH, s.high);
+    TABLE_ADD(modulus_groups, t, name, *group, s, mean_of(&s));
 }
 
 /* The name of the group of an indentation table. */
@@ -127,41 +124,29 @@ static wt_status make_points(compare_pair *p, wt_error *err)
     return status;
 }
 
-static void rate_row(table_writer *t, int g, const rate_point *point)
-{
-    table_row(t);
-    modulus_rate_put_text(t, MODULUS_RATE_GROUP, compare_group_name[g]);
-    modulus_rate_put(t, MODULUS_RATE_RATE, point->rate);
-    modulus_rate_put(t, MODULUS_RATE_EQUIVALENT_FREQUENCY, point->frequency);
-    modulus_rate_put(t, MODULUS_RATE_N, (double)point->n);
-    modulus_rate_put(t, MODULUS_RATE_GEOMETRIC_MEAN, point->summary.geometric_mean);
-    modulus_rate_put(t, MODULUS_RATE_LOW, point->summary.low);
-    modulus_rate_put(t, MODULUS_RATE_HIGH, point->summary.high);
-}
+TABLE_ROW(modulus_rate, MODULUS_RATE, const char *group; rate_point point; wt_interval modulus;)
+
+TABLE_ROW(dma_comparison, DMA_COMPARISON, const char *group;
+          double frequency, storage, ratio, extrapolated; wt_interval modulus; wt_estimate dma;)
 
 /* error: relative, of |E*|; material: NULL where the DMA does not reach. */
 static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material,
                     double error)
 {
-    double storage = (double)NAN, loss = (double)NAN;
-    table_row(t);
-    dma_comparison_put_text(t, DMA_COMPARISON_GROUP, compare_group_name[g]);
-    dma_comparison_put(t, DMA_COMPARISON_EQUIVALENT_FREQUENCY, point->frequency);
-    dma_comparison_put(t, DMA_COMPARISON_MODULUS, point->summary.geometric_mean);
-    dma_comparison_put(t, DMA_COMPARISON_LOW, point->summary.low);
-    dma_comparison_put(t, DMA_COMPARISON_HIGH, point->summary.high);
-    if (!(point->frequency > 0) || material == NULL)
-        return;
-    material->law->modulus(material, &point->frequency, 1, &storage, &loss);
-    bool outside =
-        point->frequency < material->frequency_min || point->frequency > material->frequency_max;
-    dma_comparison_put(t, DMA_COMPARISON_STORAGE_MODULUS, storage);
-    dma_comparison_put(t, DMA_COMPARISON_COMPLEX_MODULUS, hypot(storage, loss));
-    dma_comparison_put(t, DMA_COMPARISON_COMPLEX_MODULUS_STANDARD_ERROR,
-                       error * hypot(storage, loss));
-    dma_comparison_put(t, DMA_COMPARISON_RATIO,
-                       point->summary.geometric_mean / hypot(storage, loss));
-    dma_comparison_put(t, DMA_COMPARISON_EXTRAPOLATED, outside);
+    const double none = (double)NAN, frequency = point->frequency;
+    double loss = none;
+    dma_comparison_row row = {
+        compare_group_name[g],   frequency, none, none, none, mean_of(&point->summary),
+        {none, none, none, NULL}};
+    if (frequency > 0 && material != NULL) {
+        material->law->modulus(material, &frequency, 1, &row.storage, &loss);
+        row.dma.value = hypot(row.storage, loss);
+        row.dma.standard_error = error * row.dma.value;
+        row.ratio = row.modulus.value / row.dma.value;
+        row.extrapolated =
+            frequency < material->frequency_min || frequency > material->frequency_max;
+    }
+    dma_comparison_add_row(t, &row);
 }
 
 /* A block for each group. */
@@ -172,7 +157,8 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
         table_block(&t);
         for (size_t b = 0; b < p->n_bins; b++)
             if (p->point[g][b].n > 0)
-                rate_row(&t, g, &p->point[g][b]);
+                TABLE_ADD(modulus_rate, &t, compare_group_name[g], p->point[g][b],
+                          mean_of(&p->point[g][b].summary));
     }
     return table_end(&t, table);
 }
@@ -212,6 +198,9 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
     return status;
 }
 
+TABLE_KEYS(dma_comparison, DMA_COMPARISON, wt_estimate temperature, track_temperature;
+           const char *ratio_of, *lacks, *statement;)
+
 /* A block for each group that has a temperature of its own. */
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
                                 const wt_job *work, wt_table **table, wt_error *err)
@@ -226,19 +215,15 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
             table_block(&t);
         t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement[g], &lacks, err);
     }
-    dma_comparison_set(&t, DMA_COMPARISON_KEY_TEMPERATURE, given[0]);
-    if (!isnan(job->track_temperature.value))
-        dma_comparison_set(&t, DMA_COMPARISON_KEY_TRACK_TEMPERATURE, given[1]);
-    dma_comparison_set_text(&t, DMA_COMPARISON_KEY_RATIO_OF,
-                            "indentation modulus over |E*| of the DMA");
-    if (job->rubber->n_draws == 0 || lacks)
-        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_ERROR_LACKS,
-                                compare_lacks(job->rubber->n_draws == 0, lacks));
-    const bool both = statement[0][0] != '\0' && strcmp(statement[0], statement[1]) != 0;
-    if (statement[0][0] != '\0' || statement[1][0] != '\0')
-        dma_comparison_set_print(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "%s%s%s", statement[0],
-                                 both && statement[1][0] != '\0' ? "; " : "",
-                                 both || statement[0][0] == '\0' ? statement[1] : "");
+    char both[512];
+    const bool differ = statement[0][0] != '\0' && strcmp(statement[0], statement[1]) != 0;
+    clocale_print(both, sizeof both, "%s%s%s", statement[0],
+                  differ && statement[1][0] != '\0' ? "; " : "",
+                  differ || statement[0][0] == '\0' ? statement[1] : "");
+    const bool no_draws = job->rubber->n_draws == 0, own = !isnan(job->track_temperature.value);
+    TABLE_SET(dma_comparison, &t, given[0], own ? given[1] : job->track_temperature,
+              "indentation modulus over |E*| of the DMA",
+              no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, both);
     return table_end(&t, table);
 }
 

@@ -8,12 +8,12 @@
 #include "base/clocale.h"
 #include "base/normal.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Draws of the material behind its errors, which are good to 9 % then. */
+/* Draws of the material behind its errors: they are then known to 9 %. */
 enum { DRAWS = 64 };
 
 /* Of the DMA at the frequencies of a group: values and variances. */
@@ -84,43 +84,38 @@ static wt_status add_temperature(const wt_rubber *rubber, wt_estimate at, const 
     return status;
 }
 
+TABLE_ROW(dwell_dma, DWELL_DMA, const char *group; dwell_mean mean; double extrapolated;
+          wt_estimate dma_storage, dma_loss; wt_interval storage_ratio, loss_ratio;)
+
+TABLE_KEYS(dwell_dma, DWELL_DMA, wt_estimate temperature, track_temperature;
+           const char *lacks, *material_statement, *track_statement;)
+
 /* The interval of a ratio of two numbers with errors. */
-static void put_ratio(table_writer *t, dwell_dma_column ratio, dwell_dma_column low,
-                      dwell_dma_column high, const wt_interval *of, double by, double by_variance)
+static wt_interval ratio_of(const wt_interval *of, double by, double by_variance)
 {
     const double value = of->value / by,
                  half = fabs(value) * hypot((of->high - of->value) / of->value,
                                             NORMAL_95 * sqrt(by_variance) / by);
-    dwell_dma_put(t, ratio, value);
-    dwell_dma_put(t, low, value - half);
-    dwell_dma_put(t, high, value + half);
+    return (wt_interval){value, (double)NAN, value - half, value + half};
 }
 
 static void put_row(table_writer *t, int g, const dwell_mean *m, const dma_moduli *dma, bool errors,
                     bool outside)
 {
-    table_row(t);
-    dwell_dma_put_text(t, DWELL_DMA_GROUP, compare_group_name[g]);
-    dwell_dma_put(t, DWELL_DMA_ANGULAR_FREQUENCY, m->angular_frequency);
-    dwell_dma_put(t, DWELL_DMA_N, (double)m->n);
-    dwell_dma_put(t, DWELL_DMA_STORAGE, m->storage.value);
-    dwell_dma_put(t, DWELL_DMA_STORAGE_LOW, m->storage.low);
-    dwell_dma_put(t, DWELL_DMA_STORAGE_HIGH, m->storage.high);
-    dwell_dma_put(t, DWELL_DMA_LOSS, m->loss.value);
-    dwell_dma_put(t, DWELL_DMA_LOSS_LOW, m->loss.low);
-    dwell_dma_put(t, DWELL_DMA_LOSS_HIGH, m->loss.high);
-    if (dma == NULL)
-        return;
-    const double unknown = errors ? 0 : (double)NAN;
-    dwell_dma_put(t, DWELL_DMA_DMA_STORAGE, dma->storage);
-    dwell_dma_put(t, DWELL_DMA_DMA_STORAGE_STANDARD_ERROR, sqrt(dma->storage_variance) + unknown);
-    dwell_dma_put(t, DWELL_DMA_DMA_LOSS, dma->loss);
-    dwell_dma_put(t, DWELL_DMA_DMA_LOSS_STANDARD_ERROR, sqrt(dma->loss_variance) + unknown);
-    put_ratio(t, DWELL_DMA_STORAGE_RATIO, DWELL_DMA_STORAGE_RATIO_LOW, DWELL_DMA_STORAGE_RATIO_HIGH,
-              &m->storage, dma->storage, dma->storage_variance);
-    put_ratio(t, DWELL_DMA_LOSS_RATIO, DWELL_DMA_LOSS_RATIO_LOW, DWELL_DMA_LOSS_RATIO_HIGH,
-              &m->loss, dma->loss, dma->loss_variance);
-    dwell_dma_put(t, DWELL_DMA_EXTRAPOLATED, outside);
+    const double none = (double)NAN, unknown = errors ? 0 : none;
+    const wt_interval no_ratio = {none, none, none, none};
+    dwell_dma_row row = {compare_group_name[g], *m,       none,    {none, none, 0, NULL},
+                         {none, none, 0, NULL}, no_ratio, no_ratio};
+    if (dma != NULL) {
+        row.extrapolated = outside;
+        row.dma_storage.value = dma->storage;
+        row.dma_storage.standard_error = sqrt(dma->storage_variance) + unknown;
+        row.dma_loss.value = dma->loss;
+        row.dma_loss.standard_error = sqrt(dma->loss_variance) + unknown;
+        row.storage_ratio = ratio_of(&m->storage, dma->storage, dma->storage_variance);
+        row.loss_ratio = ratio_of(&m->loss, dma->loss, dma->loss_variance);
+    }
+    dwell_dma_add_row(t, &row);
 }
 
 /* The rows of a group, at its temperature. */
@@ -177,15 +172,12 @@ wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_ta
             t.status = put_group(&t, g, given[g], job->rubber, compare_temperature(job, g), work,
                                  statement[g], &lacks, err);
         }
-    dwell_dma_set(&t, DWELL_DMA_KEY_TEMPERATURE, compare_temperature(job, 0));
-    if (job->track != NULL)
-        dwell_dma_set(&t, DWELL_DMA_KEY_TRACK_TEMPERATURE, compare_temperature(job, 1));
-    if (job->rubber->n_draws == 0 || lacks)
-        dwell_dma_set_text(&t, DWELL_DMA_KEY_ERROR_LACKS,
-                           compare_lacks(job->rubber->n_draws == 0, lacks));
-    if (statement[0][0] != '\0')
-        dwell_dma_set_text(&t, DWELL_DMA_KEY_MATERIAL_STATEMENT, statement[0]);
-    if (statement[1][0] != '\0')
-        dwell_dma_set_text(&t, DWELL_DMA_KEY_TRACK_STATEMENT, statement[1]);
+    const bool no_draws = job->rubber->n_draws == 0;
+    wt_estimate track = compare_temperature(job, 1);
+    if (job->track == NULL)
+        track.value = (double)NAN;
+    TABLE_SET(dwell_dma, &t, compare_temperature(job, 0), track,
+              no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, statement[0],
+              statement[1]);
     return table_end(&t, table);
 }

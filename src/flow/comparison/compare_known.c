@@ -10,16 +10,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Draws of the material behind the error of its change with temperature and rate: that error is
- * good to 9 % then. */
+/* Draws of the material behind the error of its change with temperature and rate, which is then
+ * known to 9 %. */
 enum { DRAWS = 64 };
 
-static double square(double x)
+static double square_of(double x)
 {
     return x * x;
 }
 
-static void include_words(compare_known *k, const char *sign, const char *words)
+static void include_error(compare_known *k, const char *sign, const char *words)
 {
     const size_t used = strlen(k->includes);
     snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
@@ -30,13 +30,13 @@ static void add_error(compare_known *k, double error, const char *words)
 {
     if (isnan(error)) {
         const size_t used = strlen(k->lacks);
-        include_words(k, ", but not, for it is not known: ", words);
+        include_error(k, ", but not, for it is not known: ", words);
         snprintf(k->lacks + used, sizeof k->lacks - used, "%s%s", used > 0 ? ", " : "", words);
     }
     if (!(error > 0))
         return;
     k->offset.standard_error = hypot(k->offset.standard_error, error);
-    include_words(k, ", ", words);
+    include_error(k, ", ", words);
 }
 
 static bool are_two(const compare_pair *p, wt_levers levers)
@@ -80,7 +80,7 @@ static bool has_tip_error(const wt_group_data *d)
     return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
 }
 
-static void cancel_words(compare_known *k, const char *words)
+static void cancel_error(compare_known *k, const char *words)
 {
     const size_t used = strlen(k->cancels);
     snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
@@ -102,7 +102,7 @@ static void add_source(const compare_pair *p, const wt_compare_job *job, wt_comm
     const double error = fmax(bulk.error > 0 ? bulk.error : 0, track.error > 0 ? track.error : 0);
     if (!(error > 0))
         return;
-    cancel_words(k, words);
+    cancel_error(k, words);
     if (source != WT_COMMON_SPRING_CONSTANT)
         add_error(k, fabs(track.gain - bulk.gain) * error, words);
 }
@@ -123,7 +123,7 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
         if (k->two_levers)
             add_error(k, job->tip_error * M_SQRT2, "tips");
         else
-            cancel_words(k, "tip");
+            cancel_error(k, "tip");
     }
     if (!k->two_levers)
         return;
@@ -193,7 +193,7 @@ wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_a
         if (i == 0) {
             value->value = y;
         } else if (status == WT_OK && isfinite(y)) {
-            sum += square(y - value->value);
+            sum += square_of(y - value->value);
             n++;
         }
     }
@@ -223,7 +223,7 @@ wt_status compare_temperature_error(const wt_rubber *rubber, condition at, doubl
     return status;
 }
 
-static bool reaches(const wt_rubber *rubber, double temperature, compare_known *k)
+static bool law_reaches(const wt_rubber *rubber, double temperature, compare_known *k)
 {
     wt_error why = WT_ERROR_INIT;
     if (rubber == NULL || flow_rubber_reaches(rubber, temperature, &why))
@@ -246,9 +246,9 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     near[0].temperature -= 1;
     near[1].temperature += 1;
     const bool near_too = by_temperature && step_error > 0 && job->rubber != NULL;
-    if (!reaches(job->rubber, at[0].temperature, k) ||
-        !reaches(job->rubber, at[1].temperature, k) ||
-        (near_too && !reaches(job->rubber, near[0].temperature, k)))
+    if (!law_reaches(job->rubber, at[0].temperature, k) ||
+        !law_reaches(job->rubber, at[1].temperature, k) ||
+        (near_too && !law_reaches(job->rubber, near[0].temperature, k)))
         return WT_OK;
     wt_estimate change = {0, (double)NAN, 0, "1"};
     wt_status status = WT_OK;

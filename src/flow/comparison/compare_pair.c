@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 /* Width of a rate bin [decade]: rates of one nominal piezo rate differ by less, since the softer
- * group indents a little faster, and those that people choose by more. */
+ * group indents a little faster; see fit/comparison/group_units.c. */
 #define BIN_DECADES 0.5
 
 const char *const compare_group_name[2] = {"bulk", "track"};

@@ -8,16 +8,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Scatter of ln E between spots where none is measured, for the number of spots alone; a heuristic:
- * filled rubbers scatter by 5 to 25 %. */
+/* Scatter of ln E between spots where none is measured, for the number of spots that is advised.
+ * Chosen: twice as much asks for four times the spots. */
 static const double scatter_assumed = 0.15;
-static const double level = 0.05; /* customary */
+/* The customary one, and that of the intervals. */
+static const double level = 0.05;
 
 typedef struct verdict_words {
     char text[48];
 } verdict_words;
 
-static verdict_words percent(double share)
+static verdict_words percent_words(double share)
 {
     verdict_words w;
     clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
@@ -56,7 +57,7 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
     SAY(v->settled_by,
         "%s%s in each group would show a difference of %s in four of five trials where spots "
         "scatter by %s%s; more curves on a spot do not help",
-        third, number, percent(fabs(expm1(difference))).text, percent(scatter).text,
+        third, number, percent_words(fabs(expm1(difference))).text, percent_words(scatter).text,
         measured ? ", as they do here" : " (assumed)");
 }
 
@@ -93,8 +94,8 @@ static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict
 }
 
 /* What keeps the ratio itself from being known. */
-static bool find_no_ratio(const compare_pair *p, const compare_known *k, const compare_row *row,
-                          compare_verdict *v)
+static bool judge_conditions(const compare_pair *p, const compare_known *k, const compare_row *row,
+                             compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     v->silent = true;
@@ -118,8 +119,8 @@ static bool find_no_ratio(const compare_pair *p, const compare_known *k, const c
 }
 
 /* What leaves it without an interval. */
-static bool find_no_interval(const compare_pair *p, const wt_compare_job *job,
-                             const compare_known *k, const compare_row *row, compare_verdict *v)
+static bool judge_error(const compare_pair *p, const wt_compare_job *job, const compare_known *k,
+                        const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     if (c->unsettled == WT_ONE_SPOT) {
@@ -147,8 +148,7 @@ static bool find_no_interval(const compare_pair *p, const wt_compare_job *job,
 }
 
 /* A ratio for each rate: each is judged by itself, with p corrected for their number. */
-static void decide_by_rate(const compare_row *rates, size_t n, double interaction,
-                           compare_verdict *v)
+static void judge_twist(const compare_row *rates, size_t n, double interaction, compare_verdict *v)
 {
     bool softer = false, stiffer = false;
     for (size_t i = 0; i < n; i++) {
@@ -180,7 +180,7 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
     SAY(v->differs,
         "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
         "not hold, for it is not known: %s",
-        percent(job->margin).text, k->lacks);
+        percent_words(job->margin).text, k->lacks);
     if (k->loss_not_known)
         SAY(v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
@@ -204,10 +204,10 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
     compare_verdict v = {0};
-    if (find_no_ratio(p, known, row, &v) || find_no_interval(p, job, known, row, &v))
+    if (judge_conditions(p, known, row, &v) || judge_error(p, job, known, row, &v))
         return v;
     if (c->interaction_p < level) {
-        decide_by_rate(rates, n_rates, c->interaction_p, &v);
+        judge_twist(rates, n_rates, c->interaction_p, &v);
         if (strncmp(v.differs, "yes", 3) == 0 && unsaid->plausible[0] != '\0')
             say_unsaid(unsaid, "seems to differ, by a ratio that depends on the rate", &v);
         return v;
@@ -227,11 +227,11 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
             within ? ", by less than the margin" : "");
     } else if (within) {
         SAY(v.differs, "no: the wear track differs from the bulk by less than %s, the margin set",
-            percent(job->margin).text);
+            percent_words(job->margin).text);
     } else {
         SAY(v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
-            percent(job->margin).text);
+            percent_words(job->margin).text);
         const double known_error = known->offset.standard_error;
         if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
             SAY(v.settled_by, "%s",

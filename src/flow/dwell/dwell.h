@@ -28,6 +28,7 @@ typedef struct dwell_modulated {
     const char *note;                     /* static */
 } dwell_modulated;
 
+/* Modulations of one curve that there is room for; JPK has as many segments as a person sets. */
 enum { DWELL_MOST_MODULATED = 32 };
 typedef struct dwell_curve {
     wt_dwell dwell; /* of all held segments together, sines taken out */

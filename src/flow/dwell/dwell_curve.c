@@ -3,22 +3,17 @@
 #include "flow/dwell/dwell.h"
 
 #include "base/normal.h"
+
 #include "data/force_curve.h"
 #include "model/tip.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double pi = 3.14159265358979323846;
-/* Frequencies of one drive: what a few periods resolve is more, and drives are farther apart. */
-static const double same_drive = 0.01;
-/* An amplitude that is small beside the indentation: the curvature of a contact changes the
- * stiffness at the drive by less than 1 % up to there. */
-static const double small_amplitude = 0.2;
-
-/* Steps that a segment of the same clock may begin after the last sample. A heuristic: instruments
- * lose a few while they turn, and another clock begins anew. */
-static const double most_gap = 100;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
+/* Frequencies of one drive in contact and in air, relative; and an amplitude that is small beside
+ * the indentation: of a force as depth^(3/2) a fifth changes the sine by 0.1 %. */
+static const double same_drive = 0.01, small = 0.2;
 
 typedef struct history {
     double *time, *position, *force, *scratch;
@@ -28,12 +23,6 @@ typedef struct history {
 bool dwell_is_held(const wt_segment *s)
 {
     return (s->kind == WT_SEGMENT_DWELL || s->kind == WT_SEGMENT_MODULATION) && s->n_points > 1;
-}
-
-bool dwell_is_modulus(const wt_dwell_moduli *m)
-{
-    return m->storage.value > 0 &&
-           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
 }
 
 /* Samples of a segment behind those of a history, with times that go on; false where it lacks time,
@@ -50,7 +39,7 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
     double shift = 0;
     if (to->n > 1) {
         const double last = to->time[to->n - 1], step = last - to->time[to->n - 2];
-        if (!(time[0] > last && time[0] < last + most_gap * step))
+        if (!(time[0] > last && time[0] < last + 100 * step))
             shift = last + step - time[0];
     }
     for (size_t i = 0; i < s->n_points; i++) {
@@ -61,7 +50,7 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
     return true;
 }
 
-static wt_status reserve(history *h, const wt_force_curve *curve, wt_error *err)
+static wt_status reserve_history(history *h, const wt_force_curve *curve, wt_error *err)
 {
     size_t n = 0, longest = 0;
     for (size_t i = 0; i < curve->n_segments; i++) {
@@ -122,9 +111,15 @@ static double slope_at(const wt_contact_table *contact, double depth, double poi
     return slope / (1 - poisson * poisson);
 }
 
-static wt_status tell_modulation(const wt_contact_table *contact, double poisson,
-                                 double spring_constant, const wt_indent_fit *fit,
-                                 const dwell_curve *c, dwell_modulated *m, wt_error *err)
+bool dwell_is_modulus(const wt_dwell_moduli *m)
+{
+    return m->storage.value > 0 &&
+           (m->loss.value > 0 || m->loss.value > -NORMAL_95 * m->loss.standard_error);
+}
+
+static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
+                             double spring_constant, const wt_indent_fit *fit, const dwell_curve *c,
+                             dwell_modulated *m, wt_error *err)
 {
     const wt_dwell *d = &c->dwell;
     const bool placed = d->found;
@@ -154,7 +149,7 @@ static wt_status tell_modulation(const wt_contact_table *contact, double poisson
     m->amplitude = hypot(a[0] - a[2] / spring_constant, a[1] - a[3] / spring_constant);
     m->note = !placed      ? "the contact point is that of an elastic fit"
               : !described ? "the dwell is not described, nor is the contact point"
-              : m->amplitude > small_amplitude * m->indentation
+              : m->amplitude > small * m->indentation
                   ? "the amplitude is more than a fifth of the indentation"
               : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
                             : "";
@@ -172,9 +167,9 @@ static wt_status tell_modulation(const wt_contact_table *contact, double poisson
 }
 
 /* Approach and held segments, without their sines. */
-static wt_status collect(const wt_force_curve *curve, const wt_segment *approach,
-                         const wt_segment *first, double direction, history *h,
-                         wt_dwell_history *of, dwell_curve *to, wt_error *err)
+static wt_status collect_history(const wt_force_curve *curve, const wt_segment *approach,
+                                 const wt_segment *first, double direction, history *h,
+                                 wt_dwell_history *of, dwell_curve *to, wt_error *err)
 {
     const wt_segment *const end = curve->segments + curve->n_segments, *s = first;
     wt_status status = WT_OK;
@@ -206,7 +201,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
     const double k = curve->cantilever.spring_constant;
     history h = {0};
     *to = (dwell_curve){.dwell.why_not = "no time, height or force in it"};
-    wt_status status = reserve(&h, curve, err);
+    wt_status status = reserve_history(&h, curve, err);
     if (status != WT_OK)
         return status;
     double *const room = h.time;
@@ -221,12 +216,12 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                            .baseline_tilt = fit->baseline_tilt};
     status = find_air(curve, approach, fit->direction, &h, to, err);
     if (status == WT_OK)
-        status = collect(curve, approach, first, fit->direction, &h, &of, to, err);
+        status = collect_history(curve, approach, first, fit->direction, &h, &of, to, err);
     if (status == WT_OK && of.n_dwell > 0)
         status = wt_dwell_fit(contact, &of, &to->dwell, err);
     for (size_t i = 0; status == WT_OK && i < to->n; i++) {
         if (to->modulated[i].sine.found)
-            status = tell_modulation(contact, poisson, k, fit, to, &to->modulated[i], err);
+            status = tell_moduli(contact, poisson, k, fit, to, &to->modulated[i], err);
         else
             to->modulated[i].note = to->modulated[i].sine.why_not;
     }

@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one: less than moduli tell apart, more than files round to.
- */
+/* Frequencies that differ by less are one: they are set. */
 static const double same_frequency = 1e-3;
 
 typedef struct place {
@@ -19,7 +18,7 @@ typedef struct place {
     long unit;
 } place;
 
-static int rising(const void *a, const void *b)
+static int by_frequency(const void *a, const void *b)
 {
     const place *x = a, *y = b;
     return x->frequency != y->frequency ? (x->frequency > y->frequency ? 1 : -1)
@@ -86,7 +85,7 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_
                           row == 0 ? 0 : at[row - 1].unit + (same ? 0 : 1)};
     }
     if (status == WT_OK)
-        qsort(at, v.n_rows, sizeof *at, rising);
+        qsort(at, v.n_rows, sizeof *at, by_frequency);
     for (size_t from = 0, to; status == WT_OK && from < v.n_rows; from = to) {
         for (to = from + 1;
              to < v.n_rows && at[to].frequency < at[from].frequency * (1 + same_frequency);)

@@ -14,7 +14,7 @@
 #include "base/mix.h"
 #include "base/normal.h"
 #include "base/param.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,7 +69,7 @@ typedef struct coverage {
     hit *hits; /* [trials * N_JUDGED] */
 } coverage;
 
-static hit judge(double value, double error, double low, double high, double truth)
+static hit hit_of(double value, double error, double low, double high, double truth)
 {
     if (!(error > 0) || !isfinite(value) || !isfinite(truth))
         return (hit){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
@@ -79,14 +79,14 @@ static hit judge(double value, double error, double low, double high, double tru
 
 static hit judge_interval(wt_interval x, double truth)
 {
-    return judge(x.value, x.standard_error, x.low, x.high, truth);
+    return hit_of(x.value, x.standard_error, x.low, x.high, truth);
 }
 
 /* Of a normal number whose truth is 0. */
 static hit judge_estimate(wt_estimate e)
 {
     const double half = NORMAL_95 * e.standard_error;
-    return judge(e.value, e.standard_error, e.value - half, e.value + half, 0);
+    return hit_of(e.value, e.standard_error, e.value - half, e.value + half, 0);
 }
 
 /* Of several alike: their sum with its number, and their mean. */
@@ -215,8 +215,8 @@ static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t
     if (status == WT_OK)
         status = wt_compare(&group[0], &group[1], NULL, &found, err);
     if (status == WT_OK)
-        hits[OF_RATIO] = judge(found.log_ratio.value, found.log_ratio.standard_error,
-                               log(found.ratio_low), log(found.ratio_high), c->log_ratio);
+        hits[OF_RATIO] = hit_of(found.log_ratio.value, found.log_ratio.standard_error,
+                                log(found.ratio_low), log(found.ratio_high), c->log_ratio);
     if (status == WT_OK)
         *comparison = found;
     free(modulus);
@@ -258,6 +258,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     if (c->fit.n_shifts > 0) {
         status = try_material(c, seed, &rubber, hits, err);
         s.rubber = rubber;
+        s.given = NULL;
     }
     regenerate_inputs(&s, seed);
     if (status == WT_OK && c->has_groups)
@@ -269,8 +270,8 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
         status = setting_compute(&s, &work, number, err);
     for (size_t k = 0; k < SETTING_NUMBERS && status == WT_OK; k++) {
         const double half = NORMAL_95 * number[k].standard_error;
-        hits[k] = judge(number[k].value, number[k].standard_error, number[k].value - half,
-                        number[k].value + half, c->truth[k].value);
+        hits[k] = hit_of(number[k].value, number[k].standard_error, number[k].value - half,
+                         number[k].value + half, c->truth[k].value);
     }
     wt_rubber_clear(&rubber);
     return status;
@@ -296,7 +297,9 @@ typedef struct tally {
     coverage_share known;
 } tally;
 
-static tally count(const coverage *c, size_t k)
+TABLE_ROW(coverage, COVERAGE, const char *number; tally found;)
+
+static tally count_hits(const coverage *c, size_t k)
 {
     tally t = {.scatter = (double)NAN};
     double deviation = 0, variance = 0;
@@ -332,12 +335,12 @@ static size_t lost_trials(const coverage *c)
 }
 
 /* All numbers with their shares, or those of one verdict. */
-static void list(const coverage *c, const char *verdict, char *text, size_t size)
+static void list_shares(const coverage *c, const char *verdict, char *text, size_t size)
 {
     size_t n = 0;
     text[0] = '\0';
     for (size_t k = 0; k < N_JUDGED && n < size; k++) {
-        const tally found = count(c, k);
+        const tally found = count_hits(c, k);
         if (found.n == 0 || (verdict != NULL && strcmp(found.known.verdict, verdict) != 0))
             continue;
         n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words[k]);
@@ -349,13 +352,13 @@ static void list(const coverage *c, const char *verdict, char *text, size_t size
     }
 }
 
-static void say(const coverage *c, table_writer *t)
+static void put_verdicts(const coverage *c, table_writer *t)
 {
     char all[400], narrow[300], wide[300], unsettled[600], inputs[300];
-    list(c, NULL, all, sizeof all);
-    list(c, "too narrow", narrow, sizeof narrow);
-    list(c, "too wide", wide, sizeof wide);
-    list(c, "cannot say", unsettled, sizeof unsettled);
+    list_shares(c, NULL, all, sizeof all);
+    list_shares(c, "too narrow", narrow, sizeof narrow);
+    list_shares(c, "too wide", wide, sizeof wide);
+    list_shares(c, "cannot say", unsettled, sizeof unsettled);
     setting drawn = c->setting;
     if (takes_ratio(c))
         drawn.known.modulus_ratio.standard_error = 0;
@@ -390,21 +393,11 @@ static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&coverage_schema, err);
     for (size_t k = 0; k < N_JUDGED; k++) {
-        const tally found = count(c, k);
-        if (found.n == 0)
-            continue;
-        table_row(&t);
-        coverage_put_text(&t, COVERAGE_NUMBER, judged_words[k]);
-        coverage_put(&t, COVERAGE_TRIALS, (double)found.n);
-        coverage_put(&t, COVERAGE_ONE, found.one);
-        coverage_put(&t, COVERAGE_BOTH, found.both);
-        coverage_put(&t, COVERAGE_LOW, found.known.low);
-        coverage_put(&t, COVERAGE_HIGH, found.known.high);
-        coverage_put(&t, COVERAGE_SCATTER, found.scatter);
-        coverage_put_text(&t, COVERAGE_VERDICT, found.known.verdict);
-        coverage_put(&t, COVERAGE_SETTLED_BY, found.known.trials);
+        const tally found = count_hits(c, k);
+        if (found.n > 0)
+            TABLE_ADD(coverage, &t, judged_words[k], found);
     }
-    say(c, &t);
+    put_verdicts(c, &t);
     coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);
     coverage_set_value(&t, COVERAGE_KEY_LOST, (double)lost_trials(c), (double)NAN, (double)NAN);
     return table_end(&t, table);
@@ -475,7 +468,7 @@ static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
 }
 
 /* What the case says as it is: the truth from now on. */
-static wt_status prepare(coverage *c, const wt_job *work, wt_error *err)
+static wt_status take_truth(coverage *c, const wt_job *work, wt_error *err)
 {
     const wt_coverage_job *job = c->job;
     wt_status status = setting_make(job->sliding, job->layer, job->known, work, &c->setting, err);
@@ -511,7 +504,7 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
     coverage c = {.job = job};
     wt_status status = param_check(wt_coverage_job_params(), job, err);
     if (status == WT_OK)
-        status = prepare(&c, work, err);
+        status = take_truth(&c, work, err);
     if (status == WT_OK) {
         c.hits = malloc(job->trials * N_JUDGED * sizeof *c.hits);
         for (size_t i = 0; c.hits != NULL && i < job->trials * N_JUDGED; i++)

@@ -6,10 +6,11 @@
 #include <math.h>
 #include <string.h>
 
+/* What intervals are said to hold; less than the second, twice as many misses, does not pass. */
 static const double stated = 0.95, least_held = 0.9;
-/* To each side: there are several numbers, and a false alarm among them is to be rare. */
+/* To each side: there are some ten numbers, and a false alarm among them is to be rare, 5 %. */
 static const double alarm = 0.0025;
-/* More than these are not run. */
+/* More than these are not run: days of computing, to tell 95.0 from 95.2 %. */
 static const size_t most_trials = 100000;
 
 static void set_interval(coverage_share *s, double share, double n)
@@ -41,7 +42,7 @@ static const char *verdict_of(double share, double n, double low)
     return low >= least_held ? "holds" : "cannot say";
 }
 
-static coverage_share judge(double share, size_t n)
+static coverage_share verdict_of_share(double share, size_t n)
 {
     coverage_share s = {.trials = (double)NAN};
     set_interval(&s, share, (double)n);
@@ -51,12 +52,12 @@ static coverage_share judge(double share, size_t n)
 
 coverage_share coverage_judge(double share, size_t n)
 {
-    coverage_share s = judge(share, n);
+    coverage_share s = verdict_of_share(share, n);
     if (strcmp(s.verdict, "cannot say") != 0)
         return s;
     /* to a tenth: what the trials will find is not known better */
     for (size_t more = n + 1; more < most_trials; more += more / 10 + 1)
-        if (strcmp(judge(share, more).verdict, "cannot say") != 0) {
+        if (strcmp(verdict_of_share(share, more).verdict, "cannot say") != 0) {
             s.trials = (double)more;
             break;
         }

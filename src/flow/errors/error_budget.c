@@ -8,7 +8,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ typedef struct source {
     void (*hold)(setting *s); /* takes its error away */
 } source;
 
-static bool always(const setting *s)
+static bool applies_always(const setting *s)
 {
     (void)s;
     return true;
@@ -36,6 +36,7 @@ static bool stated_rubber(const setting *s)
 
 static void hold_rubber(setting *s)
 {
+    s->given = NULL;
     s->rubber.n_draws = 0;
     s->rubber.c1_error = s->rubber.c2_error = 0;
 }
@@ -137,12 +138,14 @@ static const char calibration_remedy[] = "one cantilever for both groups, or spr
                                          "better";
 
 static const source sources[] = {
-    {"material", "a second DMA run; temperatures known better", always, stated_rubber, hold_rubber},
-    {"pressure", "the load and the nominal area known better", always, stated_pressure,
+    {"material", "a second DMA run; temperatures known better", applies_always, stated_rubber,
+     hold_rubber},
+    {"pressure", "the load and the nominal area known better", applies_always, stated_pressure,
      hold_pressure},
-    {"temperature", "the temperature in sliding measured", always, stated_temperature,
+    {"temperature", "the temperature in sliding measured", applies_always, stated_temperature,
      hold_temperature},
-    {"roughness", "more scans of the counter surface", always, stated_roughness, hold_roughness},
+    {"roughness", "more scans of the counter surface", applies_always, stated_roughness,
+     hold_roughness},
     {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
      stated_softness, hold_softness},
     {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
@@ -173,8 +176,8 @@ typedef struct budget {
     char lacks[256];
 } budget;
 
-static wt_status compute(const budget *b, const setting *as, size_t replicates, outcome *o,
-                         wt_error *err)
+static wt_status compute_outcome(const budget *b, const setting *as, size_t replicates, outcome *o,
+                                 wt_error *err)
 {
     setting s = *as;
     wt_job work = b->work;
@@ -190,9 +193,9 @@ static wt_status compute(const budget *b, const setting *as, size_t replicates, 
 
 static wt_status compute_all(budget *b, wt_error *err)
 {
-    wt_status status = compute(b, &b->setting, 0, &b->values, err);
+    wt_status status = compute_outcome(b, &b->setting, 0, &b->values, err);
     if (status == WT_OK)
-        status = compute(b, &b->setting, b->work.replicates, &b->all, err);
+        status = compute_outcome(b, &b->setting, b->work.replicates, &b->all, err);
     for (size_t i = 0; i < SOURCES && status == WT_OK; i++) {
         setting alone = b->setting;
         if (!sources[i].applies(&b->setting))
@@ -206,7 +209,7 @@ static wt_status compute_all(budget *b, wt_error *err)
         for (size_t k = 0; k < SOURCES; k++)
             if (k != i)
                 sources[k].hold(&alone);
-        status = compute(b, &alone, b->work.replicates, &b->of[i], err);
+        status = compute_outcome(b, &alone, b->work.replicates, &b->of[i], err);
     }
     return status;
 }
@@ -228,7 +231,7 @@ static const struct {
 
 typedef struct choice_range {
     const char *words;
-    double half;
+    double low, high, half; /* of the number; half of what it is apart */
 } choice_range;
 
 /* The rows of one choice follow one another, and the first row of all is as used. Returns where the
@@ -242,7 +245,7 @@ static size_t range_of(const table_view *t, size_t row, what_if_column column, c
         low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax leave out NaN */
         high = fmax(high, what_if_get(t, row, column));
     }
-    range->half = (high - low) / 2;
+    *range = (choice_range){range->words, low, high, (high - low) / 2};
     return row;
 }
 
@@ -254,20 +257,15 @@ typedef struct row {
     double share, seconds;
 } row;
 
+TABLE_ROW(error_budget, ERROR_BUDGET, const char *number; row of;)
+
 static void put_row(const char *number, double value, row r, table_writer *t)
 {
-    table_row(t);
-    error_budget_put_text(t, ERROR_BUDGET_NUMBER, number);
-    error_budget_put_text(t, ERROR_BUDGET_SOURCE, r.source);
-    error_budget_put_text(t, ERROR_BUDGET_KIND, r.kind);
-    error_budget_put(t, ERROR_BUDGET_RELATIVE_ERROR,
-                     r.error / fabs(value)); /* 0 of 0 is not known */
-    error_budget_put(t, ERROR_BUDGET_SHARE, r.share);
-    error_budget_put(t, ERROR_BUDGET_SECONDS, r.seconds);
-    error_budget_put_text(t, ERROR_BUDGET_REMEDY, r.remedy);
+    r.error /= fabs(value); /* 0 of 0 is not known */
+    TABLE_ADD(error_budget, t, number, r);
 }
 
-static void put(const budget *b, setting_number k, row r, table_writer *t)
+static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)
 {
     put_row(numbers[k].words, b->values.number[k].value, r, t);
 }
@@ -292,7 +290,8 @@ static void put_measured(const budget *b, setting_number k, verdict *v, table_wr
         if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
-        put(b, k,
+        put_number_row(
+            b, k,
             (row){sources[i].words, "measured", sources[i].remedy, error, share, b->of[i].seconds},
             t);
         if (v->largest == NULL || share > v->share) {
@@ -310,19 +309,20 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
         r = range_of(what_if, r, numbers[k].column, &range);
         if (!(range.half > 0))
             continue;
-        put(b, k,
-            (row){range.words, "model", "a measurement that settles the choice", range.half,
-                  (double)NAN, cost_part(b->work.cost, range.words)},
-            t);
+        put_number_row(b, k,
+                       (row){range.words, "model", "a measurement that settles the choice",
+                             range.half, (double)NAN, cost_part(b->work.cost, range.words)},
+                       t);
         if (range.half > v->widest.half)
             v->widest = range;
     }
 }
 
-static void advise(const budget *b, setting_number k, const verdict *v, table_writer *t)
+static void put_advice(const budget *b, setting_number k, const verdict *v, table_writer *t)
 {
     char text[640];
     const double value = fabs(b->values.number[k].value);
+    const int decimals = v->widest.half < 0.1 * value ? 1 : 0;
     size_t n = 0;
 #define SAY(...) n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
     if (v->largest == NULL)
@@ -332,9 +332,10 @@ static void advise(const budget *b, setting_number k, const verdict *v, table_wr
         SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
             v->largest->remedy);
     if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* together may be unknown */
-        SAY(" The choice of the %s moves it by %.*f %%, %s: more of the same measurements do not "
-            "settle that.",
-            v->widest.words, v->widest.half < 0.1 * value ? 1 : 0, 100 * v->widest.half / value,
+        SAY(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
+            "measurements do not settle that.",
+            v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
+            100 * (v->widest.high / value - 1),
             v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
     if (isnan(v->numerical))
@@ -357,19 +358,20 @@ static void put_number(const budget *b, setting_number k, const table_view *what
     const double n = (double)b->work.replicates;
     put_measured(b, k, &v, t);
     if (isfinite(v.together)) {
-        put(b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
+        put_number_row(
+            b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
             t);
-        put(b, k,
-            (row){"number of replicates", "draws", "four times the replicates halve it",
-                  v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
-            t);
+        put_number_row(b, k,
+                       (row){"number of replicates", "draws", "four times the replicates halve it",
+                             v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
+                       t);
     }
-    put(b, k,
-        (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
-              b->values.seconds},
-        t);
+    put_number_row(b, k,
+                   (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
+                         b->values.seconds},
+                   t);
     put_model(b, k, what_if, &v, t);
-    advise(b, k, &v, t);
+    put_advice(b, k, &v, t);
 }
 
 /* The ratio itself: nothing has to be drawn, for what its spots and the calibration do to it is

@@ -3,6 +3,7 @@
 #include "flow/work/draws.h"
 
 #include "base/array.h"
+#include "model/prony.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -32,18 +33,6 @@ static double true_shift(const wt_isotherm *measured, const wt_master *fit, size
     return isnan(moved) ? at : moved;
 }
 
-/* E' and E'' of the series, which is what friction takes for the truth, too. */
-static void moduli_of(const wt_prony *p, double omega, double *storage, double *loss)
-{
-    *storage = p->equilibrium_modulus;
-    *loss = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double z = omega * p->relaxation_time[i];
-        *storage += p->modulus[i] * (z < 1 ? z * z / (1 + z * z) : 1 / (1 + 1 / (z * z)));
-        *loss += p->modulus[i] * (z < 1 ? z / (1 + z * z) : 1 / (z + 1 / z));
-    }
-}
-
 static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit, size_t k,
                               double shift, uint64_t seed, wt_sweep *sweep)
 {
@@ -61,7 +50,7 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     for (size_t j = 0; j < measured->n; j++) {
         double storage, loss;
         const double omega = measured->angular_frequency[j];
-        moduli_of(&fit->prony, omega * pow(10, shift), &storage, &loss);
+        prony_moduli(&fit->prony, omega * pow(10, shift), &storage, &loss);
         for (int i = 0; i < 2; i++) {
             const double z = flow_draw_normal(seed, (k << 24) + 2 * j + (size_t)i, FLOW_DRAW_NOISE);
             noise[i] = j == 0 ? z : fit->correlation * noise[i] + rest * z;

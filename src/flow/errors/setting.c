@@ -18,6 +18,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
     *s = (setting){.sliding = *sliding,
                    .velocity = flow_reference_velocity(sliding),
                    .rubber = *sliding->rubber,
+                   .given = sliding->rubber,
                    .surface = *sliding->surface,
                    .has_softness = sliding->softness != NULL,
                    .has_layer = layer != NULL,
@@ -76,7 +77,7 @@ static wt_status compute_friction(setting *s, const wt_layer_known *known, const
 wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, wt_error *err)
 {
     wt_layer_known known = s->known;
-    s->sliding.rubber = &s->rubber;
+    s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
     s->sliding.softness = s->has_softness ? &s->softness : NULL;
     s->sliding.velocity = &s->velocity;

@@ -8,8 +8,9 @@
 typedef struct setting {
     wt_sliding sliding; /* of the velocity, rubber and surface below */
     double velocity;
-    wt_rubber rubber;   /* borrowed, or another one */
-    wt_surface surface; /* borrowed; its cut-offs are numbers */
+    wt_rubber rubber;       /* borrowed, or another one */
+    const wt_rubber *given; /* whose copy `rubber` is; NULL once something of it is changed */
+    wt_surface surface;     /* borrowed; its cut-offs are numbers */
     bool has_softness;
     wt_softness softness; /* borrowed */
     bool has_layer, has_known;

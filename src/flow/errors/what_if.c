@@ -15,7 +15,7 @@
 
 /* ---- choices --------------------------------------------------------------------------------- */
 
-enum { MOST_TRIED = 4, WORDS = 64 };
+enum { MOST_TRIED = 4, WORDS = 64 }; /* as the longest list below; one line of a table */
 
 /* A choice without a measurement. */
 typedef struct choice {
@@ -29,12 +29,12 @@ typedef struct choice {
     bool (*move)(const setting *used, size_t i, setting *s); /* false: no more of them */
 } choice;
 
-static double limited(double value, double low, double high)
+static double limit_value(double value, double low, double high)
 {
     return fmax(fmin(value, high), low);
 }
 
-static bool always(const setting *s)
+static bool applies_always(const setting *s)
 {
     (void)s;
     return true;
@@ -63,18 +63,19 @@ static double value_q1(const setting *s)
     return s->surface.q1;
 }
 
-/* No surface has waves below the size of a molecule. */
+/* No surface has waves below the size of a molecule [m]. */
 #define SHORTEST_WAVE 1e-9
 
 static bool move_q1(const setting *used, size_t i, setting *s)
 {
+    /* A decade either way, and half of one: nothing measures where a spectrum is to be cut off. */
     static const double factor[] = {0.1, 0.3, 3, 10};
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
                  highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
     if (i >= COUNT_OF(factor))
         return false;
-    s->surface.q1 = limited(factor[i] * q1, lowest, highest);
+    s->surface.q1 = limit_value(factor[i] * q1, lowest, highest);
     return true;
 }
 
@@ -91,12 +92,13 @@ static bool has_q0(const setting *s)
 
 static bool move_q0(const setting *used, size_t i, setting *s)
 {
+    /* Half and twice a cut-off that a scan or a tread sets. */
     static const double factor[] = {0.5, 2};
     const double q0 = used->surface.q0,
                  highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
     if (i >= COUNT_OF(factor))
         return false;
-    s->surface.q0 = limited(factor[i] * q0, fmin(first_known(used), q0), highest);
+    s->surface.q0 = limit_value(factor[i] * q0, fmin(first_known(used), q0), highest);
     return true;
 }
 
@@ -107,6 +109,7 @@ static double value_gamma(const setting *s)
 
 static bool move_gamma(const setting *used, size_t i, setting *s)
 {
+    /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
     static const double tried[] = {0.5, 1};
     (void)used;
     if (i >= COUNT_OF(tried))
@@ -127,10 +130,11 @@ static double value_strain(const setting *s)
 
 static bool move_strain(const setting *used, size_t i, setting *s)
 {
+    /* The theory has a factor of order 1. */
     static const double factor[] = {0.5, 2};
     if (i >= COUNT_OF(factor))
         return false;
-    s->sliding.strain_factor = limited(factor[i] * used->sliding.strain_factor, 0.01, 100);
+    s->sliding.strain_factor = limit_value(factor[i] * used->sliding.strain_factor, 0.01, 100);
     return true;
 }
 
@@ -149,11 +153,12 @@ static double value_poisson(const setting *s)
 
 static bool move_poisson(const setting *used, size_t i, setting *s)
 {
-    static const double tried[] = {0.4, 0.5};
+    static const double tried[] = {0.4, 0.5}; /* a glass, and rubber that keeps its volume */
     (void)used;
     if (i >= COUNT_OF(tried))
         return false;
     s->rubber.poisson_ratio = tried[i];
+    s->given = NULL;
     return true;
 }
 
@@ -233,14 +238,14 @@ static const choice choices[] = {
     {"largest wavenumber q1", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
-     "", always, value_q1, NULL, move_q1},
+     "", applies_always, value_q1, NULL, move_q1},
     {"smallest wavenumber q0", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
      "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0},
     {"factor gamma of partial contact", "1",
-     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "", always,
-     value_gamma, NULL, move_gamma},
+     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
+     applies_always, value_gamma, NULL, move_gamma},
     {"strain over slope", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
@@ -272,7 +277,7 @@ static void short_number(double value, char text[WORDS])
     memmove(to, from, strlen(from) + 1);
 }
 
-static void say(const choice *c, const setting *s, char text[WORDS])
+static void name_choice(const choice *c, const setting *s, char text[WORDS])
 {
     if (c->unit == NULL) {
         c->name(s, text);
@@ -303,7 +308,7 @@ typedef struct what_if {
     size_t n;
 } what_if;
 
-static wt_status compute(outcome *o, const wt_job *work, wt_error *err)
+static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
 {
     wt_estimate number[SETTING_NUMBERS];
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
@@ -329,9 +334,10 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     if (o->choice->move == move_vertical) {
         status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
         o->setting.rubber = refitted;
+        o->setting.given = NULL;
     }
     if (status == WT_OK)
-        status = compute(o, &w->work, &why);
+        status = compute_outcome(o, &w->work, &why);
     wt_rubber_clear(&refitted);
     o->seconds = cost_clock(w->work.cost) - start;
     if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
@@ -354,10 +360,10 @@ static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
 static void add_choice(what_if *w, const choice *c, const setting *used)
 {
     char as_used[WORDS], tried[WORDS];
-    say(c, used, as_used);
+    name_choice(c, used, as_used);
     setting moved = *used;
     for (size_t i = 0; i < MOST_TRIED && c->move(used, i, &moved); i++) {
-        say(c, &moved, tried);
+        name_choice(c, &moved, tried);
         if (strcmp(tried, as_used) != 0) {
             outcome *o = add_outcome(w, c, &moved);
             memcpy(o->used, as_used, WORDS);
@@ -371,17 +377,12 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
 
 static const struct {
     what_if_column value, change;
-    what_if_key key;
-    const char *unit;
 } numbers[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE, WHAT_IF_KEY_HYSTERESIS,
-                            "1"},
-    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE, WHAT_IF_KEY_AREA_RATIO,
-                            "1"},
-    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE, WHAT_IF_KEY_FRICTION, "1"},
-    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE, WHAT_IF_KEY_THICKNESS, "m"},
-    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE, WHAT_IF_KEY_WITH_LAYER,
-                            "1"}};
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE}};
 
 static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
 {
@@ -396,78 +397,6 @@ static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
     }
     what_if_put_text(t, WHAT_IF_WHY, o->choice != NULL ? o->choice->why : "");
     what_if_put_text(t, WHAT_IF_NOTE, o->note);
-}
-
-/* The settings between which a number goes by one choice. */
-typedef struct range {
-    const outcome *low, *high;   /* of the number */
-    const outcome *first, *last; /* of the value of the choice */
-} range;
-
-static double spread(range r, size_t k)
-{
-    return r.high->number[k] - r.low->number[k];
-}
-
-static range range_of(const what_if *w, const choice *c, size_t k)
-{
-    const outcome *used = &w->outcomes[0];
-    range r = {used, used, used, used};
-    for (size_t i = 1; i < w->n; i++) {
-        const outcome *o = &w->outcomes[i];
-        if (o->choice != c || !isfinite(o->number[k]))
-            continue;
-        r.low = o->number[k] < r.low->number[k] ? o : r.low;
-        r.high = o->number[k] > r.high->number[k] ? o : r.high;
-        if (c->unit != NULL && c->value(&o->setting) < c->value(&r.first->setting))
-            r.first = o;
-        if (c->unit != NULL && c->value(&o->setting) > c->value(&r.last->setting))
-            r.last = o;
-    }
-    return r;
-}
-
-static void number_words(double value, const char *unit, char text[WORDS])
-{
-    if (unit[0] == '1')
-        short_number(value, text);
-    else if (!(value > 0))
-        snprintf(text, WORDS, "none");
-    else
-        wt_format_si(value, unit, 3, text, WORDS);
-}
-
-/* "0.08 to 0.58 if the largest wavenumber q1 lies between 2e5 and 2e7 rad/m": by the
- * choice that moves the number most. */
-static void set_range(const what_if *w, size_t k, table_writer *t)
-{
-    const choice *most = NULL;
-    range widest = {0};
-    char low[WORDS], high[WORDS], first[WORDS], last[WORDS];
-    if (!isfinite(w->outcomes[0].number[k]))
-        return;
-    for (size_t i = 0; i < COUNT_OF(choices); i++) {
-        const range r = range_of(w, &choices[i], k);
-        if (spread(r, k) > (most != NULL ? spread(widest, k) : 0)) {
-            most = &choices[i];
-            widest = r;
-        }
-    }
-    if (most == NULL)
-        return;
-    const bool is_number = most->unit != NULL;
-    number_words(widest.low->number[k], numbers[k].unit, low);
-    number_words(widest.high->number[k], numbers[k].unit, high);
-    if (strcmp(low, high) == 0)
-        return; /* such as a thickness that was observed */
-    say(most, is_number ? &widest.first->setting : &widest.low->setting, first);
-    say(most, is_number ? &widest.last->setting : &widest.high->setting, last);
-    if (is_number)
-        first[strcspn(first, " ")] = '\0'; /* the unit stands behind the other one */
-    what_if_set_print(t, numbers[k].key,
-                      is_number ? "%s to %s if the %s lies between %s and %s"
-                                : "%s to %s if the %s is %s or %s",
-                      low, high, most->words, first, last);
 }
 
 static void set_left_out(const setting *used, table_writer *t)
@@ -488,8 +417,6 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     table_writer t = table_begin(&what_if_schema, err);
     for (size_t i = 0; i < w->n; i++)
         put_outcome(w, &w->outcomes[i], &t);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
-        set_range(w, k, &t);
     set_left_out(used, &t);
     if (used->statement[0] != '\0')
         what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
@@ -514,6 +441,25 @@ static void say_cost(const what_if *w, const wt_job *work)
     cost_say(work, cost);
 }
 
+/* The series of the material over what any of the settings asks of it, before they are computed at
+ * the same time. */
+static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
+{
+    wt_sliding sliding = used->sliding;
+    wt_surface surface = used->surface;
+    drawn_values ignored;
+    for (size_t i = 0; i < w->n; i++) {
+        surface.q0 = fmin(surface.q0, w->outcomes[i].setting.surface.q0);
+        surface.q1 = fmax(surface.q1, w->outcomes[i].setting.surface.q1);
+    }
+    sliding.surface = &surface;
+    const double velocity = used->velocity, worn = used->has_layer && !isnan(used->layer.velocity)
+                                                       ? used->layer.velocity
+                                                       : velocity;
+    return drawn_values_get(w->work.drawn, &sliding, w->work.tolerance, fmin(velocity, worn),
+                            fmax(velocity, worn), &ignored, err);
+}
+
 wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
                           const wt_layer_known *known, const wt_job *work, wt_table **table,
                           wt_error *err)
@@ -527,8 +473,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     what_if w = {.work = *work};
     w.work.threads = 1; /* the settings take the threads */
     w.work.replicates = 0;
-    w.work.drawn = NULL; /* of another material */
-    w.work.log = NULL;   /* what is to be said of the values as used has been said */
+    w.work.log = NULL; /* what is to be said of the values as used has been said */
     w.work.progress = (wt_progress){0};
     w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
     if (w.outcomes == NULL)
@@ -538,11 +483,15 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
     w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
-    status = compute(&w.outcomes[0], &w.work, err);
+    status = cover_all(&w, &used, err);
+    if (status == WT_OK)
+        status = compute_outcome(&w.outcomes[0], &w.work, err);
     w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
+        drawn_hold(w.work.drawn, true);
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+        drawn_hold(w.work.drawn, false);
         if (status != WT_OK)
             wt_fail(err, status, "the choices of the model could not be tried");
     }

@@ -4,12 +4,18 @@
 #include "flow/indentation/curve_tables.h"
 
 #include "data/force_curve.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 #include "fit/indentation/curve.h"
 #include "model/hereditary.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+TABLE_ROW(force_displacement, FORCE_DISPLACEMENT, const char *group, *segment;
+          double displacement, force;)
+
+TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+          double indentation, force, fitted_force;)
 
 /* A new block of a table that is made with the first one; a failure stays in the writer. */
 static table_writer next_block(wt_table **table, const table_schema *schema, const char *group,
@@ -44,13 +50,9 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
     for (size_t i = 0; height != NULL && i < segment->n_points; i++) {
         if (!isfinite(height[i]) || !isfinite(force[i]))
             continue;
-        table_row(t);
-        force_displacement_put_text(t, FORCE_DISPLACEMENT_GROUP, t->suffix);
-        force_displacement_put_text(t, FORCE_DISPLACEMENT_SEGMENT,
-                                    wt_segment_kind_name(segment->kind));
-        force_displacement_put(t, FORCE_DISPLACEMENT_DISPLACEMENT,
-                               fit->direction * height[i] - fit->contact_point.value);
-        force_displacement_put(t, FORCE_DISPLACEMENT_FORCE, force[i] - fit->baseline_offset.value);
+        TABLE_ADD(force_displacement, t, t->suffix, wt_segment_kind_name(segment->kind),
+                  fit->direction * height[i] - fit->contact_point.value,
+                  force[i] - fit->baseline_offset.value);
     }
 }
 
@@ -145,13 +147,8 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
         goto done;
     table_writer branch =
         next_block(&tables->force_indentation, &force_indentation_schema, group, err);
-    for (size_t i = 0; i < n; i++) {
-        table_row(&branch);
-        force_indentation_put_text(&branch, FORCE_INDENTATION_GROUP, group);
-        force_indentation_put(&branch, FORCE_INDENTATION_INDENTATION, delta[i]);
-        force_indentation_put(&branch, FORCE_INDENTATION_FORCE, shown[i]);
-        force_indentation_put(&branch, FORCE_INDENTATION_FITTED_FORCE, model[i]);
-    }
+    for (size_t i = 0; i < n; i++)
+        TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
     if (retract != NULL)
         force = segment_force(retract, &curve->cantilever, scratch);
     if (retract != NULL && force != NULL)
@@ -181,61 +178,22 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
 
-static const indentation_column contact_columns[WT_CONTACT_ESTIMATORS] = {
-    [WT_CONTACT_THRESHOLD] = INDENTATION_CONTACT_THRESHOLD,
-    [WT_CONTACT_VARIANCES] = INDENTATION_CONTACT_VARIANCES,
-    [WT_CONTACT_LINES] = INDENTATION_CONTACT_LINES,
-    [WT_CONTACT_DIRECT_PATH] = INDENTATION_CONTACT_DIRECT_PATH,
-    [WT_CONTACT_GOODNESS_OF_FIT] = INDENTATION_CONTACT_GOODNESS_OF_FIT};
+TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
+          double x, y, equivalent_frequency; wt_indent_fit fit;)
 
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
                           const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)
 {
-    const bool rates = job->rates;
-    const double unknown = (double)NAN;
-    const double frequency = rates ? equivalent_frequency(job, fit) : unknown;
-    table_row(t);
-    indentation_put_text(t, INDENTATION_FILE, file);
-    indentation_put(t, INDENTATION_CURVE, (double)curve->index);
-    indentation_put_text(t, INDENTATION_SPOT, spot);
-    indentation_put(t, INDENTATION_X, curve->x);
-    indentation_put(t, INDENTATION_Y, curve->y);
-    indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
-    indentation_put_text(t, INDENTATION_REASON, fit->reason);
-    indentation_put(t, INDENTATION_MODULUS, fit->modulus.value);
-    indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
-    indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
-    indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
-    for (int i = 0; i < WT_CONTACT_ESTIMATORS; i++)
-        indentation_put(t, contact_columns[i], fit->contact_by[i]);
-    indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
-    indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
-    indentation_put(t, INDENTATION_NOISE, fit->noise);
-    indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
-    indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
-    indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
-    indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
-    indentation_put(t, INDENTATION_INTERFERENCE_AMPLITUDE, fit->interference_amplitude);
-    indentation_put(t, INDENTATION_INTERFERENCE_PERIOD, fit->interference_period);
-    indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
-    indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
-    indentation_put(t, INDENTATION_FITTED_FROM, fit->fitted_from);
-    indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
-    indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
-    indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,
-                    fit->work_of_adhesion.standard_error);
-    indentation_put(t, INDENTATION_PULL_OFF_FORCE, fit->pull_off_force);
-    indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
-    indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
-    indentation_put(t, INDENTATION_LOSS, fit->loss);
-    indentation_put(t, INDENTATION_LOSS_BIAS, fit->loss_bias);
-    indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
-    indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
-    indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
-    indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
-    indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
-    indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
-    indentation_put(t, INDENTATION_SPECTRUM_FACTOR, fit->spectrum_factor.value);
-    indentation_put(t, INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR,
-                    fit->spectrum_factor.standard_error);
+    indentation_row row = {.file = file,
+                           .spot = spot,
+                           .verdict = wt_curve_verdict_id(fit->verdict),
+                           .curve = curve->index,
+                           .x = curve->x,
+                           .y = curve->y,
+                           .equivalent_frequency = equivalent_frequency(job, fit),
+                           .fit = *fit};
+    if (!job->rates)
+        row.equivalent_frequency = row.fit.piezo_rate = row.fit.indentation_rate =
+            row.fit.load_time = (double)NAN;
+    indentation_add_row(t, &row);
 }

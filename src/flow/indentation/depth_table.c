@@ -2,10 +2,16 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/clocale.h"
 #include "base/number.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 #include "flow/indentation/curve_tables.h"
 
 #include <math.h>
+
+TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_interval modulus;
+          size_t n, n_units;)
+
+TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
+           double chance, misfit_chance;)
 
 typedef struct depth_words {
     char text[48];
@@ -100,7 +106,7 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, cons
                                wt_error *err)
 {
     table_writer t = {0};
-    char text[640];
+    char text[320], reading[640];
     if (tables->modulus_depth == NULL) {
         t = table_begin(&modulus_depth_schema, err);
         if (table_end(&t, &tables->modulus_depth) != WT_OK)
@@ -109,26 +115,17 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, cons
     t = table_continue(tables->modulus_depth, &modulus_depth_schema, group, err);
     table_block(&t);
     say_change(d, text);
-    modulus_depth_set_text(&t, MODULUS_DEPTH_KEY_CHANGES, text);
+    modulus_depth_keys keys = {text, NULL, d->change, (double)NAN, (double)NAN};
     if (d->verdict == WT_DEPTH_CHANGES) {
-        say_reading(d, text);
-        modulus_depth_set_text(&t, MODULUS_DEPTH_KEY_READING, text);
+        say_reading(d, reading);
+        keys.reading = reading;
     }
     if (!isnan(d->change.value)) {
-        modulus_depth_set_value(&t, MODULUS_DEPTH_KEY_RATIO, d->change.value,
-                                d->change.standard_error, 0);
-        modulus_depth_set_print(&t, MODULUS_DEPTH_KEY_CHANCE, "%.3g", d->chance);
-        modulus_depth_set_print(&t, MODULUS_DEPTH_KEY_MISFIT_CHANCE, "%.3g", d->misfit_chance);
+        keys.chance = d->chance;
+        keys.misfit_chance = d->misfit_chance;
     }
-    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++) {
-        table_row(&t);
-        modulus_depth_put_text(&t, MODULUS_DEPTH_GROUP, group);
-        modulus_depth_put(&t, MODULUS_DEPTH_DEPTH, d->depth[i]);
-        modulus_depth_put(&t, MODULUS_DEPTH_MODULUS, d->modulus[i].value);
-        modulus_depth_put(&t, MODULUS_DEPTH_LOW, d->modulus[i].low);
-        modulus_depth_put(&t, MODULUS_DEPTH_HIGH, d->modulus[i].high);
-        modulus_depth_put(&t, MODULUS_DEPTH_N, (double)d->n);
-        modulus_depth_put(&t, MODULUS_DEPTH_UNITS, (double)d->n_units);
-    }
+    modulus_depth_set_keys(&t, &keys);
+    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
+        TABLE_ADD(modulus_depth, &t, group, d->depth[i], d->modulus[i], d->n, d->n_units);
     return table_end(&t, NULL);
 }

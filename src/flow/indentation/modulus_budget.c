@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "data/tables/rows.h"
 #include "fit/students_t.h"
 
 #include <math.h>
@@ -19,6 +20,11 @@ typedef struct part {
     wt_estimate gain;
     bool applies;
 } part;
+
+TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group, *kind; double share; part part;)
+
+TABLE_KEYS(modulus_budget, MODULUS_BUDGET, wt_estimate modulus; double df, low, high;
+           const char *says;)
 
 typedef struct budget {
     part part[PARTS];
@@ -78,17 +84,6 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
     return WT_OK;
 }
 
-static void row(table_writer *t, const char *group, const char *source, const char *kind,
-                double error, double share)
-{
-    table_row(t);
-    modulus_budget_put_text(t, MODULUS_BUDGET_GROUP, group);
-    modulus_budget_put_text(t, MODULUS_BUDGET_SOURCE, source);
-    modulus_budget_put_text(t, MODULUS_BUDGET_KIND, kind);
-    modulus_budget_put(t, MODULUS_BUDGET_RELATIVE_ERROR, error);
-    modulus_budget_put(t, MODULUS_BUDGET_SHARE, share);
-}
-
 static double share_of(const budget *b, double error)
 {
     return error / b->all.error * (error / b->all.error);
@@ -96,19 +91,17 @@ static double share_of(const budget *b, double error)
 
 static void put_rows(table_writer *t, const char *group, const budget *b)
 {
-    for (int i = 0; i < PARTS; i++) {
-        const part *p = &b->part[i];
-        if (!p->applies)
-            continue;
-        row(t, group, p->words, i == SCATTER ? "scatter" : "shared", p->error,
-            share_of(b, p->error));
-        modulus_budget_put(t, MODULUS_BUDGET_SOURCE_ERROR, p->source_error);
-        modulus_budget_put(t, MODULUS_BUDGET_GAIN, p->gain.value);
-        modulus_budget_put(t, MODULUS_BUDGET_GAIN_STANDARD_ERROR, p->gain.standard_error);
-    }
-    row(t, group, "all that is stated", "together", b->all.error, share_of(b, b->all.error));
-    row(t, group, "one spot", "beside", b->spots, (double)NAN);
-    row(t, group, "one curve", "beside", b->curves, (double)NAN);
+    const wt_estimate none = {(double)NAN, (double)NAN, 0, NULL};
+    const part all = {"all that is stated", (double)NAN, b->all.error, none, true},
+               spot = {"one spot", (double)NAN, b->spots, none, true},
+               curve = {"one curve", (double)NAN, b->curves, none, true};
+    for (int i = 0; i < PARTS; i++)
+        if (b->part[i].applies)
+            TABLE_ADD(modulus_budget, t, group, i == SCATTER ? "scatter" : "shared",
+                      share_of(b, b->part[i].error), b->part[i]);
+    TABLE_ADD(modulus_budget, t, group, "together", share_of(b, b->all.error), all);
+    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, spot);
+    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, curve);
 }
 
 /* ---- in words -------------------------------------------------------------------------------- */
@@ -186,15 +179,10 @@ static void add_group(table_writer *t, const char *name, const wt_group_data *d)
     table_block(t);
     put_rows(t, name, &b);
     const double e = b.group.geometric_mean, reach = students_t_quantile(b.all.df) * b.all.error;
-    modulus_budget_set_value(t, MODULUS_BUDGET_KEY_MODULUS, e, e * b.all.error, 0);
-    if (!isnan(b.all.error)) {
-        if (isfinite(b.all.df))
-            modulus_budget_set_value(t, MODULUS_BUDGET_KEY_DF, b.all.df, 0, 0);
-        modulus_budget_set_value(t, MODULUS_BUDGET_KEY_LOW, e * exp(-reach), 0, 0);
-        modulus_budget_set_value(t, MODULUS_BUDGET_KEY_HIGH, e * exp(reach), 0, 0);
-    }
+    const bool bounded = !isnan(b.all.error) && isfinite(b.all.df);
     say(name, &b, text, sizeof text);
-    modulus_budget_set_text(t, MODULUS_BUDGET_KEY_SAYS, text);
+    TABLE_SET(modulus_budget, t, {e, e * b.all.error, 0, NULL}, bounded ? b.all.df : (double)NAN,
+              e * exp(-reach), e * exp(reach), text);
 }
 
 static bool states_any(const wt_group_data *d)

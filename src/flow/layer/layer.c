@@ -8,7 +8,8 @@
 #include "flow/work/draws.h"
 #include "kernel/params.h"
 
-#include "data/tables/tables.h"
+#include "base/clocale.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -182,7 +183,7 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     return status;
 }
 
-static wt_status follow(const layer_task *task, layer_run *run, wt_error *err)
+static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_error *err)
 {
     run->points = malloc((task->n + 1) * sizeof *run->points);
     if (run->points == NULL)
@@ -202,7 +203,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     layer_run run = {.points = NULL};
     wt_status status = find_balance(task, i, &run, err);
     if (status == WT_OK)
-        status = follow(task, &run, err);
+        status = follow_thickness(task, &run, err);
     if (status == WT_OK) {
         wt_estimate number[N_NUMBERS];
         put_numbers(&run, number);
@@ -217,8 +218,9 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-/* The times that are chosen: so many, from half the first scale to the span of the last. A scale
- * that is not there is so far from the other one. */
+/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
+ * of the last, where all is over. A scale that is not there is so far from the other one. Which
+ * times are told changes none of their numbers. */
 #define TIMES 61
 #define TIME_SPAN 100
 #define SHORT_OF_LAST 1e-3
@@ -302,34 +304,38 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
     }
 }
 
+TABLE_ROW_OF(layer, LAYER, wt_layer_point)
+
+TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
+           double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
+           char softening[256], numerical[512];)
+
 static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
     const wt_layer_job *job = task->job;
     const bool calibrated = isnan(job->critical_energy.value);
-    set_numbers(task, run, t);
-    layer_set_text(t, LAYER_KEY_REGIME, regime_name(run->balance.regime));
-    layer_set_value(t, LAYER_KEY_VELOCITY, task->velocity, 0, 0);
-    layer_set(t, LAYER_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
-    layer_set(t, LAYER_KEY_WEAR_RATE, flow_as_stated(job->specific_wear_rate));
-    if (calibrated)
-        layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, flow_as_stated(job->observed_thickness));
-    layer_set_text(t, LAYER_KEY_CRITICAL_ENERGY_FROM,
-                   calibrated ? "calibrated: makes the observed thickness the balance" : "given");
-    layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);
-    layer_set_print(t, LAYER_KEY_DUTY, "%g", job->duty);
-    layer_set_text(t, LAYER_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
-    if (task->replicates.lacks[0] != '\0')
-        layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->replicates.lacks);
-    if (run->statement[0] != '\0')
-        layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, run->statement);
-    if (task->sliding->softness != NULL) {
-        char words[256];
-        softness_describe(task->sliding->softness, words, sizeof words);
-        layer_set_text(t, LAYER_KEY_SOFTENING, words);
-    }
+    layer_keys keys = {.regime = regime_name(run->balance.regime),
+                       .critical_energy_from =
+                           calibrated ? "calibrated: makes the observed thickness the balance"
+                                      : "given",
+                       .includes = replicates_include(&task->replicates),
+                       .lacks = task->replicates.lacks,
+                       .statement = run->statement,
+                       .velocity = task->velocity,
+                       .damage = job->damage,
+                       .duty = job->duty,
+                       .pressure = flow_as_stated(task->sliding->pressure),
+                       .wear_rate = flow_as_stated(job->specific_wear_rate),
+                       .observed = flow_as_stated(job->observed_thickness)};
+    if (!calibrated)
+        keys.observed.value = (double)NAN;
+    if (task->sliding->softness != NULL)
+        softness_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
     if (run->source.numerical_error > task->work->tolerance)
-        layer_set_print(t, LAYER_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
-                        task->work->tolerance, run->source.numerical_error);
+        clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
+                      task->work->tolerance, run->source.numerical_error);
+    set_numbers(task, run, t);
+    layer_set_keys(t, &keys);
 }
 
 static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,
@@ -337,14 +343,9 @@ static wt_status layer_table(const layer_task *task, const layer_run *run, wt_ta
 {
     table_writer t = table_begin(&layer_schema, err);
     for (size_t i = 0; i < task->n; i++) {
-        const wt_layer_point *p = &run->points[i];
-        table_row(&t);
-        layer_put(&t, LAYER_TIME, p->time);
-        layer_put(&t, LAYER_THICKNESS, p->thickness.value);
-        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, task->replicates.error[N_NUMBERS + i]);
-        layer_put(&t, LAYER_THICKNESS_NUMERICAL_ERROR, p->thickness.numerical_error);
-        layer_put(&t, LAYER_FORMATION_RATE, p->formation_rate);
-        layer_put(&t, LAYER_WEAR_RATE, p->wear_rate);
+        layer_row row = run->points[i];
+        row.thickness.standard_error = task->replicates.error[N_NUMBERS + i];
+        layer_add_row(&t, &row);
     }
     set_keys(task, run, &t);
     return table_end(&t, out);
@@ -374,7 +375,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     if (status == WT_OK)
         status = choose_times(&task, &centre.balance, err);
     if (status == WT_OK)
-        status = follow(&task, &centre, err);
+        status = follow_thickness(&task, &centre, err);
     if (status == WT_OK)
         status = draw_replicates(&task, err);
     if (status == WT_OK)

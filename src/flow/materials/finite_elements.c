@@ -61,8 +61,8 @@ typedef struct solid {
     double *level, *factor; /* temperature, and what the moduli are multiplied by there */
 } solid;
 
-static void say(solid *s, const char *format, ...) WT_PRINTF(2, 3);
-static void say(solid *s, const char *format, ...)
+static void print_solid(solid *s, const char *format, ...) WT_PRINTF(2, 3);
+static void print_solid(solid *s, const char *format, ...)
 {
     va_list list;
     const locale_t before = clocale_enter();
@@ -153,23 +153,27 @@ static void say_law(solid *s)
     const wt_shift_law *law = &s->rubber.law;
     const double zero = s->zero;
     if (!s->shifts) {
-        say(s, "%sNo law of the shifts: for the reference temperature alone.\n", s->comment);
+        print_solid(s, "%sNo law of the shifts: for the reference temperature alone.\n",
+                    s->comment);
         return;
     }
-    say(s,
+    print_solid(
+        s,
         "%sShift: log10 aT = -C1 (T - T0)/(C2 + T - T0), relaxation times are multiplied by aT.\n",
         s->comment);
     if (law->kind == WT_LAW_ARRHENIUS)
-        say(s, "%sThis is the Arrhenius law, %.6g kJ/mol, to which C2 = T0 in kelvin makes it.\n",
+        print_solid(
+            s, "%sThis is the Arrhenius law, %.6g kJ/mol, to which C2 = T0 in kelvin makes it.\n",
             s->comment, law->activation_energy / 1000);
     if (law->kind == WT_LAW_JOINED)
-        say(s, "%sOnly %s %.6g: on the other side the law that was found is another.\n", s->comment,
-            s->reference + zero < law->joint ? "below" : "above", law->joint - zero);
-    say(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
-        s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
+        print_solid(s, "%sOnly %s %.6g: on the other side the law that was found is another.\n",
+                    s->comment, s->reference + zero < law->joint ? "below" : "above",
+                    law->joint - zero);
+    print_solid(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
+                s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
 }
 
-static double percent(const table_view *series, prony_reduced_key key)
+static double deviation_percent(const table_view *series, prony_reduced_key key)
 {
     const char *words = prony_reduced_words(series, key);
     double share = (double)NAN;
@@ -182,45 +186,51 @@ static void say_series(solid *s)
 {
     const table_view *v = &s->series;
     const wt_prony *p = &s->rubber.prony;
-    say(s, "%sProny series of %zu terms from a dynamic mechanical analysis in %s, weartrack %s\n",
+    print_solid(
+        s, "%sProny series of %zu terms from a dynamic mechanical analysis in %s, weartrack %s\n",
         s->comment, p->n, flow_deformation_name(p->deformation), wt_version());
-    say(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->system->words,
-        s->zero > 0 ? "degrees Celsius" : "kelvin");
-    say(s,
+    print_solid(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->system->words,
+                s->zero > 0 ? "degrees Celsius" : "kelvin");
+    print_solid(
+        s,
         "%sReference temperature %.10g. Young's modulus %.6g at once, %.6g in the end; shear "
         "modulus %.6g, %.6g.\n",
         s->comment, s->reference, s->instant, s->long_term, shear_of(s, s->instant),
         shear_of(s, s->long_term));
     if (s->incompressible)
-        say(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
+        print_solid(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
     else
-        say(s,
+        print_solid(
+            s,
             "%sPoisson's ratio %.6g at all times, so that bulk and shear modulus relax alike; "
             "bulk modulus %.6g, %.6g.\n",
             s->comment, s->nu, bulk_of(s, s->instant), bulk_of(s, s->long_term));
-    say(s,
+    print_solid(
+        s,
         "%sHolds for times from %.3g to %.3g at the reference temperature; what is faster or "
         "slower was not measured.\n",
         s->comment, 1 / p->frequency_max / s->system->time, 1 / p->frequency_min / s->system->time);
-    say(s,
+    print_solid(
+        s,
         "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "
         "fitted; "
         "half of\n%stheir own 95 %% intervals where they are widest: %.2g %% and %.2g %%.\n",
-        s->comment, percent(v, PRONY_REDUCED_KEY_DEVIATION_STORAGE),
-        percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
-        percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
-        percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
+        s->comment, deviation_percent(v, PRONY_REDUCED_KEY_DEVIATION_STORAGE),
+        deviation_percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
+        deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
+        deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
     say_law(s);
     if (s->n_levels > 1)
-        say(s, "%sThe moduli at each isotherm have its vertical shift in them.\n", s->comment);
+        print_solid(s, "%sThe moduli at each isotherm have its vertical shift in them.\n",
+                    s->comment);
     if (!(s->long_term > 0))
-        say(s, "%sNo long-term modulus: the material flows, and the shares add up to 1.\n",
-            s->comment);
+        print_solid(s, "%sNo long-term modulus: the material flows, and the shares add up to 1.\n",
+                    s->comment);
 }
 
 /* ---- the programs ---------------------------------------------------------------------------- */
 
-static double share(const solid *s, size_t i)
+static double term_share(const solid *s, size_t i)
 {
     return s->rubber.prony.modulus[i] / s->instant;
 }
@@ -228,43 +238,43 @@ static double share(const solid *s, size_t i)
 static void write_abaqus(solid *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    say(s, "*MATERIAL, NAME=RUBBER\n");
+    print_solid(s, "*MATERIAL, NAME=RUBBER\n");
     if (s->incompressible) {
-        say(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
-        say(s, "*HYPERELASTIC, NEO HOOKE, MODULI=INSTANTANEOUS\n");
+        print_solid(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
+        print_solid(s, "*HYPERELASTIC, NEO HOOKE, MODULI=INSTANTANEOUS\n");
     } else {
-        say(s, "*ELASTIC, MODULI=INSTANTANEOUS\n");
+        print_solid(s, "*ELASTIC, MODULI=INSTANTANEOUS\n");
     }
     for (size_t i = 0; i < s->n_levels; i++) {
         const double young = s->instant * s->factor[i];
         if (s->incompressible)
-            say(s, "%.12g, 0.", shear_of(s, young) / 2);
+            print_solid(s, "%.12g, 0.", shear_of(s, young) / 2);
         else
-            say(s, "%.12g, %.12g", young, s->nu);
+            print_solid(s, "%.12g, %.12g", young, s->nu);
         if (s->n_levels > 1)
-            say(s, ", %.10g", s->level[i]);
-        say(s, "\n");
+            print_solid(s, ", %.10g", s->level[i]);
+        print_solid(s, "\n");
     }
-    say(s, "*VISCOELASTIC, TIME=PRONY\n");
+    print_solid(s, "*VISCOELASTIC, TIME=PRONY\n");
     for (size_t i = 0; i < p->n; i++)
-        say(s, "%.12g, %.12g, %.12g\n", share(s, i), s->incompressible ? 0 : share(s, i),
-            p->relaxation_time[i]);
+        print_solid(s, "%.12g, %.12g, %.12g\n", term_share(s, i),
+                    s->incompressible ? 0 : term_share(s, i), p->relaxation_time[i]);
     if (s->shifts)
-        say(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
+        print_solid(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
 }
 
-enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 };
+enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* of one of its lines */
 
 static void ansys_prony(solid *s, const char *what)
 {
     const wt_prony *p = &s->rubber.prony;
-    say(s, "TB,PRONY,RUBBER,1,%zu,%s\n", p->n, what);
+    print_solid(s, "TB,PRONY,RUBBER,1,%zu,%s\n", p->n, what);
     for (size_t i = 0; i < p->n; i++) {
         if (i % ANSYS_PAIRS == 0)
-            say(s, "TBDATA,%zu", 2 * i + 1);
-        say(s, ",%.12g,%.12g", share(s, i), p->relaxation_time[i]);
+            print_solid(s, "TBDATA,%zu", 2 * i + 1);
+        print_solid(s, ",%.12g,%.12g", term_share(s, i), p->relaxation_time[i]);
         if ((i + 1) % ANSYS_PAIRS == 0 || i + 1 == p->n)
-            say(s, "\n");
+            print_solid(s, "\n");
     }
 }
 
@@ -272,40 +282,42 @@ static void ansys_prony(solid *s, const char *what)
 static void ansys_row(solid *s, const char *command, const double *value, double scale, size_t i)
 {
     const size_t last = s->n_levels - i < ANSYS_TEMPERATURES ? s->n_levels : i + ANSYS_TEMPERATURES;
-    say(s, "%s%zu", command, i + 1);
+    print_solid(s, "%s%zu", command, i + 1);
     for (size_t k = i; k < last; k++)
-        say(s, ",%.10g", scale * value[k]);
-    say(s, "\n");
+        print_solid(s, ",%.10g", scale * value[k]);
+    print_solid(s, "\n");
 }
 
 static void write_ansys(solid *s)
 {
-    say(s, "RUBBER=1 ! number of the material\n");
+    print_solid(s, "RUBBER=1 ! number of the material\n");
     if (s->incompressible) {
-        say(s, "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
-        say(s, "TB,HYPER,RUBBER,%zu,2,NEO\n", s->n_levels);
+        print_solid(s,
+                    "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
+        print_solid(s, "TB,HYPER,RUBBER,%zu,2,NEO\n", s->n_levels);
         for (size_t i = 0; i < s->n_levels; i++) {
             if (s->n_levels > 1)
-                say(s, "TBTEMP,%.10g\n", s->level[i]);
-            say(s, "TBDATA,1,%.12g,0\n", shear_of(s, s->instant * s->factor[i]));
+                print_solid(s, "TBTEMP,%.10g\n", s->level[i]);
+            print_solid(s, "TBDATA,1,%.12g,0\n", shear_of(s, s->instant * s->factor[i]));
         }
     } else if (s->n_levels == 1) {
-        say(s, "MP,EX,RUBBER,%.12g\nMP,PRXY,RUBBER,%.12g\n", s->instant, s->nu);
+        print_solid(s, "MP,EX,RUBBER,%.12g\nMP,PRXY,RUBBER,%.12g\n", s->instant, s->nu);
     } else {
-        say(s, "MPTEMP\n");
+        print_solid(s, "MPTEMP\n");
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
             ansys_row(s, "MPTEMP,", s->level, 1, i);
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
             ansys_row(s, "MPDATA,EX,RUBBER,", s->factor, s->instant, i);
-        say(s, "MP,PRXY,RUBBER,%.12g\n", s->nu);
+        print_solid(s, "MP,PRXY,RUBBER,%.12g\n", s->nu);
     }
     ansys_prony(s, "SHEAR");
     if (!s->incompressible)
         ansys_prony(s, "BULK");
     if (!s->shifts)
         return;
-    say(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
-    say(s, "TB,SHIFT,RUBBER,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->reference, s->c1, s->c2);
+    print_solid(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
+    print_solid(s, "TB,SHIFT,RUBBER,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->reference, s->c1,
+                s->c2);
 }
 
 /* The stress of a term relaxes by its own Hooke's law: exact for strain at a constant rate within a
@@ -339,9 +351,10 @@ static const char mfront_integrator[] =
 static void write_code_aster(solid *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    say(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
-    say(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n, s->n_levels);
-    say(s,
+    print_solid(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
+    print_solid(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n, s->n_levels);
+    print_solid(
+        s,
         "@MaterialProperty real Nu;\n@MaterialProperty stress El;\n"
         "@MaterialProperty stress Ei[%zu];\n@MaterialProperty real Tau[%zu];\n"
         "@MaterialProperty real T0;\n@MaterialProperty real C1;\n@MaterialProperty real C2;\n"
@@ -349,42 +362,45 @@ static void write_code_aster(solid *s)
         "@AuxiliaryStateVariable StressStensor Si[%zu];\n"
         "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n",
         p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator);
-    say(s, "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
-    say(s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
-    say(s,
+    print_solid(s, "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
+    print_solid(s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
+    print_solid(
+        s,
         "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
-    say(s,
-        "RUBBER = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g),\n    MFRONT=_F(\n"
-        "        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
-        s->instant, s->nu, s->nu, s->long_term);
+    print_solid(s,
+                "RUBBER = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g),\n    MFRONT=_F(\n"
+                "        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
+                s->instant, s->nu, s->nu, s->long_term);
     for (size_t i = 0; i < p->n; i++)
-        say(s, "            %.12g,\n", p->modulus[i]);
+        print_solid(s, "            %.12g,\n", p->modulus[i]);
     for (size_t i = 0; i < p->n; i++)
-        say(s, "            %.12g,\n", p->relaxation_time[i]);
-    say(s, "            %.12g,\n            %.12g,\n            %.12g,\n", s->reference,
-        s->shifts ? s->c1 : 0, s->shifts ? s->c2 : 1e9);
+        print_solid(s, "            %.12g,\n", p->relaxation_time[i]);
+    print_solid(s, "            %.12g,\n            %.12g,\n            %.12g,\n", s->reference,
+                s->shifts ? s->c1 : 0, s->shifts ? s->c2 : 1e9);
     for (size_t i = 0; i < s->n_levels; i++)
-        say(s, "            %.10g,\n", s->level[i]);
+        print_solid(s, "            %.10g,\n", s->level[i]);
     for (size_t i = 0; i < s->n_levels; i++)
-        say(s, "            %.12g,\n", log10(s->factor[i]));
-    say(s, "        )\n    ),\n)\n");
+        print_solid(s, "            %.12g,\n", log10(s->factor[i]));
+    print_solid(s, "        )\n    ),\n)\n");
 }
 
 static void write_table(solid *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    say(s, "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
-        s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
-    say(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
+    print_solid(s,
+                "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
+                s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
+    print_solid(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
     if (s->shifts)
-        say(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment, s->c2);
+        print_solid(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment, s->c2);
     for (size_t i = 0; s->n_levels > 1 && i < s->n_levels; i++)
-        say(s, "%sfactor of the moduli at %.10g: %.12g\n", s->comment, s->level[i], s->factor[i]);
-    say(s, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus\n");
+        print_solid(s, "%sfactor of the moduli at %.10g: %.12g\n", s->comment, s->level[i],
+                    s->factor[i]);
+    print_solid(s, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus\n");
     for (size_t i = 0; i < p->n; i++) {
-        const double e = p->modulus[i], k = s->incompressible ? 0 : share(s, i);
-        say(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i], share(s, i), k,
-            e, shear_of(s, e), bulk_of(s, e));
+        const double e = p->modulus[i], k = s->incompressible ? 0 : term_share(s, i);
+        print_solid(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i],
+                    term_share(s, i), k, e, shear_of(s, e), bulk_of(s, e));
     }
 }
 

@@ -6,17 +6,22 @@
 
 #include "base/clocale.h"
 #include "base/normal.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { Q = MATERIALS_QUANTITIES, PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
+enum { Q = MATERIALS_QUANTITIES };
+/* Places where two are compared: six in the width of a relaxation time, 1.14 decades, for 50
+ * decades, and as many temperatures as a figure shows well. More find no difference that is wider.
+ */
+enum { PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
 
-/* A material without a shift law is that of its reference up to this far [K]. */
+/* A material without a shift law is that of its reference up to this far [K]: a chamber holds its
+ * temperature no better. */
 static const double same_temperature = 1;
-static const double ten_hertz = 20 * M_PI;
+static const double ten_hertz = 20 * M_PI; /* [rad/s], of what is told in one number */
 
 wt_materials_job wt_materials_job_defaults(void)
 {
@@ -53,12 +58,12 @@ typedef struct range {
     double low, high;
 } range;
 
-static range common(range a, range b)
+static range common_range(range a, range b)
 {
     return (range){fmax(a.low, b.low), fmin(a.high, b.high)};
 }
 
-static bool holds(range r, double x)
+static bool range_holds(range r, double x)
 {
     return x >= r.low && x <= r.high;
 }
@@ -122,15 +127,15 @@ static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_er
             wt_error_advice(err, "--temperature says it");
             return WT_E_MISSING;
         }
-        s->temperature = common(s->temperature, temperatures_of(m->rubber));
+        s->temperature = common_range(s->temperature, temperatures_of(m->rubber));
     }
     const range r = s->temperature;
     if (!(r.low <= r.high))
         return no_common_temperature(job, err);
-    s->at_temperature = !isnan(job->temperature) ? job->temperature
-                        : holds(r, reference)    ? reference
-                                                 : (r.low + r.high) / 2;
-    if (holds(r, s->at_temperature))
+    s->at_temperature = !isnan(job->temperature)    ? job->temperature
+                        : range_holds(r, reference) ? reference
+                                                    : (r.low + r.high) / 2;
+    if (range_holds(r, s->at_temperature))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "not all materials were measured at the at-temperature");
     wt_error_expected(err, "%.1f to %.1f °C", r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
@@ -197,7 +202,7 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
             if (status != WT_OK)
                 return status;
         }
-        if (holds(common(own[0], own[1]), frequency))
+        if (range_holds(common_range(own[0], own[1]), frequency))
             place[(*n)++] = (material_place){t, frequency};
     }
     return WT_OK;
@@ -232,15 +237,21 @@ static wt_status find_beside(const wt_compared *m, double sample_error, material
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* A value and its interval: three columns. */
-#define PUT_INTERVAL(table, t, COLUMN, ln, error)                                                  \
-    do {                                                                                           \
-        table##_put(t, COLUMN, exp(ln));                                                           \
-        if (!isnan(error)) {                                                                       \
-            table##_put(t, COLUMN##_LOW, exp((ln)-NORMAL_95 *(error)));                            \
-            table##_put(t, COLUMN##_HIGH, exp((ln) + NORMAL_95 * (error)));                        \
-        }                                                                                          \
-    } while (0)
+TABLE_ROW(materials, MATERIALS, const char *material; double angular_frequency;
+          wt_interval storage, loss, factor;)
+
+TABLE_ROW(material_ratio, MATERIAL_RATIO, const char *material, *over;
+          double temperature, angular_frequency; wt_interval storage, loss, factor;)
+
+TABLE_KEYS(material_ratio, MATERIAL_RATIO, const char *differs, *settled_by, *first_material,
+           *outside;
+           double temperature, angular_frequency, margin; char includes[160], lacks[160];)
+
+static wt_interval interval_of(double ln, double error)
+{
+    return (wt_interval){exp(ln), (double)NAN, exp(ln - NORMAL_95 * error),
+                         exp(ln + NORMAL_95 * error)};
+}
 
 static wt_status add_material(const wt_compared *m, const material_beside *beside,
                               double temperature, const wt_job *work, table_writer *t,
@@ -257,12 +268,10 @@ static wt_status add_material(const wt_compared *m, const material_beside *besid
     table_block(t);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const double *x = v.value + i * Q, *e = v.error + i * Q;
-        table_row(t);
-        materials_put_text(t, MATERIALS_MATERIAL, m->name);
-        materials_put(t, MATERIALS_ANGULAR_FREQUENCY, place[i].frequency);
-        PUT_INTERVAL(materials, t, MATERIALS_STORAGE, x[MATERIALS_E1], e[MATERIALS_E1]);
-        PUT_INTERVAL(materials, t, MATERIALS_LOSS, x[MATERIALS_E2], e[MATERIALS_E2]);
-        PUT_INTERVAL(materials, t, MATERIALS_FACTOR, x[MATERIALS_TAN], e[MATERIALS_TAN]);
+        TABLE_ADD(materials, t, m->name, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
     material_values_clear(&v);
     return status;
@@ -276,14 +285,10 @@ static void put_ratios(table_writer *t, const char *name, const char *over,
         table_block(t);
     for (size_t i = first; i < last; i++) {
         const double *x = r->value + i * Q, *e = r->error + i * Q;
-        table_row(t);
-        material_ratio_put_text(t, MATERIAL_RATIO_MATERIAL, name);
-        material_ratio_put_text(t, MATERIAL_RATIO_OVER, over);
-        material_ratio_put(t, MATERIAL_RATIO_TEMPERATURE, place[i].temperature);
-        material_ratio_put(t, MATERIAL_RATIO_ANGULAR_FREQUENCY, place[i].frequency);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_STORAGE, x[MATERIALS_E1], e[MATERIALS_E1]);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_LOSS, x[MATERIALS_E2], e[MATERIALS_E2]);
-        PUT_INTERVAL(material_ratio, t, MATERIAL_RATIO_FACTOR, x[MATERIALS_TAN], e[MATERIALS_TAN]);
+        TABLE_ADD(material_ratio, t, name, over, place[i].temperature, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
 }
 
@@ -348,12 +353,13 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
         status = frequencies_of(pair[k].rubber, s->at_temperature, &own[k], err);
     if (status != WT_OK)
         return status;
-    const range shared = common(own[0], own[1]);
+    const range shared = common_range(own[0], own[1]);
     if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
         return no_common_frequency(pair, own, s->at_temperature, err);
     const size_t n = over_frequency(shared, s->at_temperature, place);
     if (isnan(s->at_frequency))
-        s->at_frequency = holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+        s->at_frequency =
+            range_holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
     status = over_temperature(pair, s, s->at_frequency, place + n, &n_temperatures, err);
     if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
         status = no_such_frequency(pair, own, s, err);
@@ -382,26 +388,27 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
 static void set_keys(const wt_materials_job *job, const setting *s, const sayings *words,
                      table_writer *t)
 {
-    material_ratio_set_text(t, MATERIAL_RATIO_KEY_DIFFERS, words->differs);
-    if (words->settled_by[0] != '\0')
-        material_ratio_set_text(t, MATERIAL_RATIO_KEY_SETTLED_BY, words->settled_by);
-    material_ratio_set_text(t, MATERIAL_RATIO_KEY_FIRST, job->materials[0].name);
-    material_ratio_set_value(t, MATERIAL_RATIO_KEY_TEMPERATURE, s->at_temperature, 0, 0);
-    material_ratio_set_value(t, MATERIAL_RATIO_KEY_FREQUENCY, s->at_frequency, 0, 0);
+    material_ratio_keys keys = {words->differs,
+                                words->settled_by,
+                                job->materials[0].name,
+                                words->outside,
+                                s->at_temperature,
+                                s->at_frequency,
+                                job->margin,
+                                "",
+                                ""};
+    const bool sizes = job->sample_error > 0;
     if (words->known) {
-        material_ratio_set_print(t, MATERIAL_RATIO_KEY_INCLUDES,
-                                 "noise of the isotherms, shifts and their law%s%s",
-                                 words->misfit ? ", misfit of superposition" : "",
-                                 job->sample_error > 0 ? ", dimensions of the samples" : "");
-        material_ratio_set_print(
-            t, MATERIAL_RATIO_KEY_LACKS, "other samples of the same materials%s",
-            job->sample_error > 0 ? ""
-                                  : "; dimensions of these (sample-error), which do not act on "
-                                    "tan delta");
+        clocale_print(keys.includes, sizeof keys.includes,
+                      "noise of the isotherms, shifts and their law%s%s",
+                      words->misfit ? ", misfit of superposition" : "",
+                      sizes ? ", dimensions of the samples" : "");
+        clocale_print(keys.lacks, sizeof keys.lacks, "other samples of the same materials%s",
+                      sizes ? ""
+                            : "; dimensions of these (sample-error), which do not act on "
+                              "tan delta");
     }
-    if (words->outside[0] != '\0')
-        material_ratio_set_text(t, MATERIAL_RATIO_KEY_OUTSIDE, words->outside);
-    material_ratio_set_print(t, MATERIAL_RATIO_KEY_MARGIN, "%g", job->margin);
+    material_ratio_set_keys(t, &keys);
 }
 
 static void warn_deformation(const wt_materials_job *job, const wt_job *work)

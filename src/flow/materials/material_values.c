@@ -18,8 +18,8 @@ void material_values_clear(material_values *v)
 }
 
 /* Places of one temperature follow one another: they are asked of one material. */
-static wt_status ask(const wt_rubber *rubber, const material_place *place, size_t n, uint64_t seed,
-                     size_t replicate, double *value, wt_error *err)
+static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *place, size_t n,
+                                uint64_t seed, size_t replicate, double *value, wt_error *err)
 {
     double *omega = malloc((3 * n + 1) * sizeof *omega);
     if (omega == NULL)
@@ -47,7 +47,7 @@ static wt_status ask(const wt_rubber *rubber, const material_place *place, size_
 }
 
 /* About their mean, and what they scatter by. */
-static void centre(material_values *v)
+static void centre_draws(material_values *v)
 {
     const size_t m = v->n * Q;
     for (size_t k = 0; k < m; k++) {
@@ -73,13 +73,13 @@ wt_status material_values_make(const wt_rubber *rubber, const material_beside *b
     if (v->value == NULL || v->draw == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     v->error = v->value + m;
-    wt_status status = ask(rubber, place, n, work->seed, WT_NO_REPLICATE, v->value, err);
+    wt_status status = moduli_of_draw(rubber, place, n, work->seed, WT_NO_REPLICATE, v->value, err);
     for (size_t d = 0; status == WT_OK && d < v->n_draws; d++)
-        status = ask(rubber, place, n, work->seed, d, v->draw + d * m, err);
+        status = moduli_of_draw(rubber, place, n, work->seed, d, v->draw + d * m, err);
     if (status != WT_OK)
         return status;
     if (v->n_draws > 0)
-        centre(v);
+        centre_draws(v);
     for (size_t k = 0; k < m; k++)
         v->error[k] = v->n_draws == 0
                           ? (double)NAN
@@ -98,7 +98,7 @@ void material_ratio_clear(material_ratio *r)
 static wt_status find_critical(const material_values *a, const material_values *b,
                                material_ratio *r, wt_error *err)
 {
-    enum { WAYS = 4 };
+    enum { WAYS = 4 }; /* pairs of each draw with others, for draws are dear and pairs are not */
     const size_t m = r->n * Q, n = WAYS * a->n_draws;
     double *most = calloc(n + 1, sizeof *most);
     if (most == NULL)

@@ -20,7 +20,7 @@ typedef struct finding {
     double reach;         /* that far, in ln */
 } finding;
 
-static finding find(const material_ratio *r, int q, double margin)
+static finding find_difference(const material_ratio *r, int q, double margin)
 {
     finding f = {(double)INFINITY, 0, false, true, 0, 0};
     for (size_t i = 0; i < r->n; i++) {
@@ -157,7 +157,7 @@ material_verdict material_judge(const wt_compared pair[2], const material_values
         return v;
     }
     for (int q = 0; q < Q; q++) {
-        f[q] = find(ratio, q, log1p(margin));
+        f[q] = find_difference(ratio, q, log1p(margin));
         differs = differs || f[q].differs;
         within = within && f[q].within;
     }

@@ -63,7 +63,7 @@ static double vertical_shift(const wt_rubber *rubber, const double *b, double te
     return b[i - 1] + (b[i] - b[i - 1]) * (temperature - t[i - 1]) / (t[i] - t[i - 1]);
 }
 
-/* Further away times and frequencies are no numbers. */
+/* Further away times and frequencies are no numbers: a double ends at 308 decades. */
 static const double most_decades = 200;
 
 /* log10 a_T of a law. */

@@ -29,7 +29,7 @@ static wt_rubber rubber_of(wt_rubber_kind kind, double poisson_ratio)
 }
 
 /* Whether there is such a material. */
-static wt_status check(const wt_rubber *rubber, wt_error *err)
+static wt_status check_points(const wt_rubber *rubber, wt_error *err)
 {
     wt_material *material = NULL;
     const wt_status status =
@@ -88,7 +88,7 @@ wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubb
 {
     wt_rubber made = rubber_of(WT_RUBBER_ZENER, poisson_ratio);
     made.zener = *zener;
-    const wt_status status = check(&made, err);
+    const wt_status status = check_points(&made, err);
     if (status == WT_OK)
         *rubber = made;
     return status;
@@ -124,7 +124,7 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
         wt_sweep_sort(&made.sweep); /* by frequency */
         set_points(&made, &made.sweep.isotherms[0]);
         made.prony.reference_temperature = made.sweep.isotherms[0].temperature;
-        status = check(&made, err);
+        status = check_points(&made, err);
     }
     if (status == WT_OK) {
         *rubber = made;
@@ -241,7 +241,7 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
     set_points(rubber, &sweep.isotherms[0]);
     if (rubber->n_vertical == 0 && rubber->law.kind == WT_LAW_NONE)
         rubber->temperature_min = rubber->temperature_max = (double)NAN;
-    return check(rubber, err);
+    return check_points(rubber, err);
 }
 
 /* ---- in words -------------------------------------------------------------------------------- */

@@ -4,6 +4,8 @@
 
 #include "data/tables/tables.h"
 
+#include <string.h>
+
 /* ---- what is there, what is wanted ----------------------------------------------------------- */
 
 static flow_things sources_of(const wt_case *c)
@@ -24,25 +26,42 @@ static flow_things wanted_by(const wt_case *c)
     return wanted;
 }
 
-flow_things flow_needs(const flow_plan *plan, size_t stage)
+flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level)
 {
-    const flow_things needs = flow_stages[stage].needs,
+    const flow_things needs = flow_stage_needs(stage, level),
                       softening = FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_ASKED_SOFTENING);
     const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0;
     return slides && (plan->sources & softening) != 0 ? needs | FLOW_BIT(FLOW_SOFTENING) : needs;
 }
 
+bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there)
+{
+    const flow_things any = flow_stages[stage].any;
+    return (flow_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
+}
+
 /* ---- choosing -------------------------------------------------------------------------------- */
 
-/* Stages whose needs can all be met; one pass suffices since the table is in order. */
-static void find_able(const flow_plan *plan, bool able[FLOW_N_STAGES])
+/* Stages whose needs can all be met, and how full they can be; one pass suffices since the table is
+ * in order. */
+static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
 {
     flow_things reachable = plan->sources;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        able[i] = (flow_needs(plan, i) & ~reachable) == 0;
-        if (able[i])
-            reachable |= flow_stages[i].gives;
+        able[i] = flow_can(plan, i, 0, reachable);
+        if (!able[i])
+            continue;
+        while (plan->level[i] < flow_stage_levels(i) &&
+               flow_can(plan, i, plan->level[i] + 1, reachable))
+            plan->level[i]++;
+        reachable |= flow_stages[i].gives;
     }
+}
+
+/* What a stage is to be given, some of which may be out of reach. */
+static flow_things takes(const flow_plan *plan, size_t stage)
+{
+    return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
 }
 
 /* Whether stage a is to be preferred to b for what they both give: the one that takes more into
@@ -50,10 +69,11 @@ static void find_able(const flow_plan *plan, bool able[FLOW_N_STAGES])
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
-    const int more = __builtin_popcountll(s->needs) - __builtin_popcountll(t->needs);
+    const flow_things of_a = takes(plan, a), of_b = takes(plan, b);
+    const int more = __builtin_popcountll(of_a) - __builtin_popcountll(of_b);
     const int idle = __builtin_popcountll(s->gives & ~plan->required) -
                      __builtin_popcountll(t->gives & ~plan->required);
-    const bool same_way = (s->needs & ~t->needs) == 0 || (t->needs & ~s->needs) == 0;
+    const bool same_way = (of_a & ~of_b) == 0 || (of_b & ~of_a) == 0;
     if (idle != 0 && (same_way || more == 0))
         return idle < 0;
     return more > 0;
@@ -77,7 +97,7 @@ static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing t
     plan->chosen[best] = true;
     snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
-        if (!(flow_needs(plan, best) & FLOW_BIT(t)))
+        if (!(takes(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
@@ -87,11 +107,12 @@ static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing t
     }
 }
 
-/* Sources whose absence keeps a stage from running: of the first need that cannot be met, one for
- * each way of meeting it. Empty if the stage is able. */
-static flow_things missing_sources(const flow_plan *plan, size_t stage)
+static flow_things missing_of_stage(const flow_plan *plan, size_t stage);
+
+/* Sources whose absence keeps one of the needs from being met: of the first of them, one for each
+ * way of meeting it. None if all can be. */
+static flow_things missing_sources(const flow_plan *plan, flow_things needs)
 {
-    const flow_things needs = flow_needs(plan, stage);
     for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
         if (!(needs & FLOW_BIT(t)) || (plan->sources & FLOW_BIT(t)))
             continue;
@@ -102,7 +123,7 @@ static flow_things missing_sources(const flow_plan *plan, size_t stage)
         for (size_t i = 0; i < FLOW_N_STAGES && !possible; i++) {
             if (!(flow_stages[i].gives & FLOW_BIT(t)))
                 continue;
-            flow_things here = missing_sources(plan, i);
+            flow_things here = missing_of_stage(plan, i);
             possible = here == 0;
             missing |= here;
         }
@@ -112,17 +133,50 @@ static flow_things missing_sources(const flow_plan *plan, size_t stage)
     return 0;
 }
 
+static flow_things missing_of_stage(const flow_plan *plan, size_t stage)
+{
+    const flow_things any = flow_stages[stage].any;
+    flow_things missing = missing_sources(plan, flow_needs(plan, stage, 0));
+    for (unsigned t = 0; missing == 0 && t < FLOW_N_THINGS; t++)
+        if ((any & FLOW_BIT(t)) != 0 && missing_sources(plan, FLOW_BIT(t)) == 0)
+            return 0;
+    for (unsigned t = 0; t < FLOW_N_THINGS; t++)
+        if ((any & FLOW_BIT(t)) != 0)
+            missing |= missing_sources(plan, FLOW_BIT(t));
+    return missing;
+}
+
+/* "the case has no bulk curves (...) and no modulus ratio (...)" */
+static void list_missing(flow_things missing, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "the case has ");
+    for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
+        if (missing & 1)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", flow_thing_rows[t].missing,
+                                     missing > 1 ? " and " : "");
+}
+
+/* A stage that runs, but not at its fullest. */
+static void say_without(flow_plan *plan, size_t i)
+{
+    const unsigned level = plan->level[i];
+    if (level == flow_stage_levels(i))
+        return;
+    const flow_more *more = &flow_stages[i].more[level];
+    const size_t used = strlen(plan->because[i]);
+    list_missing(missing_sources(plan, more->things), plan->without[i], sizeof plan->without[i]);
+    snprintf(plan->because[i] + used, sizeof plan->because[i] - used, "; without %s, for %s",
+             more->words, plan->without[i]);
+}
+
 static void say_why_not(flow_plan *plan, size_t i, bool able)
 {
     char *because = plan->because[i];
     const size_t size = sizeof plan->because[i];
     if (!able) {
-        flow_things missing = missing_sources(plan, i);
-        size_t used = (size_t)snprintf(because, size, "left out because the case has ");
-        for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
-            if (missing & 1)
-                used += (size_t)snprintf(because + used, size - used, "%s%s",
-                                         flow_thing_rows[t].missing, missing > 1 ? " and " : "");
+        char missing[256];
+        list_missing(missing_of_stage(plan, i), missing, sizeof missing);
+        snprintf(because, size, "left out because %s", missing);
         return;
     }
     flow_things useful = flow_stages[i].gives & plan->required;
@@ -150,7 +204,9 @@ void flow_plan_make(const wt_case *c, flow_plan *plan)
         choose(plan, able, (flow_thing)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (!plan->chosen[i])
+        if (plan->chosen[i])
+            say_without(plan, i);
+        else
             say_why_not(plan, i, able[i]);
 }
 
@@ -162,12 +218,13 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     flow_plan_make(c, &plan);
     table_writer t = table_begin(&plan_schema, err);
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        char needs[256], gives[256];
-        flow_things_list(flow_needs(&plan, i), needs, sizeof needs);
+        char title[160], needs[256], gives[256];
+        flow_stage_title(i, plan.level[i], title, sizeof title);
+        flow_things_list(takes(&plan, i), needs, sizeof needs);
         flow_things_list(flow_stages[i].gives, gives, sizeof gives);
         table_row(&t);
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
-        plan_put_text(&t, PLAN_TITLE, flow_stages[i].title);
+        plan_put_text(&t, PLAN_TITLE, title);
         plan_put(&t, PLAN_RUNS, plan.chosen[i]);
         plan_put_text(&t, PLAN_BECAUSE, plan.because[i]);
         plan_put_text(&t, PLAN_NEEDS, needs);

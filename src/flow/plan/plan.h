@@ -14,13 +14,20 @@ typedef struct flow_plan {
     flow_things wanted;   /* what is asked for */
     flow_things required; /* that and what the chosen stages need */
     bool chosen[FLOW_N_STAGES];
-    char because[FLOW_N_STAGES][192];
+    unsigned level[FLOW_N_STAGES]; /* the fullest that the case gives it what it needs for */
+    char because[FLOW_N_STAGES][320];
+    char without[FLOW_N_STAGES][192]; /* why not fuller: "the case has no ..."; "" = it is */
     flow_outcome outcome[FLOW_N_STAGES];
+    /* of a stage that was done, at a lower level than that of the plan if the fuller one was not */
+    unsigned done[FLOW_N_STAGES];
+    flow_outcome fuller[FLOW_N_STAGES];
 } flow_plan;
 
 /* What a stage needs in this plan: of a case whose rubber softens with strain, all that slides
  * needs the softening, too. */
-flow_things flow_needs(const flow_plan *plan, size_t stage);
+flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level);
+/* Whether a stage can do its work with what is there. */
+bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there);
 void flow_plan_make(const wt_case *c, flow_plan *plan);
 
 #endif

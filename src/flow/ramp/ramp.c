@@ -7,14 +7,15 @@
 
 #include "base/array.h"
 #include "base/pool.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one that was set at each temperature; temperatures that make
- * a temperature sweep. */
+/* Frequencies that differ by less are one that was set at each temperature: exports of four digits
+ * differ by 5e-4. Temperatures that make a temperature sweep, two more than the constants of a
+ * parabola. */
 static const double same_frequency = 1e-3;
 enum { FEWEST = 5 };
 
@@ -174,34 +175,35 @@ static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log
     return WT_OK;
 }
 
-static void put_points(table_writer *t, const wt_ramp *ramp)
+TABLE_ROW(ramp, RAMP, double temperature, angular_frequency, storage_modulus, loss_modulus,
+          loss_factor, strain;
+          const char *source;)
+
+static void put_points(table_writer *t, const wt_ramp *r)
 {
     table_block(t);
-    for (size_t i = 0; i < ramp->n; i++) {
-        table_row(t);
-        ramp_put(t, RAMP_TEMPERATURE, ramp->temperature[i]);
-        ramp_put(t, RAMP_ANGULAR_FREQUENCY, ramp->angular_frequency);
-        ramp_put(t, RAMP_STORAGE_MODULUS, ramp->storage_modulus[i]);
-        ramp_put(t, RAMP_LOSS_MODULUS, ramp->loss_modulus[i]);
-        ramp_put(t, RAMP_LOSS_FACTOR, loss_factor(ramp, i));
-        if (ramp->strain != NULL)
-            ramp_put(t, RAMP_STRAIN, ramp->strain[i]);
-        ramp_put_text(t, RAMP_SOURCE, ramp->source);
-    }
+    for (size_t i = 0; i < r->n; i++)
+        TABLE_ADD(ramp, t, r->temperature[i], r->angular_frequency, r->storage_modulus[i],
+                  r->loss_modulus[i], loss_factor(r, i),
+                  r->strain != NULL ? r->strain[i] : (double)NAN, r->source);
 }
 
-/* The columns of a number, its error and the ends of its interval stand behind one another. */
-static void put_peak(table_writer *t, glass_transition_column first, const wt_peak *peak)
+typedef struct shown_peak {
+    wt_interval at;
+    double height, points, misfit;
+    const char *why_not;
+} shown_peak;
+
+TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss;
+          double angular_frequency, temperature_min, temperature_max; const char *source;)
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+static shown_peak show_peak(const wt_peak *p)
 {
-    const wt_interval *at = &peak->at;
-    glass_transition_put_text(
-        t, first + GLASS_TRANSITION_FACTOR_NOTE - GLASS_TRANSITION_FACTOR_PEAK, peak->why_not);
-    if (!peak->found)
-        return;
-    const double values[] = {at->value,          at->standard_error, at->low,     at->high,
-                             peak->height.value, (double)peak->n,    peak->misfit};
-    for (size_t i = 0; i < COUNT_OF(values); i++)
-        glass_transition_put(t, first + (unsigned)i, values[i]);
+    const double none = (double)NAN;
+    return p->found ? (shown_peak){p->at, p->height.value, (double)p->n, p->misfit, p->why_not}
+                    : (shown_peak){not_known, none, none, none, p->why_not};
 }
 
 typedef struct peaks {
@@ -225,48 +227,37 @@ static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const w
         status = find_peak(job, u, LOSS, &found->loss, err);
     if (status != WT_OK)
         return status;
-    table_row(t);
-    glass_transition_put(t, GLASS_TRANSITION_ANGULAR_FREQUENCY, ramp->angular_frequency);
-    put_peak(t, GLASS_TRANSITION_FACTOR_PEAK, &found->factor);
-    put_peak(t, GLASS_TRANSITION_LOSS_PEAK, &found->loss);
-    glass_transition_put(t, GLASS_TRANSITION_TEMPERATURE_MIN, ramp->temperature[0]);
-    glass_transition_put(t, GLASS_TRANSITION_TEMPERATURE_MAX, ramp->temperature[ramp->n - 1]);
-    glass_transition_put_text(t, GLASS_TRANSITION_SOURCE, ramp->source);
+    TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
+              ramp->angular_frequency, ramp->temperature[0], ramp->temperature[ramp->n - 1],
+              ramp->source);
     return WT_OK;
 }
+
+TABLE_ROW(moduli_at, MODULI_AT, double temperature, angular_frequency;
+          wt_interval modulus[QUANTITIES]; const char *note, *source;)
 
 static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
                             const usable *u, wt_error *err)
 {
-    static const moduli_at_column columns[QUANTITIES] = {MODULI_AT_STORAGE, MODULI_AT_LOSS,
-                                                         MODULI_AT_FACTOR};
-    for (size_t k = 0; k < job->n_temperatures; k++) {
+    wt_status status = WT_OK;
+    for (size_t k = 0; status == WT_OK && k < job->n_temperatures; k++) {
         const double at = job->temperature[k];
         const bool within =
             u->n >= FEWEST && at >= u->temperature[0] && at <= u->temperature[u->n - 1];
-        table_row(t);
-        moduli_at_put(t, MODULI_AT_TEMPERATURE, at);
-        moduli_at_put(t, MODULI_AT_ANGULAR_FREQUENCY, ramp->angular_frequency);
-        moduli_at_put_text(t, MODULI_AT_NOTE,
-                           within           ? ""
-                           : u->n >= FEWEST ? "outside of the temperatures measured"
-                                            : "too few points");
-        moduli_at_put_text(t, MODULI_AT_SOURCE, ramp->source);
-        for (int q = 0; within && q < QUANTITIES; q++) {
-            wt_interval value;
-            if (!u->has[q])
-                continue;
-            const wt_status status =
-                wt_value_between(u->temperature, u->value[q], u->n, at, &value, err);
-            if (status != WT_OK)
-                return status;
-            moduli_at_put(t, columns[q], value.value);
-            moduli_at_put(t, columns[q] + 1, value.standard_error);
-            moduli_at_put(t, columns[q] + 2, value.low);
-            moduli_at_put(t, columns[q] + 3, value.high);
-        }
+        moduli_at_row row = {at,
+                             ramp->angular_frequency,
+                             {not_known, not_known, not_known},
+                             within           ? ""
+                             : u->n >= FEWEST ? "outside of the temperatures measured"
+                                              : "too few points",
+                             ramp->source};
+        for (int q = 0; within && status == WT_OK && q < QUANTITIES; q++)
+            if (u->has[q])
+                status =
+                    wt_value_between(u->temperature, u->value[q], u->n, at, &row.modulus[q], err);
+        moduli_at_add_row(t, &row);
     }
-    return WT_OK;
+    return status;
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
@@ -275,26 +266,16 @@ typedef struct writers {
     table_writer ramp, transition, moduli;
 } writers;
 
-/* Keys of the frequency nearest to 1 Hz that has a peak. */
-static void set_keys(table_writer *t, double frequency, const peaks *best)
-{
-    const wt_interval *factor = &best->factor.at, *loss = &best->loss.at;
-    if (isnan(frequency))
-        return;
-    if (best->factor.found)
-        glass_transition_set_value(t, GLASS_TRANSITION_KEY_FACTOR_PEAK, factor->value,
-                                   factor->standard_error, 0);
-    if (best->loss.found)
-        glass_transition_set_value(t, GLASS_TRANSITION_KEY_LOSS_PEAK, loss->value,
-                                   loss->standard_error, 0);
-    glass_transition_set_value(t, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, frequency, 0, 0);
-}
+/* Of the frequency nearest to 1 Hz that has a peak. */
+TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak;
+           double angular_frequency; const char *deformation;)
 
 static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
                          writers *w, wt_error *err)
 {
-    double frequency = (double)NAN, away = HUGE_VAL;
-    peaks best = {0};
+    double away = HUGE_VAL;
+    glass_transition_keys best = {not_known, not_known, (double)NAN,
+                                  flow_deformation_name(sweep->deformation)};
     wt_status status = WT_OK;
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
         const wt_ramp *ramp = &sweep->ramps[i];
@@ -311,11 +292,12 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
         const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
         if (status == WT_OK && (found.factor.found || found.loss.found) && off < away) {
             away = off;
-            frequency = ramp->angular_frequency;
-            best = found;
+            best.angular_frequency = ramp->angular_frequency;
+            best.factor_peak = found.factor.found ? found.factor.at : not_known;
+            best.loss_peak = found.loss.found ? found.loss.at : not_known;
         }
     }
-    set_keys(&w->transition, frequency, &best);
+    glass_transition_set_keys(&w->transition, &best);
     return status;
 }
 
@@ -327,7 +309,6 @@ static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const w
                  table_begin(&moduli_at_schema, err)};
     wt_status status = put_all(job, work, sweep, &w, err);
     ramp_set_text(&w.ramp, RAMP_KEY_DEFORMATION, deformation);
-    glass_transition_set_text(&w.transition, GLASS_TRANSITION_KEY_DEFORMATION, deformation);
     moduli_at_set_text(&w.moduli, MODULI_AT_KEY_DEFORMATION, deformation);
     const wt_status ended[] = {table_end(&w.ramp, &t->ramp),
                                table_end(&w.transition, &t->glass_transition),

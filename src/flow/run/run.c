@@ -26,6 +26,7 @@ PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 typedef struct conduct {
     flow_run run;
     flow_things have;
+    wt_status failure; /* of the last stage that failed */
     wt_formats *formats;
     wt_parselog *own_log;
     wt_result *result;
@@ -37,7 +38,7 @@ typedef struct conduct {
 
 /* ---- one stage ------------------------------------------------------------------------------- */
 
-#define STEP(id, name, title, needs, gives, step) step,
+#define STEP(id, name, title, needs, any, more, gives, step) step,
 static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
 
 /* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
@@ -45,7 +46,7 @@ static bool stands_in(const conduct *d, size_t i)
 {
     const flow_plan *plan = &d->run.plan;
     flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
-    if (plan->chosen[i] || lacking == 0 || (flow_needs(&d->run.plan, i) & ~d->have) != 0)
+    if (plan->chosen[i] || lacking == 0 || !flow_can(plan, i, 0, d->have))
         return false;
     for (size_t k = 0; k < i; k++)
         if ((plan->outcome[k] == FLOW_FAILED || plan->outcome[k] == FLOW_BLOCKED) &&
@@ -73,17 +74,27 @@ static bool is_listed(const conduct *d, const wt_error *failure)
     return false;
 }
 
-static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *err)
+/* Where there are no data, less of it makes none. */
+static bool is_tried_again(const conduct *d, unsigned level)
+{
+    return level > 0 && d->failure != WT_E_EMPTY;
+}
+
+static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *because, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = report_progress(d, flow_stages[i].title, err);
+    flow_plan *plan = &d->run.plan;
+    char title[160], stage[96], text[384];
+    flow_stage_title(i, level, title, sizeof title);
+    wt_status status = report_progress(d, title, err);
     if (status != WT_OK)
         return status;
     cost_begin(d->cost, flow_stages[i].id, because);
+    d->run.level = plan->done[i] = level;
     status = steps[i](&d->run, &failure);
     cost_end(d->cost);
     if (status == WT_OK) {
-        d->run.plan.outcome[i] = FLOW_DONE;
+        plan->outcome[i] = FLOW_DONE;
         d->have |= flow_stages[i].gives;
         return WT_OK;
     }
@@ -92,12 +103,39 @@ static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *
             *err = failure;
         return status;
     }
-    char stage[64], text[256];
-    d->run.plan.outcome[i] = FLOW_FAILED;
-    snprintf(stage, sizeof stage, "stage %s", flow_stages[i].id);
+    plan->outcome[i] = FLOW_FAILED;
+    d->failure = status;
+    const bool again = is_tried_again(d, level);
+    snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
+             again ? flow_stages[i].more[level - 1].words : "");
     snprintf(text, sizeof text, "%s, and failed", because);
     cost_explain(d->cost, text);
     return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
+}
+
+/* A stage as full as it can be; what fails so is tried with less. */
+static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error *err)
+{
+    flow_plan *plan = &d->run.plan;
+    unsigned level = plan->level[i];
+    char text[384];
+    while (level > 0 && !flow_can(plan, i, level, d->have))
+        level--;
+    if (level < plan->level[i]) {
+        plan->fuller[i] = FLOW_BLOCKED;
+        snprintf(text, sizeof text, "%s; without %s, which a stage before did not give", because,
+                 flow_stages[i].more[level].words);
+    } else
+        snprintf(text, sizeof text, "%s", because);
+    wt_status status = run_stage(d, i, level, text, err);
+    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && is_tried_again(d, level)) {
+        plan->fuller[i] = FLOW_FAILED;
+        level--;
+        snprintf(text, sizeof text, "runs because it did not succeed with %s",
+                 flow_stages[i].more[level].words);
+        status = run_stage(d, i, level, text, err);
+    }
+    return status;
 }
 
 static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
@@ -105,15 +143,16 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
     flow_plan *plan = &d->run.plan;
     char missing[160], because[256];
     if (stands_in(d, i))
-        return run_stage(d, i, "runs because the stage that gives more did not succeed", err);
+        return run_fullest(d, i, "runs because the stage that gives more did not succeed", err);
     if (!plan->chosen[i]) {
         cost_leave_out(d->cost, flow_stages[i].id, plan->because[i]);
         return WT_OK;
     }
-    if ((flow_needs(&d->run.plan, i) & ~d->have) == 0)
-        return run_stage(d, i, plan->because[i], err);
+    if (flow_can(plan, i, 0, d->have))
+        return run_fullest(d, i, plan->because[i], err);
     plan->outcome[i] = FLOW_BLOCKED;
-    flow_things_list(flow_needs(&d->run.plan, i) & ~d->have, missing, sizeof missing);
+    const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
+    flow_things_list(needs & ~d->have, missing, sizeof missing);
     snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
              missing);
     cost_leave_out(d->cost, flow_stages[i].id, because);
@@ -210,7 +249,7 @@ static bool draws_material(const flow_plan *plan, size_t replicates)
         FLOW_BIT(FLOW_LAYER) | FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_ERROR_BUDGET);
     const flow_things drawn = compared | (replicates >= 2 ? replicated : 0);
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (plan->chosen[i] && (flow_stages[i].needs & FLOW_BIT(FLOW_RUBBER)) != 0 &&
+        if (plan->chosen[i] && (flow_needs(plan, i, plan->level[i]) & FLOW_BIT(FLOW_RUBBER)) != 0 &&
             (flow_stages[i].gives & drawn) != 0)
             return true;
     return false;
@@ -221,7 +260,7 @@ static bool shares_dma(const flow_plan *plan)
 {
     size_t n = 0;
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        n += plan->chosen[i] && (flow_stages[i].needs & FLOW_BIT(FLOW_DMA_FILES)) != 0;
+        n += plan->chosen[i] && (flow_needs(plan, i, 0) & FLOW_BIT(FLOW_DMA_FILES)) != 0;
     return n > 1;
 }
 

@@ -145,7 +145,7 @@ static wt_estimate indented_at(const wt_case *c, int g)
                                                          : job->temperature;
 }
 
-static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error *err)
+static wt_status indent(flow_run *run, int g, wt_error *err)
 {
     static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
@@ -162,7 +162,7 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error 
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
-    job.rubber = rubber;
+    job.rubber = run->level > 0 ? &run->rubber : NULL;
     job.temperature = indented_at(run->c, g);
     if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {
         wt_curve_set_free(run->kept[g]);
@@ -175,24 +175,14 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error 
     return status;
 }
 
-wt_status flow_step_bulk_with_material(flow_run *run, wt_error *err)
-{
-    return indent(run, 0, &run->rubber, err);
-}
-
-wt_status flow_step_track_with_material(flow_run *run, wt_error *err)
-{
-    return indent(run, 1, &run->rubber, err);
-}
-
 wt_status flow_step_bulk(flow_run *run, wt_error *err)
 {
-    return indent(run, 0, NULL, err);
+    return indent(run, 0, err);
 }
 
 wt_status flow_step_track(flow_run *run, wt_error *err)
 {
-    return indent(run, 1, NULL, err);
+    return indent(run, 1, err);
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */
@@ -205,9 +195,7 @@ static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
     job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
     job.groups_only = groups_only;
-    if (!groups_only && (run->plan.required & FLOW_BIT(FLOW_RUBBER)) != 0 &&
-        (run->rubber.prony.n > 0 || run->rubber.kind != WT_RUBBER_SERIES))
-        job.rubber = &run->rubber;
+    job.rubber = run->level > 0 ? &run->rubber : NULL;
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
         say_items(run, tables.modulus_groups);
@@ -432,32 +420,24 @@ static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_erro
     return WT_E_MISSING;
 }
 
-static wt_status friction(flow_run *run, const wt_layer_known *layer, wt_error *err)
-{
-    wt_sliding sliding = sliding_of(run);
-    wt_friction_tables tables = {0};
-    wt_status status = wt_friction_make(&sliding, layer, &run->job, &tables, err);
-    if (status == WT_OK)
-        keep(run, FLOW_FRICTION, &tables.friction);
-    return status;
-}
-
 wt_status flow_step_contact_area(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = sliding_of(run);
     return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
 }
 
-wt_status flow_step_friction_with_layer(flow_run *run, wt_error *err)
-{
-    wt_layer_known layer;
-    const wt_status status = known_layer(run, &layer, err);
-    return status == WT_OK ? friction(run, &layer, err) : status;
-}
-
 wt_status flow_step_friction(flow_run *run, wt_error *err)
 {
-    return friction(run, NULL, err);
+    wt_sliding sliding = sliding_of(run);
+    wt_friction_tables tables = {0};
+    wt_layer_known layer;
+    wt_status status = run->level > 0 ? known_layer(run, &layer, err) : WT_OK;
+    if (status == WT_OK)
+        status =
+            wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
+    if (status == WT_OK)
+        keep(run, FLOW_FRICTION, &tables.friction);
+    return status;
 }
 
 wt_status flow_step_directions(flow_run *run, wt_error *err)
@@ -475,60 +455,56 @@ wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
 /* ---- what if, error budget, coverage ----------------------------------------------------------
  */
 
-static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                         wt_error *err)
+/* What a stage takes into account beside friction: the layer, then what is known of it. */
+typedef struct layer_parts {
+    const wt_layer_job *layer;   /* or NULL */
+    const wt_layer_known *known; /* or NULL */
+    wt_layer_known storage;
+} layer_parts;
+
+static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *err)
 {
-    wt_sliding sliding = sliding_of(run);
-    return wt_what_if_make(&sliding, layer, known, &run->job, &run->table[FLOW_WHAT_IF], err);
+    *parts = (layer_parts){.layer = run->level > 0 ? &run->c->layer : NULL};
+    if (run->level < 2)
+        return WT_OK;
+    parts->known = &parts->storage;
+    return known_layer(run, &parts->storage, err);
 }
 
-static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                        wt_error *err)
-{
-    wt_sliding sliding = sliding_of(run);
-    return wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], &run->job,
-                                &run->table[FLOW_ERROR_BUDGET], err);
-}
-
-static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                          wt_error *err)
+wt_status flow_step_what_if(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = sliding_of(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK ? wt_what_if_make(&sliding, parts.layer, parts.known, &run->job,
+                                             &run->table[FLOW_WHAT_IF], err)
+                           : status;
+}
+
+wt_status flow_step_budget(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK
+               ? wt_error_budget_make(&sliding, parts.layer, parts.known, run->table[FLOW_WHAT_IF],
+                                      &run->job, &run->table[FLOW_ERROR_BUDGET], err)
+               : status;
+}
+
+wt_status flow_step_coverage(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
     const wt_coverage_job job = {.sliding = &sliding,
-                                 .layer = layer,
-                                 .known = known,
+                                 .layer = parts.layer,
+                                 .known = parts.known,
                                  .bulk = run->table[FLOW_INDENTATION_BULK],
                                  .track = run->table[FLOW_INDENTATION_TRACK],
                                  .curves = {run->kept[0], run->kept[1]},
                                  .ratio_of_groups = !run->plan.chosen[FLOW_STAGE_GIVEN_RATIO],
                                  .trials = run->trials};
-    return wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err);
+    return status == WT_OK ? wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err)
+                           : status;
 }
-
-/* The same stage of each: with layer and ratio, with the layer, with neither. */
-typedef wt_status (*of_setting)(flow_run *run, const wt_layer_job *layer,
-                                const wt_layer_known *known, wt_error *err);
-
-static wt_status with_layer(of_setting make, flow_run *run, wt_error *err)
-{
-    wt_layer_known known;
-    const wt_status status = known_layer(run, &known, err);
-    return status == WT_OK ? make(run, &run->c->layer, &known, err) : status;
-}
-
-#define STEPS_OF_SETTING(name)                                                                     \
-    wt_status flow_step_##name##_with_layer(flow_run *run, wt_error *err)                          \
-    {                                                                                              \
-        return with_layer(name, run, err);                                                         \
-    }                                                                                              \
-    wt_status flow_step_##name##_layer(flow_run *run, wt_error *err)                               \
-    {                                                                                              \
-        return name(run, &run->c->layer, NULL, err);                                               \
-    }                                                                                              \
-    wt_status flow_step_##name(flow_run *run, wt_error *err)                                       \
-    {                                                                                              \
-        return name(run, NULL, NULL, err);                                                         \
-    }
-STEPS_OF_SETTING(what_if)
-STEPS_OF_SETTING(budget)
-STEPS_OF_SETTING(coverage)

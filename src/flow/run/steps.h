@@ -9,6 +9,7 @@ typedef struct flow_run {
     const wt_case *c;
     wt_job job;
     flow_plan plan;
+    unsigned level;                 /* of the stage that runs */
     wt_table *table[FLOW_N_THINGS]; /* of the things that are a table of their own */
     wt_indent_tables curves;        /* only the curve tables */
     wt_curve_set *kept[2];          /* curves of bulk and track, for the coverage */
@@ -28,7 +29,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
                             wt_error *err) WT_NODISCARD;
 wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
 
-#define STEP_PROTOTYPE(id, name, title, needs, gives, step)                                        \
+#define STEP_PROTOTYPE(id, name, title, needs, any, more, gives, step)                             \
     wt_status step(flow_run *run, wt_error *err);
 STAGES(STEP_PROTOTYPE)
 

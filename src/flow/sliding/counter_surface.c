@@ -7,7 +7,7 @@
 #include "flow/work/law_text.h"
 
 #include "base/array.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -189,7 +189,10 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
+/* As a figure shows well. */
 #define POINTS_PER_DECADE 20
+
+TABLE_ROW(roughness, ROUGHNESS, double wavenumber, density;)
 
 wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error *err)
 {
@@ -205,9 +208,7 @@ wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error
         double q = i + 1 == n ? roughness->q1
                               : roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
         roughness->law->density(roughness, &q, 1, &density);
-        table_row(&t);
-        roughness_put(&t, ROUGHNESS_WAVENUMBER, q);
-        roughness_put(&t, ROUGHNESS_DENSITY, density);
+        TABLE_ADD(roughness, &t, q, density);
     }
     /* rms height goes with the square root of C, so its relative error is half */
     const wt_estimate c0 = flow_as_stated(surface->c0);

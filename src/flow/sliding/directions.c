@@ -4,7 +4,7 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static wt_transverse factors_of(const wt_transverse *given, size_t k)
     return t;
 }
 
-static wt_status compute(directions *d, size_t k, wt_error *err)
+static wt_status compute_with_factors(directions *d, size_t k, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_rubber rubber = *d->sliding->rubber;
@@ -67,7 +67,7 @@ static wt_status compute_all(directions *d, wt_error *err)
 {
     for (size_t k = N_KEPT; k-- > 0;) {
         wt_error why = WT_ERROR_INIT;
-        const wt_status status = compute(d, k, &why);
+        const wt_status status = compute_with_factors(d, k, &why);
         d->known[k] = status == WT_OK;
         if (status == WT_OK)
             continue;
@@ -83,19 +83,13 @@ static wt_status compute_all(directions *d, wt_error *err)
     return WT_OK;
 }
 
+TABLE_ROW(directions, DIRECTIONS, const char *factors; wt_friction_point point;)
+
 static void put_points(const directions *d, size_t k, table_writer *t)
 {
     table_block(t);
-    for (size_t i = 0; i + 1 < d->n; i++) {
-        const wt_friction_point *p = &d->points[k * d->n + i];
-        table_row(t);
-        directions_put_text(t, DIRECTIONS_FACTORS, kept[k].words);
-        directions_put(t, DIRECTIONS_VELOCITY, p->velocity);
-        directions_put(t, DIRECTIONS_HYSTERESIS, p->hysteresis.value);
-        directions_put(t, DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, p->hysteresis.numerical_error);
-        directions_put(t, DIRECTIONS_AREA_RATIO, p->area_ratio.value);
-        directions_put(t, DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, p->area_ratio.numerical_error);
-    }
+    for (size_t i = 0; i + 1 < d->n; i++)
+        TABLE_ADD(directions, t, kept[k].words, d->points[k * d->n + i]);
 }
 
 static void say_change(const directions *d, size_t k, table_writer *t)
@@ -152,6 +146,7 @@ wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_t
         return status;
     directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
     d.work.left_out = WT_EXTRAS;
+    d.work.drawn = NULL; /* of another material */
     d.points = malloc(N_KEPT * d.n * sizeof *d.points);
     if (d.points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

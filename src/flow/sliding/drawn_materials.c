@@ -14,7 +14,16 @@ typedef struct drawn_item {
     pool memory; /* of the series */
 } drawn_item;
 
+typedef struct own_material {
+    const wt_rubber *rubber; /* NULL: none yet */
+    double temperature, tolerance;
+    drawn_item item;
+    char statement[512];
+    bool held;
+} own_material;
+
 struct wt_drawn {
+    own_material own;        /* of the values themselves; all else is of the replicates */
     const wt_rubber *rubber; /* whose materials they are; NULL: none yet */
     wt_estimate temperature;
     uint64_t seed;
@@ -24,15 +33,20 @@ struct wt_drawn {
     double lowest, highest; /* angular frequencies */
 };
 
-static void drop(wt_drawn *d)
+static void drop_item(drawn_item *item)
 {
-    for (size_t i = 0; i < d->n; i++) {
-        angular_clear(d->items[i].of.series);
-        pool_free(&d->items[i].memory);
-        wt_material_free(d->items[i].of.material);
-    }
+    angular_clear(item->of.series);
+    pool_free(&item->memory);
+    wt_material_free(item->of.material);
+    *item = (drawn_item){0};
+}
+
+static void drop_materials(wt_drawn *d)
+{
+    for (size_t i = 0; i < d->n; i++)
+        drop_item(&d->items[i]);
     free(d->items);
-    *d = (wt_drawn){0};
+    *d = (wt_drawn){.own = d->own};
 }
 
 wt_drawn *drawn_new(void)
@@ -42,8 +56,10 @@ wt_drawn *drawn_new(void)
 
 void drawn_free(wt_drawn *drawn)
 {
-    if (drawn != NULL)
-        drop(drawn);
+    if (drawn != NULL) {
+        drop_item(&drawn->own.item);
+        drop_materials(drawn);
+    }
     free(drawn);
 }
 
@@ -60,14 +76,16 @@ static bool is_of(const wt_drawn *d, const wt_sliding *s, const wt_job *work)
            (d->one || d->n == MOST_KEPT || d->n >= work->replicates);
 }
 
-static wt_status start(wt_drawn *d, const wt_sliding *sliding, const wt_job *work, wt_error *err)
+static wt_status start_materials(wt_drawn *d, const wt_sliding *sliding, const wt_job *work,
+                                 wt_error *err)
 {
     const wt_rubber *rubber = sliding->rubber;
     const bool one = rubber->n_draws == 0 && !(rubber->c1_error > 0) && !(rubber->c2_error > 0) &&
                      !(sliding->temperature.standard_error > 0);
     const size_t n = work->replicates < MOST_KEPT ? work->replicates : MOST_KEPT;
-    drop(d);
-    *d = (wt_drawn){.rubber = rubber,
+    drop_materials(d);
+    *d = (wt_drawn){.own = d->own,
+                    .rubber = rubber,
                     .temperature = sliding->temperature,
                     .seed = work->seed,
                     .one = one,
@@ -82,7 +100,7 @@ wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work
                       double fastest, wt_error *err)
 {
     wt_roughness *road = NULL;
-    wt_status status = is_of(d, sliding, work) ? WT_OK : start(d, sliding, work, err);
+    wt_status status = is_of(d, sliding, work) ? WT_OK : start_materials(d, sliding, work, err);
     if (status == WT_OK)
         status = wt_surface_roughness(sliding->surface, 1, &road, err);
     if (status != WT_OK)
@@ -95,7 +113,7 @@ wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work
     return d->one ? drawn_get(d, 0, &all, err) : WT_OK;
 }
 
-static wt_status make(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
+static wt_status make_material(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
 {
     drawn_material *of = &item->of;
     wt_status status = wt_rubber_at(
@@ -117,10 +135,71 @@ wt_status drawn_get(wt_drawn *d, size_t replicate, drawn_material *material, wt_
     if (!d->one && replicate >= d->n)
         return WT_OK;
     drawn_item *item = &d->items[d->one ? 0 : replicate];
-    wt_status status = item->of.material == NULL ? make(d, replicate, item, err) : WT_OK;
+    wt_status status = item->of.material == NULL ? make_material(d, replicate, item, err) : WT_OK;
     if (status == WT_OK)
         status = angular_cover(item->of.series, d->lowest, d->highest, err);
     if (status == WT_OK)
         *material = item->of;
     return status;
+}
+
+/* ---- the values themselves ------------------------------------------------------------------- */
+
+static wt_status make_own(own_material *own, const wt_sliding *sliding, double tolerance,
+                          wt_error *err)
+{
+    drawn_item *item = &own->item;
+    drop_item(item);
+    *own = (own_material){.temperature = sliding->temperature.value, .tolerance = tolerance};
+    wt_status status = wt_rubber_at(sliding->rubber, own->temperature, 0, WT_NO_REPLICATE,
+                                    &item->of.material, own->statement, err);
+    if (status == WT_OK && item->of.material->law->angular == NULL)
+        status = angular_new(item->of.material, tolerance, &item->memory, &item->of.series, err);
+    if (status == WT_OK)
+        own->rubber = sliding->rubber;
+    else
+        drop_item(item);
+    return status;
+}
+
+/* By the wavenumbers of the surface. What cannot be is left to the contact, which says so. */
+static wt_status cover_own(own_material *own, const wt_sliding *sliding, double slowest,
+                           double fastest, wt_error *err)
+{
+    wt_roughness *road = NULL;
+    wt_status status = wt_surface_roughness(sliding->surface, 1, &road, err);
+    const double lowest = status == WT_OK ? slowest * road->q0 : 0,
+                 highest = status == WT_OK ? fastest * road->q1 : 0;
+    wt_roughness_free(road);
+    const wt_material *m = own->item.of.material;
+    char ignored[256];
+    if (status != WT_OK || !(lowest >= ANGULAR_LEAST && highest <= DBL_MAX) ||
+        (m->law->check != NULL && m->law->check(m, lowest, highest, ignored, NULL) != WT_OK))
+        return status;
+    return angular_cover(own->item.of.series, lowest, highest, err);
+}
+
+wt_status drawn_values_get(wt_drawn *drawn, const wt_sliding *sliding, double tolerance,
+                           double slowest, double fastest, drawn_values *values, wt_error *err)
+{
+    *values = (drawn_values){.statement = ""};
+    if (drawn == NULL)
+        return WT_OK;
+    own_material *own = &drawn->own;
+    const bool is_it = own->rubber == sliding->rubber && own->tolerance == tolerance &&
+                       is_that(own->temperature, sliding->temperature.value);
+    if (own->held && !is_it)
+        return WT_OK;
+    wt_status status = is_it ? WT_OK : make_own(own, sliding, tolerance, err);
+    if (status == WT_OK && !own->held && own->item.of.series != NULL)
+        status = cover_own(own, sliding, slowest, fastest, err);
+    if (status == WT_OK)
+        *values = (drawn_values){own->item.of, own->statement};
+    return status;
+}
+
+void drawn_hold(wt_drawn *drawn, bool held)
+{
+    if (drawn != NULL)
+        drawn->own.held = held;
 }

@@ -1,5 +1,6 @@
 /* The materials of the replicates with their angular integrals, made once for all contacts of a job
- * and, in a run, of the jobs one after another. Internal to flow.
+ * and, in a run, of the jobs one after another; likewise that of the values themselves, where its
+ * integrals have no closed form. Internal to flow.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_FLOW_SLIDING_DRAWN_MATERIALS_H
 #define WEARTRACK_FLOW_SLIDING_DRAWN_MATERIALS_H
@@ -7,7 +8,8 @@
 #include "kernel/angular.h"
 #include "weartrack/flow.h"
 
-/* Relative numerical error asked of replicates: far below the scatter between them. */
+/* Relative numerical error asked of replicates: far below the scatter between them, which is some
+ * per cent. */
 #define REPLICATE_TOLERANCE 1e-5
 
 wt_drawn *drawn_new(void); /* NULL when out of memory */
@@ -25,5 +27,18 @@ typedef struct drawn_material {
  * a time. */
 wt_status drawn_get(wt_drawn *drawn, size_t replicate, drawn_material *material,
                     wt_error *err) WT_NODISCARD;
+
+/* Of the values themselves, with what must be said of it, borrowed; its series, if its law has no
+ * closed form, over the wavenumbers of the surface at these velocities. NULLs: there is none, and a
+ * contact makes its own. A rubber is known by its place, so one that changes in it must not be
+ * asked for twice. Not while others read it, unless it is held: then nothing is made. */
+typedef struct drawn_values {
+    drawn_material of;
+    const char *statement;
+} drawn_values;
+wt_status drawn_values_get(wt_drawn *drawn, const wt_sliding *sliding, double tolerance,
+                           double slowest, double fastest, drawn_values *values,
+                           wt_error *err) WT_NODISCARD;
+void drawn_hold(wt_drawn *drawn, bool held); /* NULL: nothing */
 
 #endif

@@ -8,7 +8,8 @@
 #include "flow/work/draws.h"
 #include "kernel/params.h"
 
-#include "data/tables/tables.h"
+#include "base/clocale.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +32,7 @@ typedef struct friction_task {
     replicates replicates;
 } friction_task;
 
-static double *slot(double *values, size_t n, int kind)
+static double *numbers_of_kind(double *values, size_t n, int kind)
 {
     return values + (size_t)kind * n;
 }
@@ -58,8 +59,9 @@ static double shear_factor(const friction_task *task, wt_layer_state layer)
     return task->layer->bulk_shear ? 1 : layer.modulus_ratio;
 }
 
-static wt_status compute(const friction_task *task, size_t replicate, wt_friction_point *points,
-                         double *out, sliding_contact *c, wt_error *err)
+static wt_status compute_bulk(const friction_task *task, size_t replicate,
+                              wt_friction_point *points, double *out, sliding_contact *c,
+                              wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
@@ -68,13 +70,13 @@ static wt_status compute(const friction_task *task, size_t replicate, wt_frictio
         status =
             wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        slot(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
-        slot(out, task->n, AREA)[i] = points[i].area_ratio.value;
-        slot(out, task->n, TOTAL)[i] =
+        numbers_of_kind(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        numbers_of_kind(out, task->n, TOTAL)[i] =
             points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
-        slot(out, task->n, LAYERED)[i] = (double)NAN;
-        slot(out, task->n, CHANGE)[i] = (double)NAN;
-        slot(out, task->n, RELATIVE)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
     }
     return status;
 }
@@ -91,10 +93,10 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         double with = points[i].hysteresis.value + shear_factor(task, layer) * c.shear_stress *
                                                        points[i].area_ratio.value / c.pressure;
-        double without = slot(out, task->n, TOTAL)[i];
-        slot(out, task->n, LAYERED)[i] = with;
-        slot(out, task->n, CHANGE)[i] = with - without;
-        slot(out, task->n, RELATIVE)[i] = with / without - 1;
+        double without = numbers_of_kind(out, task->n, TOTAL)[i];
+        numbers_of_kind(out, task->n, LAYERED)[i] = with;
+        numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
     }
     sliding_contact_clear(&c);
     return status;
@@ -107,7 +109,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     wt_friction_point *points = malloc(task->n * sizeof *points);
     if (points == NULL)
         return WT_E_MEMORY;
-    wt_status status = compute(task, i, points, out, &c, err);
+    wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
         status = compute_layered(task, i, points, out, err);
     sliding_contact_clear(&c);
@@ -125,104 +127,111 @@ static double extrapolated_share(const wt_rubber *rubber, const wt_friction_poin
                                                                       : p->extrapolated_share;
 }
 
+TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
+          wt_estimate total, hysteresis, area, with_layer;)
+
+TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
+           wt_estimate pressure, temperature, shear_stress, total, hysteresis, area, strain;
+           wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
+           wt_estimate relative_change, relative_change_low, relative_change_high;
+           size_t replicates; const char *includes, *lacks, *statement;
+           char material[512], softening[512], numerical[512];)
+
+/* Of the values themselves, with what the replicates scatter. */
+static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
+{
+    return (wt_estimate){numbers_of_kind(task->centre, task->n, kind)[i],
+                         numbers_of_kind(task->replicates.error, task->n, kind)[i], numerical_error,
+                         NULL};
+}
+
 static void add_rows(friction_task *task, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
     const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
-        wt_estimate hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"};
-        wt_estimate area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"};
-        wt_estimate total = wt_friction_total(hysteresis, area, shear, s->pressure.value);
-        table_row(t);
-        friction_put(t, FRICTION_VELOCITY, p->velocity);
-        friction_put(t, FRICTION_TOTAL, total.value);
-        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, TOTAL)[i]);
-        friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
-        friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
-        friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, HYSTERESIS)[i]);
-        friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
-        friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
-        friction_put(t, FRICTION_AREA_RATIO, area.value);
-        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, AREA)[i]);
-        friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
-        friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
-        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR,
-                     slot(task->replicates.error, task->n, LAYERED)[i]);
-        friction_put(t, FRICTION_EXTRAPOLATED_SHARE, extrapolated_share(s->rubber, p));
+        friction_row row = {
+            .velocity = p->velocity,
+            .extrapolated_share = extrapolated_share(s->rubber, p),
+            .hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"},
+            .area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"},
+            .with_layer = with_error(task, LAYERED, i, 0)};
+        row.total = wt_friction_total(row.hysteresis, row.area, shear, s->pressure.value);
+        row.adhesion = row.total.value - row.hysteresis.value;
+        row.total.standard_error = with_error(task, TOTAL, i, 0).standard_error;
+        row.hysteresis.standard_error = with_error(task, HYSTERESIS, i, 0).standard_error;
+        row.area.standard_error = with_error(task, AREA, i, 0).standard_error;
+        friction_add_row(t, &row);
     }
 }
 
-/* A number of the reference velocity, the last one. */
-static void set_at_reference(friction_task *task, table_writer *t, friction_key key, int kind,
-                             double numerical_error)
-{
-    const size_t last = task->n - 1;
-    friction_set_value(t, key, slot(task->centre, task->n, kind)[last],
-                       slot(task->replicates.error, task->n, kind)[last], numerical_error);
-}
+static const wt_estimate not_known = {(double)NAN, (double)NAN, (double)NAN, NULL};
 
-static void set_layer_keys(friction_task *task, table_writer *t)
+static void find_layer_keys(friction_task *task, friction_keys *keys)
 {
     const size_t last = task->n - 1;
-    const double *relative = slot(task->centre, task->n, RELATIVE);
-    double low = relative[0], high = relative[0], both = task->numerical[0] + task->numerical[1];
+    const double *relative = numbers_of_kind(task->centre, task->n, RELATIVE);
+    const double both = task->numerical[0] + task->numerical[1];
+    keys->relative_change_low = keys->relative_change_high = not_known;
+    keys->relative_change_low.value = keys->relative_change_high.value = relative[0];
     for (size_t i = 1; i < last; i++) {
-        low = fmin(low, relative[i]);
-        high = fmax(high, relative[i]);
+        keys->relative_change_low.value = fmin(keys->relative_change_low.value, relative[i]);
+        keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
     }
-    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, flow_as_stated(task->layer->thickness));
-    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, flow_as_stated(task->layer->modulus_ratio));
-    set_at_reference(task, t, FRICTION_KEY_WITH_LAYER, LAYERED, task->numerical[1]);
-    set_at_reference(task, t, FRICTION_KEY_CHANGE, CHANGE, both);
-    set_at_reference(task, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
-                     both / slot(task->centre, task->n, TOTAL)[last]);
-    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, (double)NAN);
-    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, (double)NAN);
+    keys->layer_thickness = flow_as_stated(task->layer->thickness);
+    keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
+    keys->with_layer = with_error(task, LAYERED, last, task->numerical[1]);
+    keys->change = with_error(task, CHANGE, last, both);
+    keys->relative_change = with_error(task, RELATIVE, last,
+                                       both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
 }
 
+/* The reference velocity is the last one. */
 static void set_keys(friction_task *task, table_writer *t, const char *statement)
 {
     const wt_sliding *s = task->sliding;
-    const wt_friction_point *reference = &task->points[task->n - 1];
-    wt_estimate temperature = s->temperature;
-    if (isnan(temperature.value))
-        temperature.value = s->rubber->prony.reference_temperature;
-    friction_set(t, FRICTION_KEY_PRESSURE, flow_as_stated(s->pressure));
-    friction_set(t, FRICTION_KEY_TEMPERATURE, flow_as_stated(temperature));
+    const size_t last = task->n - 1;
+    const wt_friction_point *reference = &task->points[last];
+    friction_keys keys = {
+        .gamma = s->gamma,
+        .reference_velocity = task->velocity[last],
+        .pressure = flow_as_stated(s->pressure),
+        .temperature = s->temperature,
+        .shear_stress = flow_as_stated(s->shear_stress),
+        .total = with_error(task, TOTAL, last, task->numerical[0]),
+        .hysteresis = with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
+        .area = with_error(task, AREA, last, reference->area_ratio.numerical_error),
+        .strain = not_known,
+        .layer_thickness = not_known,
+        .layer_modulus_ratio = not_known,
+        .with_layer = not_known,
+        .change = not_known,
+        .relative_change = not_known,
+        .relative_change_low = not_known,
+        .relative_change_high = not_known,
+        .replicates = task->replicates.n,
+        .includes = replicates_include(&task->replicates),
+        .lacks = task->replicates.lacks,
+        .statement = statement};
+    if (isnan(keys.temperature.value))
+        keys.temperature.value = s->rubber->prony.reference_temperature;
+    keys.temperature = flow_as_stated(keys.temperature);
+    if (wt_rubber_describe(s->rubber, keys.material, sizeof keys.material) == 0)
+        keys.material[0] = '\0';
+    if (s->softness != NULL) {
+        softness_describe(s->softness, keys.softening, sizeof keys.softening);
+        keys.strain.value = task->strain;
+    }
+    if (task->worst > 0)
+        clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
+                      task->work->tolerance, task->worst);
+    if (task->layer != NULL)
+        find_layer_keys(task, &keys);
+    friction_set_keys(t, &keys);
     if (isnan(s->shear_stress.value))
         friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
                           "not given: only the hysteresis part is known");
-    else
-        friction_set(t, FRICTION_KEY_SHEAR_STRESS, flow_as_stated(s->shear_stress));
-    friction_set_print(t, FRICTION_KEY_GAMMA, "%g", s->gamma);
-    friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, task->velocity[task->n - 1], 0, 0);
-    set_at_reference(task, t, FRICTION_KEY_FRICTION, TOTAL, task->numerical[0]);
-    set_at_reference(task, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
-                     reference->hysteresis.numerical_error);
-    set_at_reference(task, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
-    friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
-    if (task->replicates.lacks[0] != '\0')
-        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->replicates.lacks);
-    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->replicates.n);
-    char material[512];
-    if (wt_rubber_describe(s->rubber, material, sizeof material) > 0)
-        friction_set_text(t, FRICTION_KEY_MATERIAL, material);
-    if (statement[0] != '\0')
-        friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
-    if (s->softness != NULL) {
-        softness_describe(s->softness, material, sizeof material);
-        friction_set_text(t, FRICTION_KEY_SOFTENING, material);
-        friction_set_value(t, FRICTION_KEY_STRAIN, task->strain, (double)NAN, (double)NAN);
-    }
-    if (task->worst > 0)
-        friction_set_print(t, FRICTION_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
-                           task->work->tolerance, task->worst);
-    if (task->layer != NULL)
-        set_layer_keys(task, t);
 }
 
 static wt_status friction_table(friction_task *task, const char *statement, wt_table **out,
@@ -241,7 +250,7 @@ static bool is_reference_alone(const wt_sliding *sliding)
     return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
 }
 
-static wt_status allocate(friction_task *task, wt_error *err)
+static wt_status allocate_numbers(friction_task *task, wt_error *err)
 {
     task->velocity = malloc(task->n * sizeof *task->velocity);
     task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
@@ -254,7 +263,7 @@ static wt_status allocate(friction_task *task, wt_error *err)
     return WT_OK;
 }
 
-static void release(friction_task *task)
+static void release_numbers(friction_task *task)
 {
     free(task->velocity);
     free(task->centre);
@@ -303,7 +312,7 @@ static double relative_error(wt_estimate e)
     return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
 }
 
-static void summarise(const friction_task *task, wt_friction_tables *t)
+static void summarise_friction(const friction_task *task, wt_friction_tables *t)
 {
     const bool total = !isnan(task->sliding->shear_stress.value);
     const int kind = total ? TOTAL : HYSTERESIS;
@@ -311,8 +320,9 @@ static void summarise(const friction_task *task, wt_friction_tables *t)
     cost_summary cost = {
         .items = (double)(task->n * contacts),
         .tolerance_asked = task->work->tolerance,
-        .number = {.value = slot(task->centre, task->n, kind)[task->n - 1],
-                   .standard_error = slot(task->replicates.error, task->n, kind)[task->n - 1]}};
+        .number = {.value = numbers_of_kind(task->centre, task->n, kind)[task->n - 1],
+                   .standard_error =
+                       numbers_of_kind(task->replicates.error, task->n, kind)[task->n - 1]}};
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &task->points[i];
         cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
@@ -339,7 +349,7 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
 {
     const double shear = task->sliding->shear_stress.value / task->sliding->pressure.value;
     const size_t last = task->n - 1;
-    wt_status status = compute(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
     if (status != WT_OK)
         return status;
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
@@ -374,8 +384,9 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     }
     wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
-        slot(r->error, task->n, HYSTERESIS)[i] = slot(r->error, task->n, AREA)[i] =
-            slot(r->error, task->n, TOTAL)[i] = (double)NAN;
+        numbers_of_kind(r->error, task->n, HYSTERESIS)[i] =
+            numbers_of_kind(r->error, task->n, AREA)[i] =
+                numbers_of_kind(r->error, task->n, TOTAL)[i] = (double)NAN;
     return status;
 }
 
@@ -396,7 +407,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                           .replicates = replicates_of(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
-    status = allocate(&task, err);
+    status = allocate_numbers(&task, err);
     if (status == WT_OK)
         status = compute_centre(&task, &c, err);
     if (status == WT_OK)
@@ -404,13 +415,13 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     if (status == WT_OK)
         status = friction_table(&task, c.statement, &t.friction, err);
     if (status == WT_OK) {
-        summarise(&task, &t);
+        summarise_friction(&task, &t);
         *tables = t;
         t = (wt_friction_tables){0};
     }
     sliding_contact_clear(&c);
     wt_friction_tables_clear(&t);
-    release(&task);
+    release_numbers(&task);
     return status;
 }
 

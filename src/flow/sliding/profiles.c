@@ -3,7 +3,7 @@
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
 
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,11 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
 
 /* ---- contact area ---------------------------------------------------------------------------- */
 
+/* As a figure shows well. */
 #define POINTS_PER_DECADE 20
+
+TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;
+          wt_friction_node node;)
 
 static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
                            wt_friction_node *nodes, table_writer *t, cost_summary *cost)
@@ -29,12 +33,7 @@ static void add_area_block(const sliding_contact *c, double velocity, const doub
         t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
     table_block(t);
     for (size_t i = 0; t->status == WT_OK && i < n; i++) {
-        table_row(t);
-        contact_area_put(t, CONTACT_AREA_VELOCITY, velocity);
-        contact_area_put(t, CONTACT_AREA_MAGNIFICATION, q[i] / c->roughness->q0);
-        contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
-        contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
-        contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
+        TABLE_ADD(contact_area, t, velocity, q[i] / c->roughness->q0, q[i], nodes[i]);
         cost->items++;
         cost->error_estimated =
             fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
@@ -88,7 +87,9 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
 
 /* ---- energy density -------------------------------------------------------------------------- */
 
-#define DEPTHS 121
+#define DEPTHS 121 /* as a figure shows well */
+
+TABLE_ROW(energy_density, ENERGY_DENSITY, double depth, energy_density;)
 
 static void add_depths(const wt_energy_source *source, table_writer *t)
 {
@@ -101,9 +102,7 @@ static void add_depths(const wt_energy_source *source, table_writer *t)
     const double first = 0.1 / q_max, last = 3 / q_min;
     for (size_t i = 0; i < DEPTHS; i++) {
         const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
-        table_row(t);
-        energy_density_put(t, ENERGY_DENSITY_DEPTH, depth);
-        energy_density_put(t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
+        TABLE_ADD(energy_density, t, depth, wt_energy_density(source, depth));
     }
 }
 

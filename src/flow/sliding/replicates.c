@@ -82,7 +82,7 @@ static wt_status draw_one(void *user, size_t i, unsigned worker)
 
 /* For its velocities; where jobs share the material, for all of the contact, so that it does not
  * matter which comes first. */
-static wt_status begin(replicates *r, wt_error *err)
+static wt_status begin_materials(replicates *r, wt_error *err)
 {
     const wt_sliding *s = r->sliding;
     const double *v = s->velocity, reference = flow_reference_velocity(s);
@@ -98,7 +98,7 @@ static wt_status begin(replicates *r, wt_error *err)
                             : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-static void end(replicates *r)
+static void end_materials(replicates *r)
 {
     if (r->drawn != r->work->drawn)
         drawn_free(r->drawn);
@@ -116,13 +116,13 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
     drawing d = {r, one, user};
     char words[64];
     snprintf(words, sizeof words, "%s replicates", r->what);
-    wt_status status = r->n > 0 ? begin(r, err) : WT_OK;
+    wt_status status = r->n > 0 ? begin_materials(r, err) : WT_OK;
     if (status != WT_OK) {
-        end(r);
+        end_materials(r);
         return status;
     }
     status = wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
-    end(r);
+    end_materials(r);
     if (status != WT_OK)
         return wt_fail(err, status, "the replicates of the %s failed", r->what);
     size_t lost = 0;

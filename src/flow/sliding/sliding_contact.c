@@ -96,6 +96,20 @@ static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, w
     return status;
 }
 
+/* The material of the values themselves, if the jobs share it. */
+static wt_status share_values(const wt_sliding *sliding, const wt_job *work, drawn_material *kept,
+                              sliding_contact *c, wt_error *err)
+{
+    const double *v = sliding->velocity, reference = flow_reference_velocity(sliding);
+    drawn_values values;
+    const wt_status status =
+        drawn_values_get(work->drawn, sliding, work->tolerance, fmin(v[0], reference),
+                         fmax(v[sliding->n_velocity - 1], reference), &values, err);
+    *kept = values.of;
+    snprintf(c->statement, sizeof c->statement, "%s", values.statement);
+    return status;
+}
+
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
                                wt_drawn *shared, wt_layer_state layer, sliding_contact *contact,
                                wt_error *err)
@@ -118,7 +132,9 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.layer = layer;
     options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
     drawn_material kept = {0};
-    wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err) : WT_OK;
+    wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err)
+                       : drawn        ? WT_OK
+                                      : share_values(sliding, work, &kept, &c, err);
     c.shared = kept.material != NULL;
     c.material = kept.material;
     options.series = kept.series;

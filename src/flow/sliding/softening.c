@@ -6,22 +6,23 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /* At one velocity. */
-typedef struct row {
-    wt_friction_point with, without;
-    double below, above; /* shares of the hysteresis */
-} row;
+TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;
+          /* shares of the hysteresis */)
+
+TABLE_KEYS(softening, SOFTENING, char source[256], effect[192]; double strain_factor;
+           wt_estimate strain, share_above;)
 
 typedef struct effect {
     const wt_sliding *sliding;
     wt_job work;
-    double *velocity; /* [n] the reference last */
-    row *rows;        /* [n] */
+    double *velocity;    /* [n] the reference last */
+    softening_row *rows; /* [n] */
     wt_friction_point *points;
     size_t n;
     double strain; /* the largest */
@@ -43,7 +44,7 @@ static wt_status find_shares(effect *e, const sliding_contact *c, wt_error *err)
     wt_status status = WT_OK;
     for (size_t i = 0; i < e->n && status == WT_OK; i++) {
         wt_friction_node nodes[2];
-        row *r = &e->rows[i];
+        softening_row *r = &e->rows[i];
         status =
             wt_friction_profile(c->workspace, c->pressure, e->velocity[i], e->range, 2, nodes, err);
         const double all = r->with.hysteresis.value;
@@ -56,7 +57,7 @@ static wt_status find_shares(effect *e, const sliding_contact *c, wt_error *err)
     return status;
 }
 
-static wt_status compute(effect *e, bool softened, wt_error *err)
+static wt_status compute_contact(effect *e, bool softened, wt_error *err)
 {
     sliding_contact c = {0};
     wt_status status = open_contact(e, softened, &c, err);
@@ -73,44 +74,24 @@ static wt_status compute(effect *e, bool softened, wt_error *err)
     return status;
 }
 
-static void put_row(const row *r, table_writer *t)
+static void say_change(const softening_row *r, char text[192])
 {
-    table_row(t);
-    softening_put(t, SOFTENING_VELOCITY, r->with.velocity);
-    softening_put(t, SOFTENING_HYSTERESIS, r->with.hysteresis.value);
-    softening_put(t, SOFTENING_HYSTERESIS_NUMERICAL_ERROR, r->with.hysteresis.numerical_error);
-    softening_put(t, SOFTENING_HYSTERESIS_WITHOUT, r->without.hysteresis.value);
-    softening_put(t, SOFTENING_HYSTERESIS_WITHOUT_NUMERICAL_ERROR,
-                  r->without.hysteresis.numerical_error);
-    softening_put(t, SOFTENING_AREA_RATIO, r->with.area_ratio.value);
-    softening_put(t, SOFTENING_AREA_RATIO_NUMERICAL_ERROR, r->with.area_ratio.numerical_error);
-    softening_put(t, SOFTENING_AREA_RATIO_WITHOUT, r->without.area_ratio.value);
-    softening_put(t, SOFTENING_AREA_RATIO_WITHOUT_NUMERICAL_ERROR,
-                  r->without.area_ratio.numerical_error);
-    softening_put(t, SOFTENING_SHARE_BELOW, r->below);
-    softening_put(t, SOFTENING_SHARE_ABOVE, r->above);
-}
-
-static void say_change(const row *r, table_writer *t)
-{
-    char text[192], velocity[32];
+    char velocity[32];
     wt_format_si(r->with.velocity, "m/s", 3, velocity, sizeof velocity);
-    clocale_print(text, sizeof text,
+    clocale_print(text, 192,
                   "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against the moduli at "
                   "small strain",
                   velocity, 100 * (r->with.hysteresis.value / r->without.hysteresis.value - 1),
                   100 * (r->with.area_ratio.value / r->without.area_ratio.value - 1));
-    softening_set_text(t, SOFTENING_KEY_EFFECT, text);
 }
 
 static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
 {
-    char words[256];
     table_writer t = table_begin(&softening_schema, err);
     double above = (double)NAN;
     size_t n_without = 0;
     for (size_t i = 0; i + 1 < e->n; i++) {
-        put_row(&e->rows[i], &t);
+        softening_add_row(&t, &e->rows[i]);
         n_without += isnan(e->rows[i].above) ? 1 : 0;
     }
     for (size_t i = 0; i < e->n; i++)
@@ -120,12 +101,12 @@ static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
                             "%zu of %zu velocities have no hysteresis friction, of which there "
                             "could be a share",
                             n_without, e->n - 1);
-    softness_describe(e->sliding->softness, words, sizeof words);
-    softening_set_text(&t, SOFTENING_KEY_SOURCE, words);
-    softening_set_print(&t, SOFTENING_KEY_STRAIN_FACTOR, "%g", e->sliding->strain_factor);
-    softening_set_value(&t, SOFTENING_KEY_STRAIN, e->strain, (double)NAN, (double)NAN);
-    softening_set_value(&t, SOFTENING_KEY_SHARE_ABOVE, above, (double)NAN, (double)NAN);
-    say_change(&e->rows[e->n - 1], &t);
+    softening_keys keys = {.strain_factor = e->sliding->strain_factor,
+                           .strain = {e->strain, (double)NAN, (double)NAN, NULL},
+                           .share_above = {above, (double)NAN, (double)NAN, NULL}};
+    softness_describe(e->sliding->softness, keys.source, sizeof keys.source);
+    say_change(&e->rows[e->n - 1], keys.effect);
+    softening_set_keys(&t, &keys);
     return table_end(&t, table);
 }
 
@@ -161,10 +142,10 @@ wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_ta
         e.velocity[i] = sliding->velocity[i];
     if (status == WT_OK) {
         e.velocity[e.n - 1] = flow_reference_velocity(sliding);
-        status = compute(&e, true, err);
+        status = compute_contact(&e, true, err);
     }
     if (status == WT_OK)
-        status = compute(&e, false, err);
+        status = compute_contact(&e, false, err);
     if (status == WT_OK)
         status = make_table(&e, table, err);
     if (status == WT_OK)

@@ -7,14 +7,15 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 #include "flow/spot/spot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of the position within its error. */
+/* Steps of the position within its error to each side: 81 places, of which the largest and the
+ * least are told. */
 enum { WITHIN = 4 };
 
 wt_spot_job wt_spot_job_defaults(void)
@@ -108,7 +109,7 @@ static double limit_of(const wt_spot_job *job, const spot *s)
 }
 
 /* "cannot say" goes on with what would tell. */
-static void judge(const wt_spot_job *job, const spot_field *f, bool covered, spot *s)
+static void judge_roughness(const wt_spot_job *job, const spot_field *f, bool covered, spot *s)
 {
     const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;
     char pixel[32], contact[32], need[32], within[32];
@@ -179,70 +180,41 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image, c
         status = find_median(f, s, err);
     else
         s->plane.rms = (double)NAN;
-    judge(job, f, covered, s);
+    judge_roughness(job, f, covered, s);
     return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static void put_number(table_writer *t, spot_column first, spot_number n)
-{
-    spot_put(t, first, n.value);
-    spot_put(t, first + 1, n.error);
-    spot_put(t, first + 2, n.low);
-    spot_put(t, first + 3, n.high);
-}
+TABLE_ROW(spot, SPOT, spot spot; imprint left; wt_interval roughness, ratio;
+          wt_estimate shift_x, shift_y;
+          double x, y, depth, tilt, limit, places, deepest_x, deepest_y;)
 
-static void put_imprint(table_writer *t, const wt_image *image, const imprint *i)
-{
-    if (i->shift.found) {
-        spot_put(t, SPOT_SHIFT_X, i->shift.x);
-        spot_put(t, SPOT_SHIFT_X_STANDARD_ERROR, i->shift.x_error);
-        spot_put(t, SPOT_SHIFT_Y, i->shift.y);
-        spot_put(t, SPOT_SHIFT_Y_STANDARD_ERROR, i->shift.y_error);
-        spot_put(t, SPOT_STRAIN, i->strain);
-    }
-    spot_put(t, SPOT_OVERLAP, i->shift.overlap);
-    put_number(t, SPOT_IMPRINT, i->depth);
-    put_number(t, SPOT_VOLUME, i->volume);
-    spot_put(t, SPOT_PLACES, (double)i->places);
-    if (!isnan(i->deepest)) {
-        spot_put(t, SPOT_DEEPEST, i->deepest);
-        spot_put(t, SPOT_DEEPEST_X, i->deepest_x + image->x_min);
-        spot_put(t, SPOT_DEEPEST_Y, i->deepest_y + image->y_min);
-    }
-    spot_set_text(t, SPOT_KEY_IMPRINT, i->verdict);
-}
+TABLE_KEYS(spot, SPOT, const char *tip, *image, *verdict; wt_estimate effect;)
 
 static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const spot *s,
                           const imprint *left, wt_table **table, wt_error *err)
 {
+    const double nan = (double)NAN, depth = job->depth, rms = s->plane.rms;
+    const wt_interval none = {nan, nan, nan, nan};
+    const bool rough = !isnan(rms), found = left->shift.found;
+    const spot_shift *shift = &left->shift;
     char tip[256];
     table_writer t = table_begin(&spot_schema, err);
-    table_row(&t);
-    spot_put(&t, SPOT_X, s->x + image->x_min);
-    spot_put(&t, SPOT_Y, s->y + image->y_min);
-    spot_put(&t, SPOT_INDENTATION, job->depth);
-    spot_put(&t, SPOT_CONTACT_RADIUS, s->contact);
-    spot_put(&t, SPOT_PIXELS, (double)s->plane.n);
-    if (!isnan(s->plane.rms)) {
-        spot_put(&t, SPOT_TILT, hypot(s->plane.slope_x, s->plane.slope_y));
-        spot_put(&t, SPOT_ROUGHNESS, s->plane.rms);
-        spot_put(&t, SPOT_ROUGHNESS_LOW, s->low);
-        spot_put(&t, SPOT_ROUGHNESS_HIGH, s->high);
-        spot_put(&t, SPOT_ROUGHNESS_MEDIAN, s->median);
-        spot_put(&t, SPOT_RATIO, s->plane.rms / job->depth);
-        spot_put(&t, SPOT_RATIO_LOW, s->low / job->depth);
-        spot_put(&t, SPOT_RATIO_HIGH, s->high / job->depth);
-    }
-    spot_put(&t, SPOT_LIMIT, limit_of(job, s));
+    TABLE_ADD(
+        spot, &t, .spot = *s, .left = *left,
+        .roughness = rough ? (wt_interval){rms, nan, s->low, s->high} : none,
+        .ratio = rough ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
+        .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
+        .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
+        .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
+        .tilt = rough ? hypot(s->plane.slope_x, s->plane.slope_y) : nan, .limit = limit_of(job, s),
+        .places = job->after != NULL ? (double)left->places : nan,
+        .deepest_x = left->deepest_x + image->x_min, .deepest_y = left->deepest_y + image->y_min);
     if (job->after != NULL)
-        put_imprint(&t, image, left);
+        spot_set_text(&t, SPOT_KEY_IMPRINT, left->verdict);
     wt_tip_describe(&job->tip, tip, sizeof tip);
-    spot_set_text(&t, SPOT_KEY_TIP, tip);
-    spot_set_text(&t, SPOT_KEY_IMAGE, image->name);
-    spot_set_value(&t, SPOT_KEY_EFFECT, job->largest_effect, 0, 0);
-    spot_set_text(&t, SPOT_KEY_VERDICT, s->verdict);
+    TABLE_SET(spot, &t, tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL});
     return table_end(&t, table);
 }
 
@@ -263,7 +235,7 @@ wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *w
     wt_image image = {.values = NULL};
     spot_field field = {.z = NULL};
     spot s = {0};
-    imprint left = {0};
+    imprint left = spot_no_imprint();
     wt_spot_tables made = {0};
     wt_status status = param_check(wt_spot_job_params(), job, err);
     if (status == WT_OK)

@@ -15,14 +15,10 @@ typedef struct spot {
     char verdict[320];
 } spot;
 
-typedef struct spot_number {
-    double value, error, low, high;
-} spot_number;
-
 typedef struct imprint {
     spot_shift shift;
     double strain; /* largest change of the drift along the image, per length */
-    spot_number depth, volume;
+    wt_interval depth, volume;
     double deepest, deepest_x, deepest_y; /* from the first pixel */
     size_t places;
     double *difference; /* at the pixels of the image before; NULL if not known; owned */
@@ -40,6 +36,8 @@ spot_field spot_field_of(const wt_image *image);
 /* The image of heights of a file that the job names; the others are cleared. */
 wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,
                           const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
+/* What is known without an image after the indentation. */
+imprint spot_no_imprint(void);
 /* What changed at the spot to the image of job->after. */
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
                             const wt_job *work, imprint *to, wt_error *err) WT_NODISCARD;

@@ -18,12 +18,12 @@ enum { LEAST_PLACES = 8, MOST_RATIO = 4, STEPS = 4, SEARCHED = 2 };
 static const double more_of_many = 4.43 / 1.96;
 
 /* What a place has, less what untouched ones have in the mean, whose scatter is its error. */
-static spot_number against(double value, const double *others, size_t n)
+static wt_interval less_untouched(double value, const double *others, size_t n)
 {
     const moments m = moments_of(others, n);
     const double error = sqrt(m.variance * (1 + 1 / (double)n)),
                  reach = students_t_quantile((double)n - 1) * error;
-    return (spot_number){value - m.mean, error, value - m.mean - reach, value - m.mean + reach};
+    return (wt_interval){value - m.mean, error, value - m.mean - reach, value - m.mean + reach};
 }
 
 /* The dents of untouched places; depth and volume have room for all of them. */
@@ -50,7 +50,7 @@ static wt_status measure_others(const spot_field *difference, const spot *s, con
 static wt_status find_deepest(const spot_field *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
-    enum { MOST = 24 };
+    enum { MOST = 24 }; /* steps to each side, a bound of time */
     const double within = fmin(s->error, SEARCHED * s->contact);
     const int steps = (int)fmin(MOST, ceil(STEPS * within / s->contact));
     wt_status status = WT_OK;
@@ -86,8 +86,8 @@ static wt_status measure_dent(const spot_field *difference, const spot *s, impri
         status = measure_others(difference, s, &p, depth, volume, &to->places, err);
     if (status == WT_OK && !isnan(here.depth) && !isnan(here.volume) &&
         to->places >= LEAST_PLACES) {
-        to->depth = against(here.depth, depth, to->places);
-        to->volume = against(here.volume, volume, to->places);
+        to->depth = less_untouched(here.depth, depth, to->places);
+        to->volume = less_untouched(here.volume, volume, to->places);
         status = find_deepest(difference, s, to, err);
         to->deepest -= here.depth - to->depth.value;
     }
@@ -134,7 +134,7 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
 {
     char depth[32], error[32], high[32], around[32];
     wt_format_si(to->depth.value, "m", 3, depth, sizeof depth);
-    wt_format_si(to->depth.error, "m", 2, error, sizeof error);
+    wt_format_si(to->depth.standard_error, "m", 2, error, sizeof error);
     wt_format_si(to->depth.high, "m", 2, high, sizeof high);
     wt_format_si(4 * s->contact, "m", 3, around, sizeof around);
     if (!to->shift.found)
@@ -151,7 +151,7 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
             "cannot say: the images overlap in %.0f %%, and that does not hold %s about the "
             "place, four contact radii; images that do would tell",
             100 * to->shift.overlap, around);
-    else if (!(to->depth.error > 0))
+    else if (!(to->depth.standard_error > 0))
         clocale_print(to->verdict, sizeof to->verdict,
                       "cannot say: both images have the same heights; an image taken after the "
                       "indentation would tell");
@@ -220,14 +220,25 @@ static wt_status compare_images(const spot_field *before, const spot_field *afte
     return measure_dent(&changed, s, to, err);
 }
 
+imprint spot_no_imprint(void)
+{
+    const double nan = (double)NAN;
+    const wt_interval unknown = {nan, nan, nan, nan};
+    return (imprint){.shift = {.overlap = nan},
+                     .strain = nan,
+                     .depth = unknown,
+                     .volume = unknown,
+                     .deepest = nan,
+                     .deepest_x = nan,
+                     .deepest_y = nan};
+}
+
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
                             const wt_job *work, imprint *to, wt_error *err)
 {
     wt_image after = {.values = NULL};
     spot_field again = {.z = NULL};
-    const double nan = (double)NAN;
-    const spot_number unknown = {nan, nan, nan, nan};
-    *to = (imprint){.depth = unknown, .volume = unknown, .deepest = nan, .strain = nan};
+    *to = spot_no_imprint();
     wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
     if (status == WT_OK)
         status = check_sizes(before, &after, job->after, err);

@@ -3,11 +3,12 @@
  */
 #include "flow/spot/spot.h"
 
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 
-/* Contact radii on each side of the place; most pixels along an axis. */
+/* Contact radii on each side of the place, so that a dent and what lies untouched are both seen;
+ * most pixels along an axis, as many as a small figure shows. */
 enum { AROUND = 5, MOST = 81 };
 
 /* The pixels that are shown of an axis. */
@@ -15,7 +16,7 @@ typedef struct shown {
     size_t first, last, step;
 } shown;
 
-static shown show(double place, double reach, double pixel, size_t n)
+static shown shown_pixels(double place, double reach, double pixel, size_t n)
 {
     const double low = fmax(0, ceil((place - reach) / pixel)),
                  high = fmin((double)(n - 1), floor((place + reach) / pixel));
@@ -31,12 +32,14 @@ static double less_plane(const spot_field *f, const spot_plane *p, size_t i, siz
     return f->z[j * f->nx + i] - (p->height + p->slope_x * u + p->slope_y * v);
 }
 
+TABLE_ROW(spot_map, SPOT_MAP, double x, y, before, after, change;)
+
 wt_status spot_map_make(const spot_field *before, const spot *s, const double *difference,
                         wt_table **table, wt_error *err)
 {
     const double reach = AROUND * s->contact, nan = (double)NAN;
-    const shown x = show(s->x, reach, before->dx, before->nx),
-                y = show(s->y, reach, before->dy, before->ny);
+    const shown x = shown_pixels(s->x, reach, before->dx, before->nx),
+                y = shown_pixels(s->y, reach, before->dy, before->ny);
     spot_field changed = *before;
     spot_plane planes[2] = {spot_plane_fit(before, s->x, s->y, reach), {nan, nan, nan, nan, 0, 0}};
     if (difference != NULL) {
@@ -50,12 +53,7 @@ wt_status spot_map_make(const spot_field *before, const spot *s, const double *d
             const double was = less_plane(before, &planes[0], i, j, u, v),
                          change = difference != NULL ? less_plane(&changed, &planes[1], i, j, u, v)
                                                      : nan;
-            table_row(&t);
-            spot_map_put(&t, SPOT_MAP_X, u);
-            spot_map_put(&t, SPOT_MAP_Y, v);
-            spot_map_put(&t, SPOT_MAP_BEFORE, was);
-            spot_map_put(&t, SPOT_MAP_AFTER, was + change);
-            spot_map_put(&t, SPOT_MAP_CHANGE, change);
+            TABLE_ADD(spot_map, &t, u, v, was, was + change, change);
         }
     spot_map_set_value(&t, SPOT_MAP_KEY_CONTACT_RADIUS, s->contact, 0, 0);
     return table_end(&t, table);

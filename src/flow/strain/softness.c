@@ -59,11 +59,13 @@ typedef struct one_sweep {
     double *log_strain, *f, *g;
 } one_sweep;
 
-/* Amplitudes that are closer than this are one. */
+/* Amplitudes that are closer than this [ln] are one: 5 %, between which the fall of Kraus's law is
+ * 1.5 % of its height at most. */
 static const double same_strain = 0.05;
 
-/* Kelvin within which two sweeps are of one temperature, and beyond which the nearest one is not
- * what was asked for. */
+/* Kelvin within which two sweeps are of one temperature, as two runs of a chamber are, and beyond
+ * which the nearest one is not what was asked for. The second is chosen: it warns, no number
+ * changes. */
 static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
@@ -79,8 +81,8 @@ static bool is_of(const table_view *v, size_t row, wt_softness_choice choice)
             strcmp(payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE), choice.sample) == 0);
 }
 
-static wt_status several(const char *what, const char *one, const char *other, const char *advice,
-                         wt_error *err)
+static wt_status refuse_several(const char *what, const char *one, const char *other,
+                                const char *advice, wt_error *err)
 {
     wt_fail(err, WT_E_AMBIGUOUS, "strain sweeps of several %s are no repeats", what);
     wt_error_expected(err, "those of one");
@@ -104,10 +106,10 @@ static wt_status choose_sample(const table_view *v, wt_softness_choice *choice, 
         there = there || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
         first = first == NULL ? here : first;
         if (choice->sample == NULL && strcmp(here, first) != 0)
-            return several("samples", first, here,
-                           "choose one with --sample NAME, here "
-                           "if the moduli are of that sample, else of weartrack payne",
-                           err);
+            return refuse_several("samples", first, here,
+                                  "choose one with --sample NAME, here "
+                                  "if the moduli are of that sample, else of weartrack payne",
+                                  err);
     }
     if (!named || (choice->sample != NULL && strcmp(choice->sample, "all") == 0)) {
         choice->sample = NULL;
@@ -146,7 +148,7 @@ static wt_status choose_temperature(const table_view *v, wt_softness_choice *cho
         char one[32], other[32];
         clocale_print(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
         clocale_print(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
-        return several(
+        return refuse_several(
             "temperatures", one, other,
             "choose one with --softening-temperature T, such as that of the contact; in a "
             "case give sweeps of one temperature",
@@ -322,7 +324,7 @@ static bool has_numbers(const wt_table *table, long column)
     return column >= 0 && wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT;
 }
 
-static wt_status missing(wt_error *err)
+static wt_status refuse_table(wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "the table is none of a softening with strain");
     wt_error_expected(err, "columns strain, f and g, and f_error and g_error if they are known; "
@@ -340,13 +342,13 @@ static wt_status of_given(const wt_table *table, wt_softness *s, wt_error *err)
         column[i] = wt_table_find(table, names[i]);
         factor[i] = 1;
         if (!has_numbers(table, column[i]) && (i <= G || column[i] >= 0))
-            return missing(err);
+            return refuse_table(err);
         if (column[i] >= 0 && status == WT_OK)
             status = wt_unit_to_si(wt_table_column_unit(table, (size_t)column[i]), WT_Q_STRAIN,
                                    &factor[i], &zero, err);
     }
     if (status != WT_OK || n == 0)
-        return status != WT_OK ? status : missing(err);
+        return status != WT_OK ? status : refuse_table(err);
     if ((column[F_ERROR] >= 0) != (column[G_ERROR] >= 0)) {
         wt_fail(err, WT_E_MISSING, "a softening with strain has the error of one ratio alone");
         wt_error_expected(err, "f_error and g_error, 0 where there is none");
@@ -459,7 +461,7 @@ void softness_describe(const wt_softness *s, char *text, size_t size)
 }
 
 /* All points move together: what differs between sweeps is the whole curve. */
-static void move(double *value, const double *error, size_t n, double normal)
+static void move_curve(double *value, const double *error, size_t n, double normal)
 {
     for (size_t k = 0; error != NULL && k < n; k++)
         value[k] *= exp(normal * error[k] / value[k]);
@@ -477,9 +479,9 @@ wt_status softness_draw(const wt_softness *softness, uint64_t seed, size_t repli
     memcpy(drawn->table.loss, t->loss, t->n * sizeof *t->loss);
     if (replicate == WT_NO_REPLICATE)
         return WT_OK;
-    move(drawn->table.storage, softness->storage_error, t->n,
-         flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
-    move(drawn->table.loss, softness->loss_error, t->n,
-         flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
+    move_curve(drawn->table.storage, softness->storage_error, t->n,
+               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
+    move_curve(drawn->table.loss, softness->loss_error, t->n,
+               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
     return WT_OK;
 }

@@ -6,7 +6,7 @@
 #include "flow/work/inputs.h"
 
 #include "base/pool.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 
@@ -59,67 +59,26 @@ static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_pars
     return WT_OK;
 }
 
+TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperature, storage, loss,
+          loss_factor;
+          double storage_ratio, loss_ratio, storage_kraus, loss_kraus; const char *source, *sample;)
+
 static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
 {
+    const double unknown = (double)NAN;
     table_block(t);
     for (size_t i = 0; i < s->n; i++) {
-        const double storage = s->storage_modulus[i], loss = s->loss_modulus[i];
-        table_row(t);
-        payne_sweep_put(t, PAYNE_SWEEP_STRAIN, s->strain[i]);
-        payne_sweep_put(t, PAYNE_SWEEP_ANGULAR_FREQUENCY, s->angular_frequency);
-        payne_sweep_put(t, PAYNE_SWEEP_TEMPERATURE, s->temperature);
-        payne_sweep_put(t, PAYNE_SWEEP_STORAGE_MODULUS, storage);
-        payne_sweep_put(t, PAYNE_SWEEP_LOSS_MODULUS, loss);
-        payne_sweep_put(t, PAYNE_SWEEP_LOSS_FACTOR, storage > 0 ? loss / storage : (double)NAN);
-        payne_sweep_put(t, PAYNE_SWEEP_STORAGE_RATIO, storage / p->storage_start);
-        payne_sweep_put(t, PAYNE_SWEEP_LOSS_RATIO, loss / p->loss_start);
-        if (p->fitted) {
-            payne_sweep_put(t, PAYNE_SWEEP_STORAGE_KRAUS, wt_kraus_storage(&p->law, s->strain[i]));
-            payne_sweep_put(t, PAYNE_SWEEP_LOSS_KRAUS, wt_kraus_loss(&p->law, s->strain[i]));
-        }
-        payne_sweep_put_text(t, PAYNE_SWEEP_SOURCE, s->source);
-        if (s->sample != NULL)
-            payne_sweep_put_text(t, PAYNE_SWEEP_SAMPLE, s->sample);
+        const double strain = s->strain[i], storage = s->storage_modulus[i],
+                     loss = s->loss_modulus[i];
+        TABLE_ADD(payne_sweep, t, strain, s->angular_frequency, s->temperature, storage, loss,
+                  storage > 0 ? loss / storage : unknown, storage / p->storage_start,
+                  loss / p->loss_start, p->fitted ? wt_kraus_storage(&p->law, strain) : unknown,
+                  p->fitted ? wt_kraus_loss(&p->law, strain) : unknown, s->source, s->sample);
     }
 }
 
-/* The columns of a number, its error and the ends of its interval stand behind one another. */
-static void put_interval(table_writer *t, payne_column first, const wt_interval *i)
-{
-    payne_put(t, first, i->value);
-    payne_put(t, first + 1, i->standard_error);
-    payne_put(t, first + 2, i->low);
-    payne_put(t, first + 3, i->high);
-}
-
-static void put_numbers(table_writer *t, const wt_strain_sweep *s, size_t n, const wt_payne *p)
-{
-    table_row(t);
-    payne_put(t, PAYNE_ANGULAR_FREQUENCY, s->angular_frequency);
-    payne_put(t, PAYNE_TEMPERATURE, s->temperature);
-    payne_put(t, PAYNE_STORAGE_START, p->storage_start);
-    payne_put(t, PAYNE_STORAGE_END, p->storage_end);
-    payne_put(t, PAYNE_STRAIN_TENTH, p->strain_tenth);
-    payne_put(t, PAYNE_STRAIN_HALF, p->strain_half);
-    payne_put(t, PAYNE_LOSS_MAX, p->loss_max);
-    payne_put(t, PAYNE_STRAIN_LOSS_MAX, p->strain_loss_max);
-    payne_put_text(t, PAYNE_LOSS_NOTE, p->loss_note);
-    put_interval(t, PAYNE_STORAGE_0, &p->storage_0);
-    put_interval(t, PAYNE_STORAGE_INF, &p->storage_inf);
-    put_interval(t, PAYNE_STRAIN_C, &p->strain_c);
-    put_interval(t, PAYNE_EXPONENT, &p->exponent);
-    put_interval(t, PAYNE_LOSS_M, &p->loss_m);
-    put_interval(t, PAYNE_LOSS_INF, &p->loss_inf);
-    payne_put(t, PAYNE_STORAGE_MISFIT, p->storage_misfit);
-    payne_put(t, PAYNE_LOSS_MISFIT, p->loss_misfit);
-    payne_put_text(t, PAYNE_NOTE, p->note);
-    payne_put(t, PAYNE_POINTS, (double)n);
-    payne_put(t, PAYNE_STRAIN_MIN, s->strain[0]);
-    payne_put(t, PAYNE_STRAIN_MAX, s->strain[s->n - 1]);
-    payne_put_text(t, PAYNE_SOURCE, s->source);
-    if (s->sample != NULL)
-        payne_put_text(t, PAYNE_SAMPLE, s->sample);
-}
+TABLE_ROW(payne, PAYNE, wt_strain_sweep sweep; wt_payne payne; size_t points;
+          double strain_min, strain_max;)
 
 static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
                              wt_error *err)
@@ -142,7 +101,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
                                   err);
             if (status == WT_OK) {
                 put_points(&points, s, &payne);
-                put_numbers(&numbers, s, u.n, &payne);
+                TABLE_ADD(payne, &numbers, *s, payne, u.n, s->strain[0], s->strain[s->n - 1]);
                 told++;
             }
         }

@@ -7,8 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Kelvin within which two are of one temperature, relative difference within which they are of one
- * frequency, and what makes their amplitudes two. */
+/* Kelvin within which two are of one temperature, which is what two runs of one chamber agree to;
+ * relative difference within which they are of one frequency (exports of four digits differ by
+ * 5e-4); and the ratio that makes their amplitudes two, as in fit/sweeps/master_notes.c. */
 static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
 
 /* An isotherm or a temperature sweep: its amplitude (NaN: not measured) and where it was measured.
@@ -56,7 +57,7 @@ static void list_parts(const wt_sweep *sweep, part *parts)
 }
 
 /* Whether they share temperatures and frequencies and differ in amplitude. */
-static bool differ(const part *a, const part *b)
+static bool amplitudes_differ(const part *a, const part *b)
 {
     const double ratio = a->amplitude / b->amplitude;
     return a->temperature[0] <= b->temperature[1] + same_temperature &&
@@ -65,7 +66,7 @@ static bool differ(const part *a, const part *b)
            (ratio > other_amplitude || ratio < 1 / other_amplitude);
 }
 
-static wt_status refuse(const part *a, const part *b, wt_error *err)
+static wt_status refuse_amplitudes(const part *a, const part *b, wt_error *err)
 {
     const double low = 100 * fmin(a->amplitude, b->amplitude),
                  high = 100 * fmax(a->amplitude, b->amplitude);
@@ -152,10 +153,10 @@ wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_
         list_parts(sweep, parts);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         for (size_t k = i + 1; k < n && status == WT_OK; k++) {
-            if (!differ(&parts[i], &parts[k]))
+            if (!amplitudes_differ(&parts[i], &parts[k]))
                 continue;
             if (isnan(wanted))
-                status = refuse(&parts[i], &parts[k], err);
+                status = refuse_amplitudes(&parts[i], &parts[k], err);
             else if (is_nearer(&parts[i], &parts[k], wanted))
                 parts[k].drop = true;
             else

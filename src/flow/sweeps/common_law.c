@@ -3,16 +3,17 @@
 #include "flow/work/inputs.h"
 
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Samples of one law are told apart by chance about so often. */
+/* Samples of one law are told apart by chance about so often: the customary level for what shall
+ * not be said lightly. */
 static const double level = 0.01;
-/* Of a sample, beside its name. */
+/* Letters that a sample takes beside its name, whatever its numbers are. */
 enum { MOST_WORDS = 160 };
 
 wt_common_law_job wt_common_law_job_defaults(void)
@@ -36,45 +37,29 @@ PARAM_TABLE(wt_common_law_job_params, wt_common_law_job, rows, wt_common_law_job
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static void put_interval(table_writer *t, common_law_column first, wt_interval x)
-{
-    common_law_put(t, first, x.value);
-    common_law_put(t, first + 1, x.low);
-    common_law_put(t, first + 2, x.high);
-}
+TABLE_ROW(common_law, COMMON_LAW, const char *sample, *note; wt_interval moved;
+          wt_common_point point;)
 
 static void put_sample(const wt_common_law_job *job, const wt_common_law *law, size_t sample,
                        table_writer *t)
 {
+    const double none = (double)NAN;
+    const wt_interval unknown = {none, none, none, none};
     const wt_common_member *m = &law->members[sample];
+    const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
     table_block(t);
-    if (!m->used) {
-        table_row(t);
-        common_law_put_text(t, COMMON_LAW_SAMPLE, job->names[sample]);
-        common_law_put_text(t, COMMON_LAW_NOTE, m->why_not);
-    }
-    for (size_t i = 0; i < law->n; i++) {
-        const wt_common_point *p = &law->points[i];
-        if (p->sample != sample)
-            continue;
-        table_row(t);
-        common_law_put_text(t, COMMON_LAW_SAMPLE, job->names[sample]);
-        common_law_put(t, COMMON_LAW_TEMPERATURE, p->temperature);
-        common_law_put(t, COMMON_LAW_LOG_A, p->log_a);
-        common_law_put(t, COMMON_LAW_LOG_A_STANDARD_ERROR, p->log_a_error);
-        put_interval(t, COMMON_LAW_LAW_LOG_A, p->law);
-        put_interval(t, COMMON_LAW_DIFFERENCE, p->difference);
-        if (job->common != WT_COMMON_MOVED)
-            continue;
-        common_law_put(t, COMMON_LAW_MOVED, m->moved.value);
-        common_law_put(t, COMMON_LAW_MOVED_STANDARD_ERROR, m->moved.standard_error);
-    }
+    if (!m->used)
+        TABLE_ADD(common_law, t, job->names[sample], m->why_not, unknown,
+                  {sample, none, none, none, unknown, unknown});
+    for (size_t i = 0; i < law->n; i++)
+        if (law->points[i].sample == sample)
+            TABLE_ADD(common_law, t, job->names[sample], NULL, moved, law->points[i]);
 }
 
 /* ---- words ----------------------------------------------------------------------------------- */
 
 /* The end of an interval of a difference that is furthest from 0; NaN: none is known. */
-static double furthest(const wt_common_law *law, size_t *sample)
+static double furthest_difference(const wt_common_law *law, size_t *sample)
 {
     double most = (double)NAN;
     for (size_t i = 0; i < law->n; i++) {
@@ -91,7 +76,7 @@ static double furthest(const wt_common_law *law, size_t *sample)
 static void set_verdict(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
 {
     size_t sample = 0;
-    const double most = furthest(law, &sample);
+    const double most = furthest_difference(law, &sample);
     const char *const kind = job->common == WT_COMMON_MOVED ? ", moved along the temperature" : "";
     common_law_set_print(t, COMMON_LAW_KEY_MARGIN, "%g", job->margin);
     if (!isnan(most)) {
@@ -152,8 +137,8 @@ static list make_list(const wt_common_law_job *job)
     return made;
 }
 
-static void add(list *to, const char *format, ...) WT_PRINTF(2, 3);
-static void add(list *to, const char *format, ...)
+static void add_words(list *to, const char *format, ...) WT_PRINTF(2, 3);
+static void add_words(list *to, const char *format, ...)
 {
     if (to->text == NULL)
         return;
@@ -172,18 +157,19 @@ static void set_each(const wt_common_law_job *job, const wt_common_law *law, tab
     for (size_t i = 0; i < law->n_members; i++) {
         const wt_common_member *m = &law->members[i];
         if (!m->used) {
-            add(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i], m->why_not);
+            add_words(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
+                      m->why_not);
             continue;
         }
         const double reference = law->reference + m->moved.value;
-        add(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
-            reference - WT_ZERO_CELSIUS);
+        add_words(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
+                  reference - WT_ZERO_CELSIUS);
         if (m->moved.standard_error > 0)
-            add(&moved, " ± %.2g K", m->moved.standard_error);
+            add_words(&moved, " ± %.2g K", m->moved.standard_error);
         law_words(law, reference, one, sizeof one);
         if (each || given.used == 0)
-            add(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
-                each ? " " : "", one);
+            add_words(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
+                      each ? " " : "", one);
     }
     if (moved.text == NULL || given.text == NULL || without.text == NULL) {
         t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");

@@ -103,7 +103,7 @@ typedef struct shift_rows {
     double to_kelvin, zero;
 } shift_rows;
 
-static double kelvin(const shift_rows *r, size_t row)
+static double row_kelvin(const shift_rows *r, size_t row)
 {
     return wt_table_number(r->table, row, r->temperature) * r->to_kelvin + r->zero;
 }
@@ -114,20 +114,20 @@ static bool has_shift(const shift_rows *r, size_t row)
 }
 
 /* First row of those nearest to a temperature, or the number of rows; how many there are. */
-static size_t nearest(const shift_rows *r, double t, size_t *n_alike)
+static size_t nearest_rows(const shift_rows *r, double t, size_t *n_alike)
 {
     const size_t n = wt_table_n_rows(r->table);
     size_t best = n;
     double away = same_temperature;
     *n_alike = 0;
     for (size_t i = 0; i < n; i++) {
-        const double off = fabs(kelvin(r, i) - t);
+        const double off = fabs(row_kelvin(r, i) - t);
         if (off < away || (best == n && off <= away)) {
             away = off;
             best = i;
             *n_alike = 0;
         }
-        *n_alike += best < n && kelvin(r, i) == kelvin(r, best);
+        *n_alike += best < n && row_kelvin(r, i) == row_kelvin(r, best);
     }
     return best;
 }
@@ -143,19 +143,19 @@ static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isoth
         runs += same;
         rank += same && i < isotherm;
     }
-    *row = nearest(r, t, &n_alike);
+    *row = nearest_rows(r, t, &n_alike);
     if (n_alike <= 1)
         return WT_OK;
     if (n_alike != runs) {
         wt_fail(err, WT_E_AMBIGUOUS, "the table has %zu shifts for one temperature", n_alike);
         wt_error_place(err, "shifts");
         wt_error_expected(err, "one, or one for each of the isotherms there (%zu)", runs);
-        wt_error_found(err, "%.2f degC", kelvin(r, *row) - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", row_kelvin(r, *row) - WT_ZERO_CELSIUS);
         return WT_E_AMBIGUOUS;
     }
-    const double here = kelvin(r, *row);
-    while (rank > 0 || kelvin(r, *row) != here)
-        rank -= kelvin(r, (*row)++) == here;
+    const double here = row_kelvin(r, *row);
+    while (rank > 0 || row_kelvin(r, *row) != here)
+        rank -= row_kelvin(r, (*row)++) == here;
     return WT_OK;
 }
 
@@ -166,7 +166,7 @@ static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
     for (size_t i = 0; i < wt_table_n_rows(r->table); i++) {
         bool used = !has_shift(r, i);
         for (size_t k = 0; k < sweep->n_isotherms && !used; k++)
-            used = fabs(kelvin(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
+            used = fabs(row_kelvin(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
         n += !used;
     }
     return n;

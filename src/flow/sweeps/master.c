@@ -6,7 +6,7 @@
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 #include "model/material.h"
 
 #include <math.h>
@@ -81,29 +81,7 @@ static const char *shifted_by_name(wt_shift_by by)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void put_shift(table_writer *t, const wt_master *m, size_t i)
-{
-    const wt_master_shift *s = &m->shifts[i];
-    table_row(t);
-    shift_factors_put(t, SHIFT_FACTORS_TEMPERATURE, s->temperature);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_A, s->log_a.value);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_A_STANDARD_ERROR, s->log_a.standard_error);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_A_LOW, s->log_a.low);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_A_HIGH, s->log_a.high);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_B, s->log_b.value);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_B_STANDARD_ERROR, s->log_b.standard_error);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_B_PHYSICAL, s->log_b_physical);
-    shift_factors_put(t, SHIFT_FACTORS_LOG_B_MATERIAL, s->log_b_material);
-    shift_factors_put(t, SHIFT_FACTORS_OVERLAP, s->overlap);
-    shift_factors_put(t, SHIFT_FACTORS_NOISE_FACTOR, s->noise_factor);
-    shift_factors_put(t, SHIFT_FACTORS_OUTLIERS, (double)s->n_outliers);
-    shift_factors_put(t, SHIFT_FACTORS_DETERMINED, s->determined);
-    shift_factors_put_text(t, SHIFT_FACTORS_NOTE, s->note);
-    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A, s->law.value);
-    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_LOW, s->law.low);
-    shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_HIGH, s->law.high);
-    shift_factors_put(t, SHIFT_FACTORS_CLOSED_FORM, wt_master_closed_form(m, i));
-}
+TABLE_ROW(shift_factors, SHIFT_FACTORS, wt_master_shift shift; double closed_form;)
 
 static void set_interval(table_writer *t, shift_factors_key key, wt_interval x)
 {
@@ -158,7 +136,7 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
 {
     table_writer t = table_begin(&shift_factors_schema, err);
     for (size_t i = 0; i < m->n_shifts; i++)
-        put_shift(&t, m, i);
+        TABLE_ADD(shift_factors, &t, m->shifts[i], wt_master_closed_form(m, i));
     set_law(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
@@ -172,31 +150,27 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
     return table_end(&t, table);
 }
 
+TABLE_ROW(master_curve, MASTER_CURVE, double angular_frequency, storage_modulus, loss_modulus,
+          loss_factor, temperature;
+          wt_interval fitted_storage, fitted_loss, fitted_loss_factor;
+          double own_frequency, own_storage, own_loss; bool left_out;)
+
+TABLE_KEYS_OF(master_curve, MASTER_CURVE, wt_master)
+
 static void put_point(table_writer *t, const wt_master *m, size_t i)
 {
-    const wt_interval *storage = &m->fitted_storage[i], *loss = &m->fitted_loss[i],
-                      *factor = &m->fitted_loss_factor[i];
     const wt_master_shift *shift = &m->shifts[m->isotherm[i]];
-    table_row(t);
-    master_curve_put(t, MASTER_CURVE_ANGULAR_FREQUENCY, pow(10, m->log_frequency[i]));
-    master_curve_put(t, MASTER_CURVE_STORAGE_MODULUS, pow(10, m->log_storage[i]));
-    master_curve_put(t, MASTER_CURVE_LOSS_MODULUS, pow(10, m->log_loss[i]));
-    master_curve_put(t, MASTER_CURVE_TEMPERATURE, shift->temperature);
-    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE, pow(10, storage->value));
-    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_LOW, pow(10, storage->low));
-    master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_HIGH, pow(10, storage->high));
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS, pow(10, loss->value));
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_LOW, pow(10, loss->low));
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_HIGH, pow(10, loss->high));
-    master_curve_put(t, MASTER_CURVE_LEFT_OUT, m->left_out[i]);
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR, pow(10, factor->value));
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_LOW, pow(10, factor->low));
-    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH, pow(10, factor->high));
-    master_curve_put(t, MASTER_CURVE_OWN_FREQUENCY,
-                     pow(10, m->log_frequency[i] - shift->log_a.value + m->offset.value));
-    master_curve_put(t, MASTER_CURVE_OWN_STORAGE, pow(10, m->log_storage[i] - shift->log_b.value));
-    master_curve_put(t, MASTER_CURVE_OWN_LOSS, pow(10, m->log_loss[i] - shift->log_b.value));
-    master_curve_put(t, MASTER_CURVE_LOSS_FACTOR, wt_master_loss_factor(m, i));
+    const double frequency = m->log_frequency[i], storage = m->log_storage[i],
+                 loss = m->log_loss[i];
+    TABLE_ADD(master_curve, t, .angular_frequency = pow(10, frequency),
+              .storage_modulus = pow(10, storage), .loss_modulus = pow(10, loss),
+              .loss_factor = wt_master_loss_factor(m, i), .temperature = shift->temperature,
+              .fitted_storage = flow_power_of_ten(m->fitted_storage[i]),
+              .fitted_loss = flow_power_of_ten(m->fitted_loss[i]),
+              .fitted_loss_factor = flow_power_of_ten(m->fitted_loss_factor[i]),
+              .own_frequency = pow(10, frequency - shift->log_a.value + m->offset.value),
+              .own_storage = pow(10, storage - shift->log_b.value),
+              .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->left_out[i]);
 }
 
 static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)
@@ -208,34 +182,25 @@ static wt_status master_table(const wt_master *m, wt_table **table, wt_error *er
             if (m->isotherm[i] == k)
                 put_point(&t, m, i);
     }
-    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_STORAGE, "%.6g", m->noise_storage);
-    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_LOSS, "%.6g", m->noise_loss);
-    master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_CORRELATION, "%.6g", m->correlation);
-    master_curve_set_value(&t, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, m->reference_temperature, 0,
-                           0);
+    master_curve_set_keys(&t, m);
     master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, flow_deformation_name(m->deformation));
     return table_end(&t, table);
 }
+
+TABLE_KEYS(prony, PRONY, wt_prony series; wt_estimate equilibrium_modulus;
+           double limit, noise_storage, noise_loss; const char *deformation;)
+
+TABLE_ROW(prony, PRONY, double relaxation_time, modulus;)
 
 static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err)
 {
     const wt_prony *p = &m->prony;
     table_writer t = table_begin(&prony_schema, err);
-    for (size_t i = 0; i < p->n; i++) {
-        table_row(&t);
-        prony_put(&t, PRONY_RELAXATION_TIME, p->relaxation_time[i]);
-        prony_put(&t, PRONY_MODULUS, p->modulus[i]);
-    }
-    prony_set_value(&t, PRONY_KEY_EQUILIBRIUM_MODULUS, p->equilibrium_modulus,
-                    m->equilibrium.standard_error, 0);
-    if (m->equilibrium_limit)
-        prony_set_value(&t, PRONY_KEY_EQUILIBRIUM_LIMIT, m->equilibrium.high, 0, 0);
-    prony_set_value(&t, PRONY_KEY_REFERENCE_TEMPERATURE, p->reference_temperature, 0, 0);
-    prony_set_value(&t, PRONY_KEY_FREQUENCY_MIN, p->frequency_min, 0, 0);
-    prony_set_value(&t, PRONY_KEY_FREQUENCY_MAX, p->frequency_max, 0, 0);
-    prony_set_text(&t, PRONY_KEY_DEFORMATION, flow_deformation_name(p->deformation));
-    prony_set_print(&t, PRONY_KEY_RMS_STORAGE, "%.6g", m->noise_storage);
-    prony_set_print(&t, PRONY_KEY_RMS_LOSS, "%.6g", m->noise_loss);
+    for (size_t i = 0; i < p->n; i++)
+        TABLE_ADD(prony, &t, p->relaxation_time[i], p->modulus[i]);
+    TABLE_SET(prony, &t, *p, {p->equilibrium_modulus, m->equilibrium.standard_error, 0, NULL},
+              m->equilibrium_limit ? m->equilibrium.high : (double)NAN, m->noise_storage,
+              m->noise_loss, flow_deformation_name(p->deformation));
     return table_end(&t, table);
 }
 
@@ -246,7 +211,7 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
 enum { DRAWS = 200, DRAWS_SEED = 1 };
 
 /* To seven digits, far below the scatter of the draws: short where it is written. */
-static double rounded(double x)
+static double to_seven_digits(double x)
 {
     if (!(fabs(x) > 0) || !isfinite(x))
         return x;
@@ -254,43 +219,45 @@ static double rounded(double x)
     return scale > 1 ? round(x * scale) / scale : round(x * scale) * (1 / scale);
 }
 
+TABLE_ROW(material_draws, MATERIAL_DRAWS, double draw, temperature, log_b, equilibrium_modulus,
+          wlf_c1, wlf_c2, activation_energy;)
+
 /* A row for each isotherm with a vertical shift, or one row; the first has the rest of the draw. */
 static void put_material(table_writer *t, const wt_master *m, size_t draw, const wt_prony *prony,
                          const wt_shift_law *law, const double *log_b)
 {
     const bool vertical = m->vertical != WT_VERTICAL_NONE && m->n_shifts > 1;
+    const double none = (double)NAN;
     bool first = true;
+    material_draws_row row = {(double)draw + 1,
+                              none,
+                              none,
+                              to_seven_digits(prony->equilibrium_modulus),
+                              to_seven_digits(law->wlf.c1),
+                              to_seven_digits(law->wlf.c2),
+                              to_seven_digits(law->activation_energy)};
     table_block(t);
     for (size_t i = 0; vertical ? i < m->n_shifts : first; i++) {
         if (vertical && !m->shifts[i].determined)
             continue;
-        table_row(t);
-        material_draws_put(t, MATERIAL_DRAWS_DRAW, (double)draw + 1);
-        if (first) {
-            material_draws_put(t, MATERIAL_DRAWS_EQUILIBRIUM_MODULUS,
-                               rounded(prony->equilibrium_modulus));
-            material_draws_put(t, MATERIAL_DRAWS_WLF_C1, rounded(law->wlf.c1));
-            material_draws_put(t, MATERIAL_DRAWS_WLF_C2, rounded(law->wlf.c2));
-            material_draws_put(t, MATERIAL_DRAWS_ACTIVATION_ENERGY,
-                               rounded(law->activation_energy));
-        }
         if (vertical) {
-            material_draws_put(t, MATERIAL_DRAWS_TEMPERATURE, m->shifts[i].temperature);
-            material_draws_put(t, MATERIAL_DRAWS_LOG_B, rounded(log_b[i]));
+            row.temperature = m->shifts[i].temperature;
+            row.log_b = to_seven_digits(log_b[i]);
         }
+        material_draws_add_row(t, &row);
+        row.equilibrium_modulus = row.wlf_c1 = row.wlf_c2 = row.activation_energy = none;
         first = false;
     }
 }
 
+TABLE_ROW(series_draws, SERIES_DRAWS, double draw, relaxation_time, modulus;)
+
 static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
 {
     table_block(t);
-    for (size_t k = 0; k < prony->n; k++) {
-        table_row(t);
-        series_draws_put(t, SERIES_DRAWS_DRAW, (double)draw + 1);
-        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME, rounded(prony->relaxation_time[k]));
-        series_draws_put(t, SERIES_DRAWS_MODULUS, rounded(prony->modulus[k]));
-    }
+    for (size_t k = 0; k < prony->n; k++)
+        TABLE_ADD(series_draws, t, (double)draw + 1, to_seven_digits(prony->relaxation_time[k]),
+                  to_seven_digits(prony->modulus[k]));
 }
 
 static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_error *err)
@@ -338,8 +305,8 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
 }
 
 /* What is left of the sweeps, with the shifts that are given. */
-static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
-                         wt_sweep *sweep, wt_error *err)
+static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
+                               wt_sweep *sweep, wt_error *err)
 {
     wt_status status = flow_sweep_cut(job->leave_out, job->n_leave_out, sweep, work->log, err);
     if (status == WT_OK)
@@ -356,11 +323,11 @@ static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_
 }
 
 /* Temperature sweeps become isotherms of `sweep`. */
-static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
-                     wt_master *master, wt_error *err)
+static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
+                            wt_master *master, wt_error *err)
 {
     wt_shift_law law;
-    wt_status status = prepare(job, work, &law, sweep, err);
+    wt_status status = prepare_sweep(job, work, &law, sweep, err);
     if (status != WT_OK)
         return status;
     status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &job->fit, &law, work->log, master, err)
@@ -471,7 +438,7 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
-/* More of a standard error than this is seen in an interval. */
+/* More of a standard error than this is seen in an interval: a twentieth of half of it. */
 static const double seen = 0.1;
 
 static void say_unfinished(const wt_master *m, const wt_job *work)
@@ -524,7 +491,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
-        status = fit(job, work, &sweep, &master, err);
+        status = fit_sweeps(job, work, &sweep, &master, err);
     if (status == WT_OK)
         status = make_tables(&master, work, &t, err);
     if (status == WT_OK)

@@ -9,6 +9,9 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
 wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,
                              wt_table **table, wt_error *err) WT_NODISCARD;
 
+/* Of a number that is known by its decimal logarithm. */
+wt_interval flow_power_of_ten(wt_interval log);
+
 /* Isotherms fitted, and the rubber that comes of it, with draws unless they are left out. Both
  * cleared by the caller, also on failure. */
 wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,

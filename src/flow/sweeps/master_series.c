@@ -5,9 +5,16 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
+
+wt_interval flow_power_of_ten(wt_interval log)
+{
+    return (wt_interval){pow(10, log.value), (double)NAN, pow(10, log.low), pow(10, log.high)};
+}
+
+TABLE_ROW(relaxation_spectrum, RELAXATION_SPECTRUM, double relaxation_time; wt_interval density;)
 
 wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *err)
 {
@@ -15,14 +22,9 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
     for (size_t i = 0; i < m->prony.n; i++) {
         wt_interval density;
         wt_master_spectrum(m, i, &density);
-        if (isnan(density.value))
-            continue;
-        table_row(&t);
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_RELAXATION_TIME,
-                                m->prony.relaxation_time[i]);
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_DENSITY, pow(10, density.value));
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_LOW, pow(10, density.low));
-        relaxation_spectrum_put(&t, RELAXATION_SPECTRUM_HIGH, pow(10, density.high));
+        if (!isnan(density.value))
+            TABLE_ADD(relaxation_spectrum, &t, m->prony.relaxation_time[i],
+                      flow_power_of_ten(density));
     }
     relaxation_spectrum_set_value(&t, RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE,
                                   m->reference_temperature, 0, 0);
@@ -32,7 +34,7 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
 }
 
 /* Half of the 95 % interval of a modulus, relative, where it is widest. */
-static double widest(const wt_interval *fitted, size_t n)
+static double widest_interval(const wt_interval *fitted, size_t n)
 {
     double most = 0;
     for (size_t i = 0; i < n; i++)
@@ -66,6 +68,8 @@ static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson
     return WT_OK;
 }
 
+TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
+
 static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poisson_ratio,
                              wt_table **table, wt_error *err)
 {
@@ -74,12 +78,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
     wt_prony_deviation(&m->prony, p, deviation);
     for (size_t i = 0; i < p->n; i++)
         sum += p->modulus[i];
-    for (size_t i = 0; i < p->n; i++) {
-        table_row(&t);
-        prony_reduced_put(&t, PRONY_REDUCED_RELAXATION_TIME, p->relaxation_time[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_MODULUS, p->modulus[i]);
-        prony_reduced_put(&t, PRONY_REDUCED_SHARE, p->modulus[i] / sum);
-    }
+    for (size_t i = 0; i < p->n; i++)
+        TABLE_ADD(prony_reduced, &t, p->relaxation_time[i], p->modulus[i], p->modulus[i] / sum);
     const struct {
         prony_reduced_key key;
         double value;
@@ -90,8 +90,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
                   {PRONY_REDUCED_KEY_FREQUENCY_MAX, p->frequency_max}},
       plain[] = {{PRONY_REDUCED_KEY_DEVIATION_STORAGE, deviation[0]},
                  {PRONY_REDUCED_KEY_DEVIATION_LOSS, deviation[1]},
-                 {PRONY_REDUCED_KEY_INTERVAL_STORAGE, widest(m->fitted_storage, m->n)},
-                 {PRONY_REDUCED_KEY_INTERVAL_LOSS, widest(m->fitted_loss, m->n)}};
+                 {PRONY_REDUCED_KEY_INTERVAL_STORAGE, widest_interval(m->fitted_storage, m->n)},
+                 {PRONY_REDUCED_KEY_INTERVAL_LOSS, widest_interval(m->fitted_loss, m->n)}};
     for (size_t i = 0; i < COUNT_OF(values); i++)
         prony_reduced_set_value(&t, values[i].key, values[i].value, (double)NAN, 0);
     for (size_t i = 0; i < COUNT_OF(plain); i++)

@@ -9,8 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Windows are as many as describe a law well and are fitted quickly; points of one, for each of its
- * frequencies and in all. Of more points than tell anything neighbours are joined. */
+/* Windows are as many as describe a law well, ten for each of its constants, and are fitted
+ * quickly, for time goes with the cube of them; points of one, for each of its frequencies and in
+ * all, as SHIFT_MIN_POINTS. Of more points than tell anything, twenty in a window, neighbours are
+ * joined. Rounds in which the points come to where they belong, each by half of the rest or,
+ * foretold by two (Anderson's mixing), by up to eight times what one would. */
 enum {
     MOST_WINDOWS = 30,
     OF_FREQUENCY = 1,
@@ -19,8 +22,9 @@ enum {
     MOST_ROUNDS = 8,
     MOST_AHEAD = 8
 };
-static const double same_frequency = 1e-3;
-/* Points are where they belong when a round moves none further than this [decade]. */
+static const double same_frequency = 1e-3; /* exports of four digits differ by 5e-4 */
+/* Points are where they belong when a round moves none further than this [decade]: 1 %, as noise.
+ */
 static const double enough = 0.005;
 
 enum { STORAGE, LOSS, FACTOR, QUANTITIES };
@@ -69,7 +73,7 @@ static size_t count_frequencies(const wt_sweep *sweep)
 }
 
 /* Cuts the points where a window is wide enough and has enough of them. */
-static void cut(windows *w, size_t n_frequencies)
+static void cut_points(windows *w, size_t n_frequencies)
 {
     const size_t least =
         OF_FREQUENCY * n_frequencies > LEAST_POINTS ? OF_FREQUENCY * n_frequencies : LEAST_POINTS;
@@ -143,7 +147,7 @@ static wt_status make_windows(const wt_sweep *sweep, windows *w, wt_error *err)
     if (w->n_points == 0)
         return wt_fail(err, WT_E_RANGE, "no point of the temperature sweeps has positive moduli");
     qsort(w->point, w->n_points, sizeof *w->point, by_temperature);
-    cut(w, count_frequencies(sweep));
+    cut_points(w, count_frequencies(sweep));
     return WT_OK;
 }
 
@@ -175,7 +179,7 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
 /* What the law says of the points, given where they lie, comes nearer to where they belong by the
  * same share in each round; two rounds foretell where it ends (Anderson's mixing). The furthest
  * that a point is off what the law says. */
-static double listen(const windows *w, const wt_master *master, bool first)
+static double shift_by_fit(const windows *w, const wt_master *master, bool first)
 {
     double most = 0, product = 0, square = 0;
     for (size_t i = 0; i < w->n; i++) {
@@ -199,7 +203,8 @@ static double listen(const windows *w, const wt_master *master, bool first)
 }
 
 /* A law that is given needs not be listened to; nor are the shifts fitted. */
-static wt_status obey(const windows *w, const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+static wt_status shift_by_law(const windows *w, const wt_shift_law *law, wt_sweep *sweep,
+                              wt_error *err)
 {
     for (size_t i = 0; i < w->n; i++) {
         const double here = wt_shift_law_log_a(law, w->isotherm[i].temperature);
@@ -210,7 +215,7 @@ static wt_status obey(const windows *w, const wt_shift_law *law, wt_sweep *sweep
 }
 
 /* The points as they would have been at the temperature of their window. */
-static void bring(const windows *w, bool vertical)
+static void bring_to_windows(const windows *w, bool vertical)
 {
     for (size_t i = 0; i < w->n; i++) {
         const wt_isotherm *t = &w->isotherm[i];
@@ -226,7 +231,7 @@ static void bring(const windows *w, bool vertical)
     }
 }
 
-static wt_status check(const wt_sweep *sweep, wt_error *err)
+static wt_status check_isotherms(const wt_sweep *sweep, wt_error *err)
 {
     if (sweep->n_isotherms > 0 || count_frequencies(sweep) > 1)
         return WT_OK;
@@ -237,8 +242,8 @@ static wt_status check(const wt_sweep *sweep, wt_error *err)
     return WT_E_MISSING;
 }
 
-static void tell(const wt_sweep *sweep, const windows *w, const wt_master *master, bool given,
-                 double moved, wt_parselog *log)
+static void warn_of_windows(const wt_sweep *sweep, const windows *w, const wt_master *master,
+                            bool given, double moved, wt_parselog *log)
 {
     const size_t frequencies = count_frequencies(sweep);
     wt_parselog_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
@@ -269,28 +274,28 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
 {
     windows w = {0};
     const bool known = given->kind != WT_LAW_NONE;
-    wt_status status = known ? WT_OK : check(sweep, err);
+    wt_status status = known ? WT_OK : check_isotherms(sweep, err);
     if (status == WT_OK)
         status = make_windows(sweep, &w, err);
     if (status == WT_OK)
         status = add_isotherms(sweep, &w, err);
     if (status == WT_OK && known)
-        status = obey(&w, given, sweep, err);
+        status = shift_by_law(&w, given, sweep, err);
     wt_master_options quick = *options;
     if (quick.vertical != WT_VERTICAL_NONE)
         quick.vertical = WT_VERTICAL_PHYSICAL; /* near enough for the law */
     bool last = false;
     double moved = 0;
     for (int round = 0; status == WT_OK && !last; round++) {
-        moved = round > 0 ? listen(&w, master, round == 1) : 0;
+        moved = round > 0 ? shift_by_fit(&w, master, round == 1) : 0;
         last = known || (round > 0 && (moved < enough || round == MOST_ROUNDS));
-        bring(&w, options->vertical != WT_VERTICAL_NONE);
+        bring_to_windows(&w, options->vertical != WT_VERTICAL_NONE);
         wt_sweep_sort(sweep);
         wt_master_clear(master);
         status = wt_master_fit(sweep, last ? options : &quick, last ? log : NULL, master, err);
     }
     if (status == WT_OK)
-        tell(sweep, &w, master, known, moved, log);
+        warn_of_windows(sweep, &w, master, known, moved, log);
     windows_free(&w);
     return status;
 }

@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/sweep_input.h"
 
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One value stands for all that is so close: what a chamber holds [K], and a set frequency. */
+/* One value stands for all that is so close: what a chamber holds [K], and a frequency as a person
+ * writes it, to 1 %. */
 static const double same_temperature = 0.5, same_frequency = 0.01;
 
 typedef struct cut {
@@ -69,7 +69,7 @@ static wt_status read_cut(const char *text, cut *c, wt_error *err)
 
 /* ---- taking out ------------------------------------------------------------------------------ */
 
-static bool within(const cut *c, double x)
+static bool is_cut(const cut *c, double x)
 {
     return x >= c->low && x <= c->high;
 }
@@ -79,7 +79,7 @@ static size_t keep_points(const cut *c, double *const *array, size_t arrays, siz
 {
     size_t kept = 0;
     for (size_t i = 0; i < n; i++) {
-        if (within(c, array[0][i]))
+        if (is_cut(c, array[0][i]))
             continue;
         for (size_t k = 0; k < arrays; k++)
             if (array[k] != NULL)
@@ -105,7 +105,7 @@ static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
                                  t->strain, t->loss_factor};
         if (c->of_frequency)
             t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
-        if (t->n == 0 || (!c->of_frequency && within(c, t->temperature))) {
+        if (t->n == 0 || (!c->of_frequency && is_cut(c, t->temperature))) {
             g->sweep.isotherms[g->sweep.n_isotherms++] = *t;
         } else {
             g->points += before - t->n;
@@ -125,7 +125,7 @@ static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
                                  t->loss_factor};
         if (!c->of_frequency)
             t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
-        if (t->n == 0 || (c->of_frequency && within(c, t->angular_frequency))) {
+        if (t->n == 0 || (c->of_frequency && is_cut(c, t->angular_frequency))) {
             g->sweep.ramps[g->sweep.n_ramps++] = *t;
         } else {
             g->points += before - t->n;

@@ -47,7 +47,7 @@ static void set_curve_key(table_writer *t, force_curve_key key, double value)
 }
 
 /* Ends a table and hands it on. */
-static wt_status send(const conversion *c, table_writer *t, wt_error *err)
+static wt_status hand_on_table(const conversion *c, table_writer *t, wt_error *err)
 {
     wt_table *table = NULL;
     wt_status status = table_end(t, &table);
@@ -84,7 +84,7 @@ static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt
                     wt_table_put(t.table, FORCE_CURVE_N_COLUMNS + k, of_segment[k]->values[i]);
         }
     }
-    return send(c, &t, err);
+    return hand_on_table(c, &t, err);
 }
 
 /* A curve that cannot be read is recorded and the others go on. */
@@ -121,7 +121,7 @@ typedef struct dma_point {
     const char *sample;
 } dma_point;
 
-static double at(const double *values, size_t i)
+static double value_or_nan(const double *values, size_t i)
 {
     return values != NULL ? values[i] : (double)NAN;
 }
@@ -173,17 +173,19 @@ static void put_sweep(dma_table *t, const wt_sweep *sweep)
         const wt_isotherm *s = &sweep->isotherms[k];
         put_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t, &(dma_point){s->temperature, s->angular_frequency[i],
-                                      s->storage_modulus[i], s->loss_modulus[i], at(s->strain, i),
-                                      at(s->loss_factor, i), s->sample});
+            put_point(t,
+                      &(dma_point){s->temperature, s->angular_frequency[i], s->storage_modulus[i],
+                                   s->loss_modulus[i], value_or_nan(s->strain, i),
+                                   value_or_nan(s->loss_factor, i), s->sample});
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
         const wt_ramp *s = &sweep->ramps[k];
         put_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t, &(dma_point){s->temperature[i], s->angular_frequency,
-                                      s->storage_modulus[i], s->loss_modulus[i], at(s->strain, i),
-                                      at(s->loss_factor, i), s->sample});
+            put_point(t,
+                      &(dma_point){s->temperature[i], s->angular_frequency, s->storage_modulus[i],
+                                   s->loss_modulus[i], value_or_nan(s->strain, i),
+                                   value_or_nan(s->loss_factor, i), s->sample});
     }
     for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[k];
@@ -215,7 +217,7 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
     t.writer = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
     t.counting = false;
     put_sweep(&t, sweep);
-    return send(c, &t.writer, err);
+    return hand_on_table(c, &t.writer, err);
 }
 
 static wt_status convert_sweep(const conversion *c, wt_error *err)
@@ -260,7 +262,7 @@ static wt_status send_image(const conversion *c, const wt_image *image, size_t n
             image_put(&t, IMAGE_VALUE, image->values[row * image->n_columns + column]);
         }
     }
-    return send(c, &t, err);
+    return hand_on_table(c, &t, err);
 }
 
 static wt_status convert_images(const conversion *c, wt_error *err)
@@ -289,7 +291,7 @@ static wt_status send_spectrum(const conversion *c, const wt_power_spectrum *s, 
         spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);
         spectrum_put(&t, density, s->density[i]);
     }
-    return send(c, &t, err);
+    return hand_on_table(c, &t, err);
 }
 
 static wt_status convert_spectrum(const conversion *c, wt_error *err)

@@ -2,7 +2,7 @@
 #include "flow/work/cost.h"
 
 #include "base/array.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -76,7 +76,7 @@ void cost_say(const wt_job *work, cost_summary summary)
         work->cost->rows[work->cost->n_rows - 1].said = summary;
 }
 
-enum { ZENER_CONSTANTS = 4 };
+enum { ZENER_CONSTANTS = 4 }; /* of the fractional Zener model */
 
 void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
 {
@@ -186,28 +186,23 @@ cost_of_stages cost_stages(const wt_cost *cost, const char *beginning)
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-static double known(bool is, double value)
-{
-    return is ? value : (double)NAN;
-}
+static const double unknown = (double)NAN;
 
-static void put_row(table_writer *t, bool timed, const cost_row *row)
+TABLE_ROW_OF(cost, COST, struct cost_row)
+TABLE_KEYS(cost, COST, wt_estimate wall, cpu, threads;)
+
+static void put_row(table_writer *t, bool timed, cost_row row)
 {
-    const cost_summary *s = &row->said;
+    cost_summary *s = &row.said;
     const double error = s->number.standard_error / fabs(s->number.value);
-    table_row(t);
-    cost_put_text(t, COST_STAGE, row->stage);
-    cost_put(t, COST_RUNS, row->runs);
-    cost_put_text(t, COST_BECAUSE, row->because);
-    cost_put(t, COST_WALL_TIME, known(timed, row->wall));
-    cost_put(t, COST_CPU_TIME, known(timed, row->cpu));
-    cost_put(t, COST_ITEMS, known(s->items > 0 || !row->runs, s->items));
-    cost_put(t, COST_TOLERANCE_ASKED, known(s->tolerance_asked > 0, s->tolerance_asked));
-    cost_put(t, COST_ERROR_ESTIMATED, known(s->tolerance_asked > 0, s->error_estimated));
-    cost_put(t, COST_NODES, (double)row->nodes);
-    cost_put(t, COST_STANDARD_ERROR, known(error > 0 && isfinite(error), error));
-    cost_put(t, COST_FILES, (double)row->files);
-    cost_put(t, COST_BYTES, (double)row->bytes);
+    if (!timed)
+        row.wall = row.cpu = unknown;
+    if (!(s->items > 0) && row.runs)
+        s->items = unknown;
+    if (!(s->tolerance_asked > 0))
+        s->tolerance_asked = s->error_estimated = unknown;
+    s->number.standard_error = error > 0 && isfinite(error) ? error : unknown;
+    cost_add_row(t, &row);
 }
 
 wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err)
@@ -219,12 +214,10 @@ wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     table_writer t = table_begin(&cost_schema, err);
     for (size_t i = 0; i < cost->n_rows; i++)
-        put_row(&t, cost->timed, &cost->rows[i]);
-    if (cost->timed) {
-        cost_set_value(&t, COST_KEY_WALL_TIME, wt_time_wall() - cost->wall, (double)NAN,
-                       (double)NAN);
-        cost_set_value(&t, COST_KEY_CPU_TIME, wt_time_cpu() - cost->cpu, (double)NAN, (double)NAN);
-        cost_set_value(&t, COST_KEY_THREADS, cost->threads, (double)NAN, (double)NAN);
-    }
+        put_row(&t, cost->timed, cost->rows[i]);
+    if (cost->timed)
+        TABLE_SET(cost, &t, {wt_time_wall() - cost->wall, unknown, unknown, NULL},
+                  {wt_time_cpu() - cost->cpu, unknown, unknown, NULL},
+                  {cost->threads, unknown, unknown, NULL});
     return table_end(&t, table);
 }

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* In (0, 1). */
-static double uniform(uint64_t bits)
+static double uniform_of(uint64_t bits)
 {
     return ((double)(bits >> 11) + 0.5) * 0x1p-53;
 }
@@ -18,8 +18,8 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
     if (replicate == WT_NO_REPLICATE)
         return 0;
     uint64_t state = mix64(mix64(mix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
-    double radius = sqrt(-2 * log(uniform(state)));
-    return radius * cos(2 * M_PI * uniform(mix64(state)));
+    double radius = sqrt(-2 * log(uniform_of(state)));
+    return radius * cos(2 * M_PI * uniform_of(mix64(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* In standard deviations: normal scatter has one of 1.7 million there. */
 static const double far = 5;
 /* Standard deviations of a normal distribution over its median and its mean distance. */
 static const double of_median = 1.4826, of_mean = 1.253314137315500;

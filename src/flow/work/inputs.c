@@ -5,7 +5,7 @@
 
 #include "base/array.h"
 #include "base/digest.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 
 #include <search.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ wt_table *wt_failures_new(void)
 }
 
 /* `path` without `folder` in front of it. */
-static const char *below(const char *folder, const char *path)
+static const char *path_below(const char *folder, const char *path)
 {
     size_t length = folder == NULL ? 0 : strlen(folder);
     if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
@@ -47,18 +47,16 @@ static const char *below(const char *folder, const char *path)
     return path + length + strspn(path + length, "/");
 }
 
+TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
+
 wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                          wt_error *err)
 {
     table_writer t = table_begin(&notes_schema, err);
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
         wt_log_entry entry = wt_parselog_get(log, i);
-        table_row(&t);
-        notes_put_text(&t, NOTES_SEVERITY, wt_severity_name(entry.severity));
-        notes_put_text(&t, NOTES_FILE, below(folder, entry.file));
-        notes_put_text(&t, NOTES_PLACE, entry.place);
-        notes_put_text(&t, NOTES_TEXT, entry.text);
-        notes_put(&t, NOTES_COUNT, (double)entry.count);
+        TABLE_ADD(notes, &t, wt_severity_name(entry.severity), path_below(folder, entry.file),
+                  entry);
     }
     return table_end(&t, table);
 }
@@ -69,15 +67,15 @@ bool flow_goes_on(const wt_job *work, wt_status status)
            status != WT_E_INTERNAL;
 }
 
+TABLE_ROW(failures, FAILURES, const char *file, *message;)
+
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err)
 {
     char message[2048];
     wt_error_format(failure, message, sizeof message);
     table_writer t = table_continue(work->failures, &failures_schema, "", err);
-    table_row(&t);
-    failures_put_text(&t, FAILURES_FILE, what);
-    failures_put_text(&t, FAILURES_MESSAGE, message);
+    TABLE_ADD(failures, &t, what, message);
     return table_end(&t, NULL);
 }
 
@@ -97,7 +95,7 @@ wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, 
 /* ---- listing --------------------------------------------------------------------------------- */
 
 /* Names between the slashes of a path. */
-static size_t depth(const char *path)
+static size_t path_depth(const char *path)
 {
     size_t n = 0;
     for (path += strspn(path, "/"); *path != '\0'; n++) {
@@ -117,9 +115,11 @@ static wt_status files_add(flow_files *files, char *path, const char *pattern,
         free(path);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    const char *name = below(set->folder, path);
-    files->file[files->n++] = (flow_file){
-        .path = path, .name = name, .set = set, .of_folder = depth(name) > depth(pattern)};
+    const char *name = path_below(set->folder, path);
+    files->file[files->n++] = (flow_file){.path = path,
+                                          .name = name,
+                                          .set = set,
+                                          .of_folder = path_depth(name) > path_depth(pattern)};
     return WT_OK;
 }
 
@@ -128,7 +128,7 @@ static int by_path(const void *a, const void *b)
     return strcmp(a, b);
 }
 
-static void keep(void *path)
+static void keep_path(void *path)
 {
     (void)path; /* it belongs to the list */
 }
@@ -181,7 +181,7 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    tdestroy(files->paths, keep);
+    tdestroy(files->paths, keep_path);
     *files = (flow_files){NULL, 0, NULL};
 }
 

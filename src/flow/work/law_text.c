@@ -12,7 +12,7 @@ bool flow_is_law(const flow_law_text *law, const char *text)
     return strncmp(text, law->prefix, strlen(law->prefix)) == 0;
 }
 
-static wt_status spelling(const flow_law_text *law, wt_error *err)
+static wt_status refuse_spelling(const flow_law_text *law, wt_error *err)
 {
     wt_error_expected(err, "%s%s", law->prefix, law->example);
     return WT_E_ARG;
@@ -31,14 +31,14 @@ wt_status flow_law_parse(const flow_law_text *law, const char *text, void *struc
         char *value = strchr(item, '=');
         if (value == NULL) {
             wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", item);
-            status = spelling(law, err);
+            status = refuse_spelling(law, err);
             break;
         }
         *value++ = '\0';
         status = wt_params_set(law->params(), item, structure, value, &given, err);
         if (status == WT_E_NOT_FOUND) {
             wt_fail(err, WT_E_ARG, "%s has no parameter \"%s\"", law->what, item);
-            status = spelling(law, err);
+            status = refuse_spelling(law, err);
         } else if (status != WT_OK) {
             wt_error_place(err, "%s, %s", law->what, item);
         }
@@ -46,7 +46,7 @@ wt_status flow_law_parse(const flow_law_text *law, const char *text, void *struc
     if (status == WT_OK && param_missing(law->params(), given) != NULL) {
         wt_fail(err, WT_E_MISSING, "the %s is not complete", law->name);
         wt_error_found(err, "\"%s\"", text);
-        (void)spelling(law, err);
+        (void)refuse_spelling(law, err);
         status = WT_E_MISSING;
     }
     free(copy);

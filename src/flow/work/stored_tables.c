@@ -44,7 +44,7 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     return status;
 }
 
-static bool have(const wt_result *tables, const char *prefix)
+static bool have_table(const wt_result *tables, const char *prefix)
 {
     for (size_t i = 0; i < wt_result_n_tables(tables); i++)
         if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
@@ -52,8 +52,12 @@ static bool have(const wt_result *tables, const char *prefix)
     return false;
 }
 
-wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
-                         wt_tables_role role, wt_result **tables, wt_error *err)
+typedef wt_status store_reader(const void *bytes, size_t length, const char *name,
+                               wt_result **result, wt_error *err);
+
+static wt_status read_tables(const char *path, const char *name, const wt_job *work,
+                             wt_tables_role role, store_reader *read_store, wt_result **tables,
+                             wt_error *err)
 {
     static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     const unsigned char *bytes = NULL;
@@ -65,16 +69,28 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
     const bool store = length >= sizeof hdf5_signature &&
                        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
     if (status == WT_OK)
-        status = store ? wt_store_read_memory(bytes, length, name, tables, err)
+        status = store ? read_store(bytes, length, name, tables, err)
                        : read_text(bytes, length, name, role.instead, tables, err);
     if (status == WT_OK && work != NULL)
         status = wt_job_input(
             work,
             (wt_provenance_input){.path = name,
-                                  .role = have(*tables, "indentation/") ? role.of_curves
-                                                                        : role.of_others,
+                                  .role = have_table(*tables, "indentation/") ? role.of_curves
+                                                                              : role.of_others,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             input, err);
     wt_input_close(input);
     return status;
+}
+
+wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
+                         wt_tables_role role, wt_result **tables, wt_error *err)
+{
+    return read_tables(path, name, work, role, wt_store_read_memory, tables, err);
+}
+
+wt_status wt_tables_read_headlines(const char *path, wt_result **tables, wt_error *err)
+{
+    return read_tables(path, path, NULL, (wt_tables_role){.instead = NULL}, wt_store_read_headlines,
+                       tables, err);
 }

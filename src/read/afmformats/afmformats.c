@@ -166,20 +166,7 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
     return status;
 }
 
-/* ---- the descriptor ---------------------------------------------------------------------------
- */
-
-static recognition detect(const file_reader *self, file_peek *peek)
-{
-    (void)self;
-    return hdf5_recognise(peek, "afmformats");
-}
-
-static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
-{
-    (void)log;
-    return hdf5_as_text(input, print_curves, text, err);
-}
+static const hdf5_curves curves = {.words = "afmformats", .print = print_curves};
 
 const file_reader reader_afmformats = {
     .info = {.id = "afmformats-h5",
@@ -188,9 +175,5 @@ const file_reader reader_afmformats = {
              .verified = true,
              .evidence = "a file of afmformats 0.13.3",
              .version = "1"},
-    .runs = "weartrack-stream",
-    .detect = detect,
-    .as_text = as_text,
-    .force = &text_force,
-    .describe = text_describe_made,
+    READER_OF_HDF5_CURVES(curves),
 };

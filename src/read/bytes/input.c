@@ -209,7 +209,7 @@ static wt_status fail_lost(const wt_input *in, wt_error *err)
 
 /* Reads on until `want` bytes are there or it ends. A file gets its memory at once, with one byte
  * more in which its end is seen; but a part of it is read in parts. */
-static wt_status fill(wt_input *in, size_t want, wt_error *err)
+static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
 {
     while (!in->whole && in->length < want) {
         if (in->lost)
@@ -251,14 +251,14 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
 static wt_status keep_pipe(wt_input *in, wt_error *err)
 {
     static const size_t step = 4 * FIRST_READ;
-    wt_status status = fill(in, SCRATCH_ABOVE + 1, err);
+    wt_status status = fill_buffer(in, SCRATCH_ABOVE + 1, err);
     if (status == WT_OK && in->lost)
         status = fail_lost(in, err);
     if (status != WT_OK || in->whole || in->fd < 0)
         return status;
     const int file = scratch_open();
     if (file < 0)
-        return fill(in, SIZE_MAX, err);
+        return fill_buffer(in, SIZE_MAX, err);
     unsigned char *const piece = malloc(step);
     size_t size = in->length;
     bool more = true;
@@ -307,7 +307,7 @@ wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *e
     size_t got = 0;
     wt_status status = in->expected == 0 ? keep_pipe(in, err) : WT_OK;
     if (status == WT_OK && in->expected <= SCRATCH_ABOVE)
-        status = fill(in, SIZE_MAX, err);
+        status = fill_buffer(in, SIZE_MAX, err);
     if (status != WT_OK)
         return status;
     if (from <= in->length && n <= in->length - from) {
@@ -353,7 +353,7 @@ wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *l
 wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes, size_t *length,
                         bool *whole, wt_error *err)
 {
-    wt_status status = fill(input, want, err);
+    wt_status status = fill_buffer(input, want, err);
     if (status != WT_OK)
         return status;
     *bytes = input->bytes;

@@ -31,7 +31,7 @@ static bool make_room(input_window *w, size_t n)
     return true;
 }
 
-static wt_status fill(input_window *w, size_t at, size_t n, wt_error *err)
+static wt_status fill_window(input_window *w, size_t at, size_t n, wt_error *err)
 {
     const size_t left = w->size - at, more = n > AHEAD ? n : AHEAD;
     const size_t read = more < left ? more : left;
@@ -55,7 +55,7 @@ wt_status window_bytes(input_window *w, size_t at, size_t n, const unsigned char
         return WT_OK;
     }
     if (at < w->from || at - w->from > w->n || n > w->n - (at - w->from))
-        status = fill(w, at, n, err);
+        status = fill_window(w, at, n, err);
     if (status == WT_OK)
         *bytes = w->bytes + (at - w->from);
     return status;

@@ -15,6 +15,8 @@ void description_free(text_description *d)
         return;
     for (line_pattern *pattern = d->patterns; pattern != NULL; pattern = pattern->next)
         regfree(&pattern->regex);
+    for (size_t i = 0; i < DESCRIPTION_EXTENTS; i++)
+        description_free(d->more[i]);
     pool_free(&d->memory);
     free(d);
 }

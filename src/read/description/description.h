@@ -5,6 +5,7 @@
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 
+#include "base/embed.h"
 #include "base/pool.h"
 #include "read/reader.h"
 
@@ -143,12 +144,22 @@ typedef struct segment_marker {
     wt_segment_kind kind;
 } segment_marker;
 
+/* How much of a description has been read. */
+typedef enum description_extent {
+    DESCRIPTION_HEAD,   /* up to `verified` */
+    DESCRIPTION_DETECT, /* what tells its files, names of columns apart, and how they are decoded */
+    DESCRIPTION_WHOLE,
+    DESCRIPTION_EXTENTS
+} description_extent;
+
 typedef struct text_description {
     pool memory; /* of all that is pointed to below */
     line_pattern *patterns;
+    description_extent extent;
+    struct text_description *more[DESCRIPTION_EXTENTS]; /* read since, description_need */
 
     char *id, *title, *evidence, *version;
-    char *xml; /* the document as it was read */
+    const char *xml; /* the document as it was read */
     unsigned kinds;
     bool verified;
 
@@ -206,12 +217,20 @@ typedef struct _xmlSchema description_xsd;
 wt_status description_xsd_new(description_xsd **schema, wt_error *err);
 void description_xsd_free(description_xsd *schema);
 
-/* Reads and checks one description. `name` is used in errors. */
+/* Reads and checks one description. `name` is used in errors. schema NULL: it follows it. */
 wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err);
 wt_status description_parse_file(description_xsd *schema, const char *path,
                                  text_description **description, wt_error *err);
 void description_free(text_description *description);
+
+/* One of those in the library, which are in order: its head. */
+wt_status description_of_library(const embedded_text *file, text_description **description,
+                                 wt_error *err);
+/* At least so much of a description; of one in the library it is read when it is asked for first,
+ * by whichever thread, and only memory can hinder that. Borrowed from `description`. */
+wt_status description_need(text_description *description, description_extent extent,
+                           const text_description **known, wt_error *err);
 
 /* What only the parts together show: do the columns make the kinds that are promised? */
 wt_status description_check_whole(const text_description *description, const char *name,

@@ -91,8 +91,9 @@ static void validate(description_parser *p, description_xsd *schema, xmlDocPtr d
     xmlSchemaFreeValidCtxt(context);
 }
 
-wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
-                            const char *name, text_description **description, wt_error *err)
+wt_status parse_document(description_xsd *schema, const char *xml, size_t length, const char *name,
+                         void (*parse)(description_parser *p, const xmlNode *root),
+                         text_description **description, wt_error *err)
 {
     const size_t most = (size_t)1 << 20;
     /* Complaints about an encoding go to standard error unless this thread has a handler. */
@@ -107,7 +108,6 @@ wt_status description_parse(description_xsd *schema, const char *xml, size_t len
         wt_error_expected(err, "at most 1 MiB");
         return WT_E_SCHEMA;
     }
-    shortage_forget();
     p.d = calloc(1, sizeof *p.d);
     context = xmlNewParserCtxt();
     if (p.d == NULL || context == NULL) {
@@ -130,9 +130,10 @@ wt_status description_parse(description_xsd *schema, const char *xml, size_t len
         explain(&p, NULL, "a document type or entities are not allowed in a description");
         goto done;
     }
-    validate(&p, schema, document);
+    if (schema != NULL)
+        validate(&p, schema, document);
     if (p.status == WT_OK)
-        parse_format(&p, xmlDocGetRootElement(document));
+        parse(&p, xmlDocGetRootElement(document));
 done:
     xmlSetStructuredErrorFunc(previous_context, previous);
     xmlFreeDoc(document);
@@ -144,6 +145,13 @@ done:
     else
         description_free(p.d);
     return p.status;
+}
+
+wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
+                            const char *name, text_description **description, wt_error *err)
+{
+    shortage_forget();
+    return parse_document(schema, xml, length, name, parse_format, description, err);
 }
 
 wt_status description_parse_file(description_xsd *schema, const char *path,

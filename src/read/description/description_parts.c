@@ -278,39 +278,47 @@ static void read_segments(description_parser *p, const xmlNode *node)
                        d->n_values > 0 ? "only values" : "no values");
 }
 
-static unsigned read_kinds(description_parser *p, const xmlNode *root)
+unsigned parse_kinds(const char *words)
 {
-    const char *text = parse_attribute(p, root, "kinds");
     unsigned kinds = 0;
-    if (text != NULL) {
-        kinds |= strstr(text, "force") != NULL ? WT_KIND_FORCE : 0u;
-        kinds |= strstr(text, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
-        kinds |= strstr(text, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
-        kinds |= strstr(text, "noise") != NULL ? WT_KIND_NOISE : 0u;
-    }
+    kinds |= strstr(words, "force") != NULL ? WT_KIND_FORCE : 0u;
+    kinds |= strstr(words, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
+    kinds |= strstr(words, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
+    kinds |= strstr(words, "noise") != NULL ? WT_KIND_NOISE : 0u;
     return kinds;
+}
+
+static void parse_part(description_parser *p, const xmlNode *root, const char *name,
+                       void (*read)(description_parser *p, const xmlNode *node))
+{
+    const xmlNode *const node = parse_next(p, root, NULL, name);
+    if (node != NULL)
+        read(p, node);
+}
+
+void parse_detect(description_parser *p, const xmlNode *root)
+{
+    p->d->extent = DESCRIPTION_DETECT;
+    parse_part(p, root, "detect", read_detect);
+    parse_part(p, root, "text", read_text);
 }
 
 void parse_format(description_parser *p, const xmlNode *root)
 {
-    static const struct {
-        const char *name;
-        void (*read)(description_parser *p, const xmlNode *node);
-    } parts[] = {{"detect", read_detect},       {"text", read_text},
-                 {"header", read_header},       {"table", read_table},
-                 {"isotherms", read_isotherms}, {"segments", read_segments}};
     text_description *d = p->d;
+    const char *const kinds = parse_attribute(p, root, "kinds");
     d->id = parse_attribute(p, root, "id");
     d->version = parse_attribute(p, root, "version");
-    d->kinds = read_kinds(p, root);
+    d->kinds = kinds != NULL ? parse_kinds(kinds) : 0;
     d->verified = parse_true(p, root, "verified");
     d->title = parse_content(p, parse_next(p, root, NULL, "title"));
     d->evidence = parse_content(p, parse_next(p, root, NULL, "evidence"));
-    for (size_t i = 0; i < sizeof parts / sizeof *parts && p->status == WT_OK; i++) {
-        const xmlNode *node = parse_next(p, root, NULL, parts[i].name);
-        if (node != NULL)
-            parts[i].read(p, node);
-    }
+    parse_detect(p, root);
+    parse_part(p, root, "header", read_header);
+    parse_part(p, root, "table", read_table);
+    parse_part(p, root, "isotherms", read_isotherms);
+    parse_part(p, root, "segments", read_segments);
+    d->extent = DESCRIPTION_WHOLE;
     if (p->status == WT_OK)
         p->status = description_check_whole(d, p->name, p->err);
 }

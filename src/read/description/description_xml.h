@@ -46,7 +46,16 @@ void *parse_room(description_parser *p, const xmlNode *node, const char *name, s
 void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
                    line_pattern *pattern, size_t groups);
 
-/* description_parts.c: all of a document that follows the schema. */
+/* description_parts.c, of a document that follows the schema: all, or what DESCRIPTION_DETECT is.
+ */
 void parse_format(description_parser *p, const xmlNode *root);
+void parse_detect(description_parser *p, const xmlNode *root);
+unsigned parse_kinds(const char *words);
+
+/* description_parse.c: a description as `parse` makes it of the root of a document; schema NULL: it
+ * follows it. */
+wt_status parse_document(description_xsd *schema, const char *xml, size_t length, const char *name,
+                         void (*parse)(description_parser *p, const xmlNode *root),
+                         text_description **description, wt_error *err);
 
 #endif

@@ -71,7 +71,7 @@ static void take_value(gsf_header *h, const char *key, size_t n_key, const char 
 }
 
 /* The part of a line without blanks at both ends. */
-static const char *trim(const char *from, const char *to, size_t *n)
+static const char *trimmed(const char *from, const char *to, size_t *n)
 {
     while (from < to && (*from == ' ' || *from == '\t'))
         from++;
@@ -101,7 +101,7 @@ static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
         const char *sign = memchr(line, '=', (size_t)(stop - line));
         if (sign != NULL) {
             size_t n_key, n;
-            const char *key = trim(line, sign, &n_key), *value = trim(sign + 1, stop, &n);
+            const char *key = trimmed(line, sign, &n_key), *value = trimmed(sign + 1, stop, &n);
             take_value(h, key, n_key, value, n);
         }
         line = stop + 1;
@@ -174,14 +174,8 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
-    if (peek->length >= sizeof first_line - 1 &&
-        memcmp(peek->bytes, first_line, sizeof first_line - 1) == 0) {
-        match.answer = ANSWER_YES;
-        match.score = 95;
-    }
-    return match;
+    return recognised(PEEK_BEGINS(peek, first_line), 95);
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,

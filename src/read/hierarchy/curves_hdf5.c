@@ -196,24 +196,18 @@ static bool is_own(const file_peek *peek)
 {
     static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (memmem(peek->bytes, peek->length, marks[i], strlen(marks[i]) + 1) != NULL)
+        if (peek_holds(peek, marks[i], strlen(marks[i]) + 1))
             return true;
     return false;
 }
 
-recognition hdf5_recognise(const file_peek *peek, const char *words)
+recognition hdf5_detect(const file_reader *self, file_peek *peek)
 {
-    static const char signature[] = "\211HDF\r\n\032\n";
-    recognition match = {.answer = ANSWER_NO};
-    if (peek->length < sizeof signature - 1 ||
-        memcmp(peek->bytes, signature, sizeof signature - 1) != 0)
-        return match;
-    if (memmem(peek->bytes, peek->length, words, strlen(words)) != NULL ||
-        (!peek->whole && !is_own(peek) && input_has(peek->input, words))) {
-        match.answer = ANSWER_YES;
-        match.score = 85;
-    }
-    return match;
+    const char *const words = self->hdf5->words;
+    return recognised(PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
+                          (peek_holds(peek, words, strlen(words)) ||
+                           (!peek->whole && !is_own(peek) && input_has(peek->input, words))),
+                      85);
 }
 
 typedef struct text_sink {
@@ -227,20 +221,27 @@ static wt_status take_text(void *user, const void *piece, size_t n, wt_error *er
     return spool_add(&to->text, piece, n, to->name, err);
 }
 
-wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text, wt_error *err)
+wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_parselog *log, wt_input **text,
+                       wt_error *err)
 {
     hdf5_bytes from = {.bytes = NULL};
     text_sink to = {.name = wt_input_name(input)};
     door_flow *flow = NULL;
-    wt_status status = input_hdf5(input, &from, err);
+    double factor, offset;
+    /* Behind the door no file can be opened, so the units are read from theirs before it. */
+    wt_status status = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
+    if (status == WT_OK)
+        status = input_hdf5(input, &from, err);
     if (status != WT_OK)
         return status;
+    if (self->hdf5->note != NULL)
+        wt_parselog_add(log, WT_NOTE, to.name, NULL, "%s", self->hdf5->note);
     door_limits limits = door_limits_of(from.size);
     /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
      */
     limits.answer = ((size_t)16 << 20) + 24 * from.size; /* numbers may be packed */
     limits.cpu_time = 2 + (unsigned)(from.size >> 20);
-    status = hdf5_door_begin(&from, &limits, reading, &flow, err);
+    status = hdf5_door_begin(&from, &limits, self->hdf5->print, &flow, err);
     if (status == WT_OK)
         status = door_pour(flow, take_text, &to, err);
     door_close(flow);

@@ -37,10 +37,19 @@ double *hdf5_values(hid_t data, size_t size, size_t *n);
 /* ---- in front of the door ---------------------------------------------------------------------
  */
 
-/* Whether bytes are HDF5 and hold the words. */
-recognition hdf5_recognise(const file_peek *peek, const char *words);
-/* What `reading` printed, as an input of text. */
-wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text,
+/* What a reader of such files says of them. */
+typedef struct hdf5_curves {
+    const char *words;   /* that its files hold, and those of others do not */
+    hdf5_reading *print; /* its curves as text (curve_text.h) */
+    const char *note;    /* for the log, or NULL */
+} hdf5_curves;
+
+recognition hdf5_detect(const file_reader *self, file_peek *peek);
+wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_parselog *log, wt_input **text,
                        wt_error *err) WT_NODISCARD;
+/* All of such a reader but its words for people; with text/text.h. */
+#define READER_OF_HDF5_CURVES(curves)                                                              \
+    READER_OF_CURVE_TEXT(hdf5_as_text), .hdf5 = &(curves), .detect = hdf5_detect,                  \
+                                        .describe = text_describe_made
 
 #endif

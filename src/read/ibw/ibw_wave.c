@@ -42,7 +42,7 @@ static uint32_t number(const ibw_file *f, size_t at)
     return f->big_endian ? be32(f->bytes + at) : le32(f->bytes + at);
 }
 
-static double real(const ibw_file *f, size_t at)
+static double read_real(const ibw_file *f, size_t at)
 {
     return float64(f->big_endian ? be64(f->bytes + at) : le64(f->bytes + at));
 }
@@ -93,7 +93,7 @@ static wt_status read_shape(ibw_file *f, wt_error *err)
                       "two dimensions: samples and channels");
     if (status == WT_OK)
         status = set_sizes(f, number(f, DIMENSIONS), channels, err);
-    f->interval = real(f, STEPS);
+    f->interval = read_real(f, STEPS);
     if (!(f->interval > 0) || !isfinite(f->interval))
         f->interval = (double)NAN;
     return status;
@@ -104,10 +104,10 @@ static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
     const size_t layers = number(f, DIMENSIONS + 8);
     *grid = (ibw_grid){.n_columns = number(f, DIMENSIONS),
                        .n_rows = number(f, DIMENSIONS + 4),
-                       .step_x = real(f, STEPS),
-                       .step_y = real(f, STEPS + 8),
-                       .x_min = real(f, STARTS),
-                       .y_min = real(f, STARTS + 8)};
+                       .step_x = read_real(f, STEPS),
+                       .step_y = read_real(f, STEPS + 8),
+                       .x_min = read_real(f, STARTS),
+                       .y_min = read_real(f, STARTS + 8)};
     const wt_status status = read_type(f, err);
     if (status != WT_OK)
         return status;

@@ -8,7 +8,8 @@
 #include <string.h>
 
 /* Files of version 0 keep type and encoder below "data.". */
-static const char *either(const property_list *properties, const char *prefix, const char *key)
+static const char *property_of_version(const property_list *properties, const char *prefix,
+                                       const char *key)
 {
     char longer[128];
     snprintf(longer, sizeof longer, "data.%s", key);
@@ -52,8 +53,8 @@ static wt_status read_encoding(const property_list *properties, const char *pref
         {"unsignedshort", SAMPLE_UINT16},   {"unsignedshort-limited", SAMPLE_UINT16},
         {"signedinteger", SAMPLE_INT32},    {"signedinteger-limited", SAMPLE_INT32},
         {"unsignedinteger", SAMPLE_UINT32}, {"unsignedinteger-limited", SAMPLE_UINT32}};
-    const char *type = either(properties, prefix, "type");
-    const char *encoder = either(properties, prefix, "encoder.type");
+    const char *type = property_of_version(properties, prefix, "type");
+    const char *encoder = property_of_version(properties, prefix, "encoder.type");
     if (type == NULL)
         return unsupported(err, "channel without a data type", type);
     lcd->raster = strcmp(type, "raster-data") == 0;

@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* The number N of a key "….*=N"; false if it is not one. */
-static bool reference(const char *text, long *number)
+static bool reference_number(const char *text, long *number)
 {
     char *end = NULL;
     if (text == NULL || *text < '0' || *text > '9')
@@ -29,7 +29,7 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
     if (own != NULL)
         return own;
     long n = 0;
-    if (!reference(
+    if (!reference_number(
             properties_get(&segment->header, "force-segment-header.force-segment-header-info.*"),
             &n))
         return NULL;
@@ -116,7 +116,7 @@ static wt_status read_lcd(jpk_file *file, const jpk_segment *segment, const char
     long id = 0;
     if (text == NULL)
         return jpk_lcd_read(&segment->header, prefix, lcd, err);
-    if (!reference(text, &id)) {
+    if (!reference_number(text, &id)) {
         wt_fail(err, WT_E_CORRUPT, "reference to shared data is not a number");
         wt_error_found(err, "%slcd-info.*=%s", prefix, text);
         return WT_E_CORRUPT;

@@ -146,7 +146,7 @@ static void copy_plain(parser *p, bool key)
 }
 
 /* Copies up to the end of the line, or of the key if `key`. */
-static bool word(parser *p, bool key)
+static bool copy_word(parser *p, bool key)
 {
     for (;;) {
         copy_plain(p, key);
@@ -232,7 +232,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
         }
         property_entry item = {.key = p.out};
         size_t line = p.line;
-        bool good = word(&p, true);
+        bool good = copy_word(&p, true);
         if (good) {
             skip_blanks(&p);
             if (p.at < p.end && (*p.at == '=' || *p.at == ':')) {
@@ -240,7 +240,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
                 skip_blanks(&p);
             }
             item.value = p.out;
-            good = word(&p, false);
+            good = copy_word(&p, false);
         }
         if (!good) {
             properties->n = 0;

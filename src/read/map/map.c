@@ -20,20 +20,13 @@ typedef struct map_source {
     size_t n_channels;
 } map_source;
 
+/* The first attribute of the root stands right behind the signature, its name with the zero at its
+ * end: the name of a file in the command has none. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    static const char signature[] = "\211HDF\r\n\032\n", mark[] = STORE_MAP_ATTRIBUTE;
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
-    /* The first attribute of the root stands right behind the signature, its name with the zero at
-     * its end: the name of a file in the command has none. */
-    if (peek->length >= sizeof signature - 1 &&
-        memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
-        memmem(peek->bytes, peek->length, mark, sizeof mark) != NULL) {
-        match.answer = ANSWER_YES;
-        match.score = 95;
-    }
-    return match;
+    return recognised(
+        PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_HOLDS(peek, STORE_MAP_ATTRIBUTE "\0"), 95);
 }
 
 static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
@@ -42,7 +35,7 @@ static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
     hdf5_bytes from;
     wt_status status = input_hdf5(input, &from, err);
     if (status == WT_OK)
-        status = store_read_bytes(&from, wt_input_name(input), &result, err);
+        status = store_read_bytes(&from, store_pass, wt_input_name(input), &result, err);
     return status == WT_OK ? map_open(&from, result, map, err) : status;
 }
 

@@ -11,13 +11,8 @@
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
-    if (nanoscope_is(peek->bytes, peek->length)) {
-        match.answer = ANSWER_YES;
-        match.score = 95;
-    }
-    return match;
+    return recognised(nanoscope_is(peek->bytes, peek->length), 95);
 }
 
 static void add_identity(const nanoscope_file *f, table_writer *facts)

@@ -31,7 +31,7 @@ static wt_status corrupt(wt_error *err, const char *message, const char *expecte
 }
 
 /* Number i of a list of whole numbers such as "512 512"; 0 if there is none, or it is too large. */
-static size_t whole(const char *text, size_t i)
+static size_t whole_number_at(const char *text, size_t i)
 {
     for (; text != NULL; i--) {
         char *end = NULL;
@@ -47,7 +47,7 @@ static size_t whole(const char *text, size_t i)
 
 static size_t whole_of(const nanoscope_file *f, size_t section, const char *key, size_t i)
 {
-    return whole(nanoscope_get(&f->header, section, key), i);
+    return whole_number_at(nanoscope_get(&f->header, section, key), i);
 }
 
 /* ---- how many curves, how wide their numbers ---------------------------------------------------

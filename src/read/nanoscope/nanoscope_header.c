@@ -108,7 +108,7 @@ const char *nanoscope_get(const nanoscope_header *header, size_t section, const 
 }
 
 /* The number that a text begins with, behind blanks. */
-static double leading(const char *text)
+static double leading_number(const char *text)
 {
     double value = (double)NAN;
     text += strspn(text, " ");
@@ -119,7 +119,7 @@ static double leading(const char *text)
 double nanoscope_number(const nanoscope_header *header, size_t section, const char *key)
 {
     const char *text = nanoscope_get(header, section, key);
-    return text != NULL ? leading(text) : (double)NAN;
+    return text != NULL ? leading_number(text) : (double)NAN;
 }
 
 nanoscope_value nanoscope_value_of(const char *text)
@@ -138,8 +138,8 @@ nanoscope_value nanoscope_value_of(const char *text)
     open = strchr(text, '(');
     close = open != NULL ? strchr(open, ')') : NULL;
     if (close != NULL)
-        v.step = leading(open + 1);
-    v.value = leading(close != NULL ? close + 1 : text);
+        v.step = leading_number(open + 1);
+    v.value = leading_number(close != NULL ? close + 1 : text);
     return v;
 }
 
@@ -159,7 +159,7 @@ double nanoscope_soft(const nanoscope_header *header, const char *soft)
         /* Software 9.2 leaves the unit out; then it is nm/V. */
         if (*unit != '\0' && wt_unit_to_si(unit, WT_Q_SENSITIVITY, &factor, &offset, NULL) != WT_OK)
             return (double)NAN;
-        return force_positive(factor * leading(text));
+        return force_positive(factor * leading_number(text));
     }
     return (double)NAN;
 }

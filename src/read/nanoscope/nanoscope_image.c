@@ -46,7 +46,7 @@ static void scan_size(const char *text, double size[2])
     size[1] *= factor;
 }
 
-static size_t whole(const nanoscope_header *h, size_t section, const char *key)
+static size_t whole_number(const nanoscope_header *h, size_t section, const char *key)
 {
     const double value = nanoscope_number(h, section, key);
     return value >= 1 && value <= 1e15 ? (size_t)value : 0;
@@ -75,11 +75,11 @@ static double read_scale(const nanoscope_header *h, size_t section, wt_image *he
 static wt_status read_block(const nanoscope_header *h, size_t section, input_window *w,
                             image_list *list, wt_error *err)
 {
-    wt_image head = {.n_columns = whole(h, section, "Samps/line"),
-                     .n_rows = whole(h, section, "Number of lines"),
+    wt_image head = {.n_columns = whole_number(h, section, "Samps/line"),
+                     .n_rows = whole_number(h, section, "Number of lines"),
                      .x_unit = "m"};
-    const size_t offset = whole(h, section, "Data offset"),
-                 bytes = whole(h, section, "Data length");
+    const size_t offset = whole_number(h, section, "Data offset"),
+                 bytes = whole_number(h, section, "Data length");
     const char *text = nanoscope_get(h, section, "Scan Size");
     double size[2], *values = NULL;
     const unsigned char *data = NULL;

@@ -31,7 +31,8 @@ typedef struct measurement {
     double *x, *y; /* [n_curves], or NULL */
 } measurement;
 
-static wt_status bad(const char *place, const char *message, const char *expected, wt_error *err)
+static wt_status corrupt_measurement(const char *place, const char *message, const char *expected,
+                                     wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);
@@ -39,7 +40,7 @@ static wt_status bad(const char *place, const char *message, const char *expecte
     return WT_E_CORRUPT;
 }
 
-static void clear(measurement *m)
+static void clear_measurement(measurement *m)
 {
     for (size_t s = 0; s < m->n_segments; s++) {
         for (size_t c = 0; c < m->segments[s].n_channels; c++)
@@ -106,8 +107,9 @@ static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, 
         sum += s->sizes[i];
     }
     if (s->sizes == NULL || !(sum <= (double)n))
-        return bad(place, "the numbers of samples of the curves contradict the channel",
-                   "whole numbers that add up to the length of the channel", err);
+        return corrupt_measurement(place,
+                                   "the numbers of samples of the curves contradict the channel",
+                                   "whole numbers that add up to the length of the channel", err);
     return WT_OK;
 }
 
@@ -127,7 +129,8 @@ static wt_status read_segment(const nhf_file *f, hid_t group, const char *place,
                 problem = "channels of different length";
         }
         if (problem != NULL)
-            status = bad(place, problem, "a type and a linear calibration that are known", err);
+            status = corrupt_measurement(place, problem,
+                                         "a type and a linear calibration that are known", err);
     }
     return status == WT_OK && s->n_channels > 0 ? read_sizes(f, group, source, s, place, err)
                                                 : status;
@@ -139,7 +142,7 @@ static int by_order(const void *a, const void *b)
     return x->order < y->order ? -1 : x->order > y->order;
 }
 
-static double positive(hid_t group, const char *attribute)
+static double positive_attribute(hid_t group, const char *attribute)
 {
     const double value = hdf5_number(group, attribute, 0);
     return value > 0 ? value : (double)NAN;
@@ -168,14 +171,15 @@ static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m
     char name[HDF5_NAME], title[HDF5_TEXT];
     wt_status status = WT_OK;
     m->cantilever = (wt_cantilever){
-        .spring_constant = positive(group, "spm_probe_calibration_spring_constant"),
-        .sensitivity = positive(group, "spm_probe_calibration_deflection_sensitivity")};
+        .spring_constant = positive_attribute(group, "spm_probe_calibration_spring_constant"),
+        .sensitivity = positive_attribute(group, "spm_probe_calibration_deflection_sensitivity")};
     for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name); i++) {
         const hid_t inner = hdf5_open_group(group, name);
         if (inner >= 0 && hdf5_text(inner, f->old ? "name" : "segment_name", title)) {
             if (m->n_segments == SEGMENTS) {
                 hdf5_close(inner);
-                return bad(name, "a measurement of more segments than any has", "16 or fewer", err);
+                return corrupt_measurement(name, "a measurement of more segments than any has",
+                                           "16 or fewer", err);
             }
             nhf_segment *s = &m->segments[m->n_segments];
             const double order = hdf5_number(inner, "segment_index", 0);
@@ -198,7 +202,7 @@ static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m
  */
 
 /* From the first number that was measured to the last one; 0: there are not two. */
-static double rise(const double *values, size_t n)
+static double height_rise(const double *values, size_t n)
 {
     size_t first = 0;
     while (first < n && isnan(values[first]))
@@ -223,7 +227,7 @@ static wt_status turn_heights(measurement *m, wt_error *err)
             const wt_status status = nhf_channel_take(channel, 0, n, err);
             if (status != WT_OK)
                 return status;
-            way = rise(channel->values, n);
+            way = height_rise(channel->values, n);
         }
     for (size_t s = 0; s < m->n_segments && way > 0; s++)
         for (size_t c = 0; c < m->segments[s].n_channels; c++)
@@ -299,7 +303,7 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
             status = turn_heights(&m, err);
         for (size_t curve = 0; status == WT_OK && curve < m.n_curves; curve++)
             status = print_curve(&m, number++, curve, out, err);
-        clear(&m);
+        clear_measurement(&m);
         hdf5_close(group);
     }
     hdf5_close(f.calibration);
@@ -310,22 +314,11 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
     return status;
 }
 
-/* ---- the descriptor ---------------------------------------------------------------------------
- */
-
-static recognition detect(const file_reader *self, file_peek *peek)
-{
-    (void)self;
-    return hdf5_recognise(peek, "nsf_file_version_major");
-}
-
-static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
-{
-    wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
-                    "force curves of this format were not verified on a genuine file: compare one "
-                    "with the instrument's own software");
-    return hdf5_as_text(input, print_curves, text, err);
-}
+static const hdf5_curves curves = {
+    .words = "nsf_file_version_major",
+    .print = print_curves,
+    .note = "force curves of this format were not verified on a genuine file: compare one with the "
+            "instrument's own software"};
 
 const file_reader reader_nhf = {
     .info = {.id = "nhf",
@@ -334,9 +327,5 @@ const file_reader reader_nhf = {
              .verified = false,
              .evidence = "two other programs that read it; no measured file",
              .version = "1"},
-    .runs = "weartrack-stream",
-    .detect = detect,
-    .as_text = as_text,
-    .force = &text_force,
-    .describe = text_describe_made,
+    READER_OF_HDF5_CURVES(curves),
 };

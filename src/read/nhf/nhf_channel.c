@@ -96,8 +96,8 @@ static bool read_node(hid_t data, const char *from, node *to)
 }
 
 /* From a signal to another, by the nodes between them; never back over one that led here. */
-static bool walk(const nhf_file *f, const char *from, const char *before, const char *wanted,
-                 int depth, force_linear *scaling, char unit[HDF5_TEXT])
+static bool walk_nodes(const nhf_file *f, const char *from, const char *before, const char *wanted,
+                       int depth, force_linear *scaling, char unit[HDF5_TEXT])
 {
     char name[HDF5_NAME];
     for (size_t i = 0; depth < NODES_MAX && hdf5_link(f->calibration, i, name); i++) {
@@ -109,7 +109,7 @@ static bool walk(const nhf_file *f, const char *from, const char *before, const 
             continue;
         force_linear rest = {1, 0};
         const bool there = strcmp(n.sink, wanted) == 0;
-        if (!there && !walk(f, n.sink, from, wanted, depth + 1, &rest, unit))
+        if (!there && !walk_nodes(f, n.sink, from, wanted, depth + 1, &rest, unit))
             continue;
         if (there)
             memcpy(unit, n.unit, sizeof n.unit);
@@ -136,7 +136,7 @@ static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type
     unit_of(unit);
     if (!f->old && hdf5_text(data, "signal_selected", selected) &&
         hdf5_text(data, "signal_id", own) && strcmp(selected, own) != 0 && f->calibration >= 0)
-        return walk(f, own, "", selected, 0, scaling, unit);
+        return walk_nodes(f, own, "", selected, 0, scaling, unit);
     if (!(high > low))
         return false;
     const double multiplier = (high - low) / (type->maximum - type->minimum);

@@ -33,8 +33,8 @@ static wt_status bad_key(const nid_header *header, const char *section, const ch
     return WT_E_CORRUPT;
 }
 
-static wt_status expect(const nid_header *header, const char *section, const char *key,
-                        const char *value, wt_error *err)
+static wt_status expect_value(const nid_header *header, const char *section, const char *key,
+                              const char *value, wt_error *err)
 {
     const char *found = nid_get(header, section, key);
     if (found != NULL && strcmp(found, value) == 0)
@@ -61,11 +61,11 @@ static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error
         return bad_key(header, s, "Version", "a whole number", err);
     c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
     c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
-    wt_status status = expect(header, s, "SaveMode", "Binary", err);
+    wt_status status = expect_value(header, s, "SaveMode", "Binary", err);
     if (status == WT_OK)
-        status = expect(header, s, "SaveSign", "Signed", err);
+        status = expect_value(header, s, "SaveSign", "Signed", err);
     if (status == WT_OK)
-        status = expect(header, s, "SaveOrder", "Intel", err);
+        status = expect_value(header, s, "SaveOrder", "Intel", err);
     return status;
 }
 

@@ -51,7 +51,7 @@ void nid_grid(const nid_header *header, long *columns, long *rows)
     *rows = map.rows;
 }
 
-static double between(double first, double last, long i, long n)
+static double interpolate(double first, double last, long i, long n)
 {
     return n > 1 ? first + (last - first) * (double)i / (double)(n - 1) : first;
 }
@@ -69,8 +69,8 @@ static void from_map(const nid_map *map, size_t i, const char *name, wt_parselog
                         "the map is rotated, its unit is not known: positions left out");
         return;
     }
-    curve->x = between(map->x0, map->x1, curve->grid_x, map->columns);
-    curve->y = between(map->y0, map->y1, curve->grid_y, map->rows);
+    curve->x = interpolate(map->x0, map->x1, curve->grid_x, map->columns);
+    curve->y = interpolate(map->y0, map->y1, curve->grid_y, map->rows);
 }
 
 static double axis_factor(const nid_header *header, size_t axis)

@@ -43,19 +43,15 @@ static recognition detect(const file_reader *self, file_peek *peek)
     double row[COLUMNS], before = -(double)INFINITY;
     bool commas = true;
     size_t n = 0;
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
     for (; read_row(&line, end, row, &commas); n++) {
         if (row[0] <= before || row[0] > 0 || !commas)
-            return match;
+            return recognised(false, 0);
         before = row[0];
     }
     /* A peek ends within a line. */
-    if (n >= ROWS_MIN && (line == end || (!peek->whole && end - line < LINE_MAX_LENGTH))) {
-        match.answer = ANSWER_YES;
-        match.score = 60;
-    }
-    return match;
+    return recognised(
+        n >= ROWS_MIN && (line == end || (!peek->whole && end - line < LINE_MAX_LENGTH)), 60);
 }
 
 typedef struct ramp {
@@ -94,12 +90,14 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
     return WT_OK;
 }
 
-static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
+                         wt_input **text, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0, n_text = 0, idle = 0;
     char *made = NULL;
     ramp r = {.n = 0};
+    (void)self;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
         status = read_ramp((const char *)bytes, length, &r, &idle, err);
@@ -141,9 +139,7 @@ const file_reader reader_ntmdt = {
              .verified = true,
              .evidence = "a measured file; its units are not in it",
              .version = "1"},
-    .runs = "weartrack-stream",
+    READER_OF_CURVE_TEXT(as_text),
     .detect = detect,
-    .as_text = as_text,
-    .force = &text_force,
     .describe = text_describe_made,
 };

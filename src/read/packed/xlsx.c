@@ -91,13 +91,13 @@ static wt_status part_next(const part *p, wt_error *err)
     return WT_OK;
 }
 
-static bool begins(const part *p, const char *name)
+static bool name_begins(const part *p, const char *name)
 {
     return xmlTextReaderNodeType(p->xml) == XML_READER_TYPE_ELEMENT &&
            strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0;
 }
 
-static bool ends(const part *p, const char *name)
+static bool name_ends(const part *p, const char *name)
 {
     const int type = xmlTextReaderNodeType(p->xml);
     return (type == XML_READER_TYPE_END_ELEMENT ||
@@ -188,15 +188,15 @@ static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
         const char *piece = characters(&p);
         if (piece != NULL && in_text && !aside && !texts_append(strings, piece))
             status = no_memory(err);
-        if (begins(&p, "rPh"))
+        if (name_begins(&p, "rPh"))
             aside = true;
-        if (ends(&p, "rPh"))
+        if (name_ends(&p, "rPh"))
             aside = false;
-        if (begins(&p, "t"))
+        if (name_begins(&p, "t"))
             in_text = true;
-        if (ends(&p, "t"))
+        if (name_ends(&p, "t"))
             in_text = false;
-        if (ends(&p, "si") && !texts_end(strings))
+        if (name_ends(&p, "si") && !texts_end(strings))
             status = no_memory(err);
     }
     part_close(&p);
@@ -312,15 +312,15 @@ static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_t
     const char *piece = characters(p);
     if (piece != NULL && c->in_text && !texts_append(&c->text, piece))
         return no_memory(err);
-    if (begins(p, "row"))
+    if (name_begins(p, "row"))
         status = begin_row(p, c, err);
-    else if (begins(p, "c"))
+    else if (name_begins(p, "c"))
         status = begin_cell(p, c, err);
-    else if (begins(p, mark))
+    else if (name_begins(p, mark))
         c->in_text = true;
-    if (status == WT_OK && ends(p, mark))
+    if (status == WT_OK && name_ends(p, mark))
         c->in_text = false;
-    if (status == WT_OK && ends(p, "c"))
+    if (status == WT_OK && name_ends(p, "c"))
         status = end_cell(p, c, strings, out, err);
     return status;
 }
@@ -341,7 +341,7 @@ static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *st
     if (status == WT_OK)
         out->most = workbook_room(book, 16 * MIB + 4 * (p.bytes.length + strings->length));
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
-        is_sheet = is_sheet || begins(&p, "worksheet");
+        is_sheet = is_sheet || name_begins(&p, "worksheet");
         status = read_node(&p, &c, strings, out, err);
     }
     texts_clear(&c.text);
@@ -357,7 +357,7 @@ static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *er
     part p;
     wt_status status = part_open(zip, "xl/_rels/workbook.xml.rels", &p, err);
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
-        if (!begins(&p, "Relationship"))
+        if (!name_begins(&p, "Relationship"))
             continue;
         char *id = attribute(&p, "Id"), *target = attribute(&p, "Target");
         const bool absolute = target != NULL && target[0] == '/';
@@ -429,7 +429,7 @@ wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
     if (status == WT_OK)
         status = read_relations(zip, &relations, err);
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK)
-        if (begins(&p, "sheet"))
+        if (name_begins(&p, "sheet"))
             status = add_sheet(zip, &p, &relations, &strings, book, err);
     status = status == WT_END ? WT_OK : status;
     part_close(&p);

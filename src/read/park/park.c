@@ -210,7 +210,7 @@ static const unsigned char *samples_of(const park_file *f, const park_channel *c
 }
 
 /* Samples from `from` on, up to `n`, until the time rises no more. */
-static size_t measured(const park_file *f, size_t from, size_t n)
+static size_t n_measured(const park_file *f, size_t from, size_t n)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
@@ -226,7 +226,7 @@ static size_t measured(const park_file *f, size_t from, size_t n)
 }
 
 /* A channel that is the same everywhere is that of a sensor that the instrument does not have. */
-static bool constant(const park_file *f, const park_channel *c)
+static bool is_constant(const park_file *f, const park_channel *c)
 {
     const unsigned char *values = samples_of(f, c, 0);
     for (size_t i = 1; i < f->n_samples; i++)
@@ -240,7 +240,7 @@ static force_facts facts_of(const park_file *f, size_t half)
     const size_t n = f->n_samples / 2;
     force_facts facts = {.kind = half == 0 ? WT_SEGMENT_APPROACH : WT_SEGMENT_RETRACT,
                          .index = half,
-                         .n_points = measured(f, half * n, n),
+                         .n_points = n_measured(f, half * n, n),
                          .duration = (double)NAN,
                          .velocity = (double)NAN,
                          .setpoint = (double)NAN,
@@ -250,7 +250,7 @@ static force_facts facts_of(const park_file *f, size_t half)
                          .n_offers = 5};
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
-        if (c->quantity == WT_Q_NONE || (c->quantity == WT_Q_MEASURED_HEIGHT && constant(f, c)))
+        if (c->quantity == WT_Q_NONE || (c->quantity == WT_Q_MEASURED_HEIGHT && is_constant(f, c)))
             continue;
         force_add_signal(&facts, (force_signal){.quantity = c->quantity,
                                                 .name = c->name,

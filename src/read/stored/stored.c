@@ -11,21 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The root's attributes, the version among them, stand right behind the signature. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    static const char signature[] = "\211HDF\r\n\032\n", mark[] = "weartrack";
-    recognition match = {.answer = ANSWER_NO};
     (void)self;
-    /* The root's attributes, the version among them, stand right behind the signature. */
-    if (peek->length >= sizeof signature - 1 &&
-        memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
-        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL &&
-        memmem(peek->bytes, peek->length, STORE_MAP_ATTRIBUTE, sizeof STORE_MAP_ATTRIBUTE) ==
-            NULL) {
-        match.answer = ANSWER_YES;
-        match.score = 90;
-    }
-    return match;
+    return recognised(PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_HOLDS(peek, "weartrack") &&
+                          !PEEK_HOLDS(peek, STORE_MAP_ATTRIBUTE "\0"),
+                      90);
 }
 
 /* Results (a master curve, moduli) have columns of the same names and are no measurements. */
@@ -69,12 +61,14 @@ static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
 }
 
 /* The tables of measurements of the file, as a text stream in memory. */
-static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
+                         wt_input **text, wt_error *err)
 {
     wt_result *result = NULL;
     FILE *stream = NULL;
     char *bytes = NULL;
     size_t length = 0, n_measured = 0;
+    (void)self;
     wt_status status = read_result(input, &result, err);
     if (status != WT_OK)
         return status;
@@ -134,10 +128,8 @@ const file_reader reader_stored = {
              .verified = true,
              .evidence = "the HDF5 file that this program writes",
              .version = "1"},
-    .runs = "weartrack-stream",
+    READER_OF_CURVE_TEXT(as_text),
     .detect = detect,
-    .as_text = as_text,
-    .force = &text_force,
     .read_sweep = text_read_sweep,
     .read_spectrum = text_read_spectrum,
     .describe = describe,

@@ -180,8 +180,7 @@ void text_file_free(text_file *file);
 typedef struct text_parts text_parts;
 /* Bytes to read together: SIZE_MAX, and the file is one part, where it is small or where its
  * description lets one line depend on others far away. */
-wt_status text_piece(const text_description *description, wt_input *input, size_t *piece,
-                     wt_error *err);
+wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err);
 /* The input is the text itself: `as_text` of the reader is not asked. */
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
                            const wt_read_options *options, wt_parselog *log, text_parts **parts,
@@ -259,6 +258,8 @@ file_reader text_reader(text_description *description);
 void text_peek_free(struct text_peek *peek);
 
 extern const struct force_stream text_force;
+/* Of a reader whose file is a table in disguise: it is read as the text that `made` makes of it. */
+#define READER_OF_CURVE_TEXT(made) .runs = "weartrack-stream", .as_text = made, .force = &text_force
 /* The same without reading to the end first: how many curves there are is not known. Not for a
  * reader that makes a text (as_text). */
 extern const struct force_stream text_force_first;

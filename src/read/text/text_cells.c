@@ -28,7 +28,7 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
-static void trim(text_span *cell)
+static void trim_cell(text_span *cell)
 {
     while (cell->length > 0 && is_blank(cell->text[0])) {
         cell->text++;
@@ -51,11 +51,11 @@ static bool append(text_cells *cells, const char *text, size_t length)
         cells->capacity = capacity;
     }
     text_span cell = {text, length};
-    trim(&cell);
+    trim_cell(&cell);
     if (cell.length >= 2 && cell.text[0] == '"' && cell.text[cell.length - 1] == '"') {
         cell.text++;
         cell.length -= 2;
-        trim(&cell);
+        trim_cell(&cell);
     }
     cells->cells[cells->n++] = cell;
     return true;

@@ -320,7 +320,7 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog 
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts)
 {
-    const text_description *description = self->description;
+    text_description *const description = self->description;
     text_reading r = {self, input, options, description->kinds, SIZE_MAX, 0};
     text_parts *parts = NULL;
     unsigned has = 0;
@@ -348,7 +348,7 @@ wt_status text_describe_made(const file_reader *self, wt_input *input,
     wt_input *text = NULL;
     file_reader of_text = *self;
     of_text.as_text = NULL;
-    wt_status status = self->as_text(input, NULL, &text, facts->err);
+    wt_status status = self->as_text(self, input, NULL, &text, facts->err);
     if (status == WT_OK)
         status = text_describe(&of_text, text, options, log, facts);
     wt_input_close(text);

@@ -67,7 +67,7 @@ static void find_signals(const text_source *s, const text_table *t, wt_segment_k
 }
 
 /* Rows where every channel is empty belong to the longer partner of a column pair. */
-static void trim(const text_table *t, const force_facts *facts, span *rows)
+static void drop_empty_rows(const text_table *t, const force_facts *facts, span *rows)
 {
     for (; rows->end > rows->first; rows->end--)
         for (size_t i = 0; i < facts->n_signals; i++)
@@ -105,7 +105,7 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
     if (!force_wants_segment(&s->base, kind))
         return WT_OK;
     find_signals(s, t, kind, &facts);
-    trim(t, &facts, &rows);
+    drop_empty_rows(t, &facts, &rows);
     facts.n_points = rows.end - rows.first;
     facts.duration = duration_of(t, kind, rows);
     s->rows = rows;
@@ -278,7 +278,7 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
     text_source *s = (text_source *)source;
     size_t piece = 0;
     wt_status status =
-        self->as_text != NULL ? self->as_text(input, source->log, &s->text, err) : WT_OK;
+        self->as_text != NULL ? self->as_text(self, input, source->log, &s->text, err) : WT_OK;
     wt_input *const text = s->text != NULL ? s->text : input;
     if (status == WT_OK)
         status = text_piece(self->description, text, &piece, err);

@@ -36,7 +36,8 @@ typedef struct encoding_choice {
     bool utf_16;
 } encoding_choice;
 
-static encoding_choice choose(const unsigned char *bytes, size_t length, text_encoding encoding)
+static encoding_choice choose_encoding(const unsigned char *bytes, size_t length,
+                                       text_encoding encoding)
 {
     const bool any = encoding == ENCODING_AUTO;
     if ((any || encoding == ENCODING_UTF_8) && length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
@@ -61,7 +62,7 @@ static encoding_choice choose(const unsigned char *bytes, size_t length, text_en
 
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding)
 {
-    return choose(bytes, length, encoding).words;
+    return choose_encoding(bytes, length, encoding).words;
 }
 
 static const char replacement[] = "\xef\xbf\xbd";
@@ -177,7 +178,7 @@ static wt_status decode(const encoding_choice *c, const unsigned char *bytes, si
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err)
 {
-    const encoding_choice c = choose(bytes, length, encoding);
+    const encoding_choice c = choose_encoding(bytes, length, encoding);
     return decode(&c, bytes, length, lines, err);
 }
 

@@ -104,14 +104,15 @@ static bool can_part(const text_description *d)
            d->n_others == 0;
 }
 
-wt_status text_piece(const text_description *description, wt_input *input, size_t *piece,
-                     wt_error *err)
+wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err)
 {
+    const text_description *d = NULL;
     size_t size = 0;
     *piece = SIZE_MAX;
-    if (!can_part(description))
-        return WT_OK;
-    const wt_status status = wt_input_size(input, &size, err);
+    wt_status status = description_need(description, DESCRIPTION_WHOLE, &d, err);
+    if (status != WT_OK || !can_part(d))
+        return status;
+    status = wt_input_size(input, &size, err);
     if (status == WT_OK && size > PIECE)
         *piece = PIECE;
     return status;
@@ -121,7 +122,10 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
                            const wt_read_options *options, wt_parselog *log, text_parts **parts,
                            wt_error *err)
 {
-    const text_description *const d = reader->description;
+    const text_description *d = NULL;
+    const wt_status status = description_need(reader->description, DESCRIPTION_WHOLE, &d, err);
+    if (status != WT_OK)
+        return status;
     text_parts *const p = calloc(1, sizeof *p);
     if (p == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
@@ -216,7 +220,8 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
 {
     wt_input *text = NULL;
     text_parts *parts = NULL;
-    wt_status status = reader->as_text != NULL ? reader->as_text(input, log, &text, err) : WT_OK;
+    wt_status status =
+        reader->as_text != NULL ? reader->as_text(reader, input, log, &text, err) : WT_OK;
     if (status == WT_OK)
         status = text_parts_begin(reader, text != NULL ? text : input, SIZE_MAX, kinds, options,
                                   log, &parts, err);

@@ -112,7 +112,7 @@ static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
 }
 
 /* Kelvin between two rows; 0 if they are not known. */
-static double apart(const sweep_builder *b, size_t row, size_t other)
+static double temperature_step(const sweep_builder *b, size_t row, size_t other)
 {
     const double kelvin = fabs(sweep_temperature(b, row) - sweep_temperature(b, other));
     return isnan(kelvin) ? 0 : kelvin;
@@ -130,8 +130,8 @@ static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
             direction = way != 0 ? way : direction;
             continue;
         }
-        within += apart(b, rows[i - 1], rows[first]);
-        between += apart(b, rows[i], rows[first]);
+        within += temperature_step(b, rows[i - 1], rows[first]);
+        between += temperature_step(b, rows[i], rows[first]);
         first = i;
         direction = 0;
         turns++;

@@ -122,18 +122,25 @@ static wt_status peek_lines(file_peek *peek, text_encoding encoding, const text_
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
-    const text_description *d = self->description;
-    const text_lines *lines;
+    const text_description *d = NULL;
+    const text_lines *lines = NULL;
     recognition answer = {.answer = ANSWER_NO};
     bool more = false;
-    if (peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
+    if (description_need(self->description, DESCRIPTION_DETECT, &d, NULL) != WT_OK ||
+        peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
         answer.answer = ANSWER_NO_MEMORY;
     if (lines == NULL)
         return answer;
     int score = 0;
     for (size_t i = 0; i < d->n_probes; i++) {
         const text_probe *probe = &d->probes[i];
-        switch (look_for(d, probe, lines, peek->text->whole)) {
+        const text_description *named = d;
+        if (probe->kind == PROBE_NAMES &&
+            description_need(self->description, DESCRIPTION_WHOLE, &named, NULL) != WT_OK) {
+            answer.answer = ANSWER_NO_MEMORY;
+            return answer;
+        }
+        switch (look_for(named, probe, lines, peek->text->whole)) {
         case PROBE_FOUND:
             if (probe->kind == PROBE_FORBID)
                 return answer;

@@ -1,0 +1,60 @@
+/* DMA sweeps, spectra and images, through the reader that the file belongs to.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/formats.h"
+
+wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                        wt_parselog *log, wt_sweep *sweep, wt_error *err)
+{
+    reading r;
+    wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &r, err);
+    if (status == WT_OK)
+        status = r.reader->read_sweep(r.reader, r.content, &r.options, log, sweep, err);
+    return read_end(input, status, err);
+}
+
+wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
+                                 const wt_read_options *options, wt_parselog *log,
+                                 wt_power_spectrum *spectrum, wt_error *err)
+{
+    reading r;
+    wt_power_spectrum made = {.n = 0};
+    wt_status status = read_start(formats, input, options, WT_KIND_SPECTRUM, &r, err);
+    if (status == WT_OK)
+        status = r.reader->read_spectrum(r.reader, r.content, &r.options, log, &made, err);
+    status = read_end(input, status, err);
+    if (status == WT_OK)
+        *spectrum = made;
+    else
+        wt_power_spectrum_clear(&made);
+    return status;
+}
+
+wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                        wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    reading r;
+    wt_noise_spectrum made = {.n = 0};
+    wt_status status = read_start(formats, input, options, WT_KIND_NOISE, &r, err);
+    if (status == WT_OK)
+        status = r.reader->read_noise(r.reader, r.content, &r.options, log, &made, err);
+    status = read_end(input, status, err);
+    if (status == WT_OK)
+        *spectrum = made;
+    else
+        wt_noise_spectrum_clear(&made);
+    return status;
+}
+
+wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_image **images, size_t *n, wt_error *err)
+{
+    reading r;
+    wt_status status = read_start(formats, input, options, WT_KIND_IMAGE, &r, err);
+    if (status == WT_OK)
+        status = r.reader->read_images(r.reader, r.content, &r.options, log, images, n, err);
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
+}

@@ -1,0 +1,20 @@
+/* Detection by the bytes of a file's beginning. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/reader.h"
+
+#include <string.h>
+
+bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
+{
+    return peek->length >= n && memcmp(peek->bytes, bytes, n) == 0;
+}
+
+bool peek_holds(const file_peek *peek, const char *bytes, size_t n)
+{
+    return memmem(peek->bytes, peek->length, bytes, n) != NULL;
+}
+
+recognition recognised(bool mine, int score)
+{
+    return mine ? (recognition){.answer = ANSWER_YES, .score = score}
+                : (recognition){.answer = ANSWER_NO};
+}
