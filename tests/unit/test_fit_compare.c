@@ -226,6 +226,45 @@ static void summary_of_one_group(void **state)
     assert_true(isnan(s.standard_deviation));
 }
 
+/* Pulls and misfits by spot; chances of two tests; a tip of another radius. */
+static void signs(void **state)
+{
+    (void)state;
+    const double bulk[] = {1, 3, 2, 2, (double)NAN, 1.5, 2.5, 2}, none[] = {0, 0, 0},
+                 some[] = {1, 1, 1};
+    const double track[] = {5, 7, 5.5, 6.5, 6, 6.1};
+    const long at[] = {1, 1, 2, 2, 2, 3, 3, 4}, of[] = {1, 1, 2, 2, 3, 3};
+    wt_sign_comparison c;
+    const double *const values[2] = {bulk, track};
+    const long *const spots[2] = {at, of};
+    const size_t n[2] = {8, 6};
+    assert_int_equal(wt_compare_signs(values, spots, n, &c, NULL), WT_OK);
+    assert_near(c.mean[0], 2, 1e-12);
+    assert_near(c.mean[1], (6 + 6 + 6.05) / 3, 1e-12);
+    assert_true(c.larger_chance[1] < 1e-4 && c.larger_chance[0] > 0.999);
+    const double *const flat[2] = {none, some};
+    const long *const no_spots[2] = {NULL, NULL};
+    const size_t three[2] = {3, 3}, one[2] = {1, 3};
+    assert_int_equal(wt_compare_signs(flat, no_spots, three, &c, NULL), WT_OK);
+    assert_true(c.larger_chance[1] == 0 && c.larger_chance[0] == 1);
+    assert_int_equal(wt_compare_signs(flat, no_spots, one, &c, NULL), WT_OK);
+    assert_true(isnan(c.larger_chance[1]) && c.mean[0] == 0 && c.mean[1] == 1);
+    /* -2 ln(0.05^2) = 11.98 of chi^2 with 4 degrees */
+    assert_near(wt_chance_of_both(0.05, 0.05), 0.0174786613677699, 1e-12);
+    assert_near(wt_chance_of_both(0.3, (double)NAN), 0.3, 0);
+    /* By an independent fit with baseline and lever (0.5 N/m, 5 MPa, 70 nm deep): 0.238, 0.661. */
+    wt_tip tip;
+    wt_worn_tip worn;
+    assert_int_equal(wt_tip_parse("pyramid:half-angle=35deg,radius=20nm", &tip, NULL), WT_OK);
+    assert_int_equal(wt_worn_tip_fit(&tip, 40e-9, 70e-9, 0, &worn, NULL), WT_OK);
+    assert_near(worn.log_modulus, 0.238, 0.05);
+    assert_near(worn.misfit, 0.0112, 0.06);
+    assert_int_equal(wt_worn_tip_fit(&tip, 80e-9, 70e-9, 0, &worn, NULL), WT_OK);
+    assert_near(worn.log_modulus, 0.661, 0.02);
+    assert_int_equal(wt_worn_tip_fit(&tip, 20e-9, 70e-9, 50e-9, &worn, NULL), WT_OK);
+    assert_true(fabs(worn.log_modulus) < 1e-5 && worn.misfit < 1e-5);
+}
+
 static void no_answer(void **state)
 {
     (void)state;
@@ -496,6 +535,7 @@ int main(void)
         cmocka_unit_test(mann_whitney_agrees_with_enumeration),
         cmocka_unit_test(summary_of_one_group),
         cmocka_unit_test(no_answer),
+        cmocka_unit_test(signs),
         cmocka_unit_test(rates_in_common),
         cmocka_unit_test(rates_by_slope),
         cmocka_unit_test(rates_that_say_nothing),

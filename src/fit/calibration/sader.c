@@ -54,7 +54,7 @@ void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
                                             -0.00010961, 0.000064577, -0.000044510},
                         imaginary_under[] = {1,        -0.59702,  0.55182,  -0.18357,
                                              0.079156, -0.014369, 0.0028361};
-    const double complex i = CMPLX(0, 1), root = csqrt(i * reynolds);
+    const double complex i = (double complex)I, root = csqrt(i * reynolds);
     const double x = log10(reynolds);
     double complex k[2];
     bessel_k(-i * root, k);

@@ -5,8 +5,7 @@
 
 #include <math.h>
 
-/* Depths of the curve, and halvings of the bracket of a contact point: to 1e-6 of the depth, which
- * moves neither number by 1e-4. */
+/* Depths of the curve, and halvings of the bracket of a contact point: to 1e-6 of the depth. */
 enum { NODES = 64, STEPS = 30 };
 
 /* Noise of the force moves the tip, too, so that a residual counts less by 1 + (stiffness of the

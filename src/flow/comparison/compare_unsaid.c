@@ -158,12 +158,12 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
     char words[240], here[32], there[32];
     wt_format_si(tip.radius, "m", 2, here, sizeof here);
     wt_format_si(needed, "m", 2, there, sizeof there);
-    clocale_print(words, sizeof words,
-                  "a tip of %s instead of %s in the %s%s, whose curves %s off the law as it would "
-                  "leave them",
-                  there, here, compare_group_name[worn],
-                  within ? ", which would hide the margin" : "",
-                  plausible ? "may be as far" : "are not as far");
+    clocale_print(
+        words, sizeof words,
+        "a tip radius of %s instead of %s in the %s%s, whose curves %s off the law as that would "
+        "leave them",
+        there, here, compare_group_name[worn], within ? ", which would hide the margin" : "",
+        plausible ? "may be as far" : "are not as far");
     add_cause(u, plausible, words,
               "the radius of the tip before and after, with its error (radius=20nm+-10%), or "
               "curves on the bulk again after the track");

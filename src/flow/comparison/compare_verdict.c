@@ -6,6 +6,7 @@
 #include "base/number.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Scatter of ln E between spots where none is measured, for the number of spots that is advised.
  * Chosen: twice as much asks for four times the spots. */
@@ -188,6 +189,14 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
         SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
 }
 
+/* What else may well make the ratio keeps the answer back. */
+static void say_unsaid(const compare_unsaid *unsaid, const char *seems, compare_verdict *v)
+{
+    SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
+        unsaid->plausible);
+    SAY(v->settled_by, "%s", unsaid->settled_by);
+}
+
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
                               const compare_known *known, const compare_unsaid *unsaid,
                               const compare_row *row, const compare_row *rates, size_t n_rates)
@@ -199,6 +208,8 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
         return v;
     if (c->interaction_p < level) {
         judge_twist(rates, n_rates, c->interaction_p, &v);
+        if (strncmp(v.differs, "yes", 3) == 0 && unsaid->plausible[0] != '\0')
+            say_unsaid(unsaid, "seems to differ, by a ratio that depends on the rate", &v);
         return v;
     }
     const double low = log(c->ratio_low), high = log(c->ratio_high);
@@ -206,12 +217,11 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     if (within && known->lacks[0] != '\0') {
         say_lacking(job, known, &v);
     } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
-        SAY(v.differs, "cannot say: the wear track %s, but this may be as well: %s",
-            within     ? "seems to differ by less than the margin"
-            : high < 0 ? "seems softer"
-                       : "seems stiffer",
-            unsaid->plausible);
-        SAY(v.settled_by, "%s", unsaid->settled_by);
+        say_unsaid(unsaid,
+                   high < 0  ? "seems softer"
+                   : low > 0 ? "seems stiffer"
+                             : "seems to differ by less than the margin",
+                   &v);
     } else if (low > 0 || high < 0) {
         SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
             within ? ", by less than the margin" : "");

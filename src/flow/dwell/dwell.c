@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/dwell/dwell.h"
 #include "base/array.h"
-#include "base/normal.h"
 #include "base/param.h"
 #include "flow/indentation/indent.h"
 #include "flow/work/cost.h"
