@@ -194,6 +194,8 @@ static const expectation measured[] = {
     {&shift_factors_schema, "wlf_c2", "kk"},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
     {&shift_factors_schema, "joint", ".."},
+    {&shift_factors_schema, "holds_from", ".."}, /* it holds everywhere */
+    {&shift_factors_schema, "holds_to", ".."},
     {&shift_factors_schema, "law_slope", "kk"},
     {&shift_factors_schema, "pole", "kk"},
     {&shift_factors_schema, "offset", "kk"},
