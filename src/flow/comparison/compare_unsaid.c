@@ -5,6 +5,7 @@
 #include "flow/comparison/compare.h"
 
 #include "base/clocale.h"
+#include "model/root.h"
 #include "model/tip.h"
 
 #include <math.h>
@@ -170,6 +171,22 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
     return WT_OK;
 }
 
+/* More than the 53 binary digits of a double. */
+enum { BISECTIONS = 60 };
+
+typedef struct pulled_depth {
+    const wt_tip *tip;
+    double depth, share;
+} pulled_depth;
+
+/* Whether the force at a share of the whole depth is not above that of the pull. */
+static bool is_within_pull(double x, void *user)
+{
+    const pulled_depth *p = user;
+    const double all = p->depth / (1 - x);
+    return !(contact_force(p->tip, x * all) > p->share * contact_force(p->tip, all));
+}
+
 /* What a pull that acts throughout the contact makes of the modulus at most: the contact begins
  * where the force has made up for it, and what is left is fitted as all. Without a tip that is
  * known forces go with the square of the depth. */
@@ -180,13 +197,22 @@ static double pull_effect(const wt_tip *tip, double depth, double force, double 
     if (tip == NULL)
         return log1p(sqrt(share)) - log1p(-sqrt(share));
     /* of the depth whose force is that of the pull, and the curve's own beyond it */
-    for (int i = 0; i < 60; i++) {
-        const double x = 0.5 * (low + high), all = depth / (1 - x);
-        *(contact_force(tip, x * all) > share * contact_force(tip, all) ? &high : &low) = x;
-    }
+    pulled_depth of = {tip, depth, share};
+    root_halve(is_within_pull, &of, &low, &high, 0, BISECTIONS);
     const double all = depth / (1 - low);
     return log((contact_force(tip, all) - contact_force(tip, low * all)) /
                contact_force(tip, depth));
+}
+
+typedef struct needed_pull {
+    const wt_tip *tip;
+    double depth, force, effect;
+} needed_pull;
+
+static bool is_too_little(double pull, void *user)
+{
+    const needed_pull *p = user;
+    return !(pull_effect(p->tip, p->depth, p->force, pull) > p->effect);
 }
 
 static double pull_for(const wt_tip *tip, double depth, double force, double effect)
@@ -194,10 +220,8 @@ static double pull_for(const wt_tip *tip, double depth, double force, double eff
     double low = 0, high = force;
     if (!(pull_effect(tip, depth, force, high) > effect))
         return (double)INFINITY;
-    for (int i = 0; i < 60; i++) {
-        const double middle = 0.5 * (low + high);
-        *(pull_effect(tip, depth, force, middle) > effect ? &high : &low) = middle;
-    }
+    needed_pull of = {tip, depth, force, effect};
+    root_halve(is_too_little, &of, &low, &high, 0, BISECTIONS);
     return high;
 }
 
