@@ -406,20 +406,23 @@ static bool pass_case(reader *r, uint64_t *passed)
     return good;
 }
 
-static bool check_format(reader *r, int *format)
+static bool check_format(reader *r)
 {
+    int format = 0;
     size_t n = 0;
     const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
-        H5Aread(attribute, H5T_NATIVE_INT, format) < 0) {
+        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (*format < STORE_FORMAT_TEXT || *format > STORE_FORMAT_MAP) {
+    } else if (format < STORE_FORMAT || format > STORE_FORMAT_MAP) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_TEXT, STORE_FORMAT_MAP);
-        wt_error_found(r->err, "%d", *format);
-        wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
+        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
+        wt_error_found(r->err, "%d", format);
+        wt_error_advice(
+            r->err,
+            "make it again from its case, or use the weartrack that wrote it or a newer one");
     }
     hdf5_close(type);
     hdf5_close(attribute);
@@ -430,18 +433,15 @@ static bool check_format(reader *r, int *format)
 typedef struct store_words {
     char **tables, **digests;
     size_t n_tables, n_digests;
-    char *command, *text_digest; /* or NULL */
+    char *command; /* or NULL */
 } store_words;
 
 static bool read_store_words(reader *r, store_words *w)
 {
-    int format = 0;
-    bool good = check_format(r, &format) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE,
-                                                       RESULT_TABLES_MAX, &w->tables, &w->n_tables);
+    bool good = check_format(r) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX,
+                                              &w->tables, &w->n_tables);
     if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
         good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL;
-    if (good && format < STORE_FORMAT)
-        return (w->text_digest = read_text(r, r->file, STORE_TEXT_DIGEST_ATTRIBUTE)) != NULL;
     good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
                               &w->digests, &w->n_digests);
     const size_t n = w->n_tables + (w->command != NULL) +
@@ -463,8 +463,6 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     store_words w = {.tables = NULL};
     store_tail tail = {.n_tables = 0};
     bool good = read_store_words(r, &w);
-    if (w.text_digest != NULL)
-        wanted = NULL; /* the digest is of all */
     for (size_t i = 0; good && i < w.n_tables; i++)
         if (wanted == NULL || wanted(w.tables[i])) {
             good = pass_table(r, w.tables[i]);
@@ -478,14 +476,11 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     for (size_t i = 0; good && i < w.n_digests; i++)
         if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
             pass_digest(r, w.digests[i]);
-    if (w.text_digest != NULL)
-        (void)snprintf(tail.text_digest, sizeof tail.text_digest, "%s", w.text_digest);
     if (good)
         (void)fwrite(&tail, sizeof tail, 1, r->out);
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
     free(w.command);
-    free(w.text_digest);
     return r->status;
 }
 
