@@ -28,7 +28,8 @@ static double steeper_reference(const master_work *work)
                : (double)NAN;
 }
 
-/* Whether one spectrum describes the isotherms from `first` to `last`. */
+/* Whether one spectrum describes the isotherms from `first` to `last`: not if it does not end,
+ * spans too much, or leaves some without overlap or too few that it could be of. */
 static wt_status try_part(const master_work *whole, size_t first, size_t last, bool *holds,
                           wt_error *err)
 {
@@ -52,7 +53,9 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
         status = master_agrees(&work, holds, err);
     posterior_free(work.posterior);
     pool_free(&work.memory);
-    return status == WT_E_MEMORY ? status : WT_OK;
+    const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
+                      status == WT_E_NO_OVERLAP || status == WT_E_MISSING;
+    return none ? WT_OK : status;
 }
 
 /* ---- a part that one spectrum describes ------------------------------------------------------ */
