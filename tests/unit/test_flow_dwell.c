@@ -1,6 +1,7 @@
 /* Dwells: a power law by a hereditary integral summed step by step, files by an independent writer,
  * what is left out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "near.h"
 
 #include "dma_data.h"
@@ -85,7 +86,6 @@ enum { N = 600, CURVES = 6, FREE = 300 };
 static const double radius = 5e-6, depth = 400e-9, load_time = 0.2, hold = 4, exponent = 0.12,
                     modulus = 1e6, lever = 5000;
 static double height[CURVES][2][N], force[CURVES][2][N], stiffness[CURVES];
-static wt_formats *formats;
 
 static double force_at(double t)
 {
@@ -426,19 +426,6 @@ static void test_genuine(void **state)
     assert_int_equal(make(path, tip, &t, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(t.dwell), 1);
     wt_dwell_tables_clear(&t);
-}
-
-static int open_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 int main(void)

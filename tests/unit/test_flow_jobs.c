@@ -1,6 +1,7 @@
 /* The jobs one by one: many curves, spots, groups, the rubber at a temperature, surfaces, the
  * layer. SPDX-License-Identifier: GPL-3.0-or-later */
 
+#include "all_formats.h"
 #include "cells.h"
 
 #include "base/array.h"
@@ -13,21 +14,6 @@
 #include <unistd.h>
 
 #define CASE WT_SOURCE_DIR "/fixtures/case"
-
-static wt_formats *formats;
-
-static int open_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int close_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
-}
 
 static wt_job common_job(void)
 {
@@ -666,5 +652,5 @@ int main(void)
         cmocka_unit_test(test_layer_numbers),
         cmocka_unit_test(test_draws),
     };
-    return cmocka_run_group_tests_name("flow jobs", tests, open_formats, close_formats);
+    return cmocka_run_group_tests_name("flow jobs", tests, open_formats, free_formats);
 }

@@ -1,6 +1,7 @@
 /* The tables of temperature and strain sweeps: every column against the law that the sweeps were
  * written from.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "truth.h"
 
 #include "weartrack/flow.h"
@@ -8,20 +9,6 @@
 enum { FILES = 2, POINTS = 51, STRAINS = 29 };
 static const double at_hertz[FILES] = {10, 1}; /* the faster one first */
 static char paths[FILES][40];
-static wt_formats *formats;
-
-static int begin(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
-}
 
 static FILE *next_file(size_t i)
 {
@@ -289,5 +276,5 @@ static void test_strain(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_ramps), cmocka_unit_test(test_strain)};
-    return cmocka_run_group_tests_name("tables of sweeps", tests, begin, end);
+    return cmocka_run_group_tests_name("tables of sweeps", tests, open_formats, free_formats);
 }

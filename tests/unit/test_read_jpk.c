@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "all_formats.h"
 #include "near.h"
 #include "read/force_source.h"
 #include "read/jpk/jpk.h"
@@ -75,22 +76,6 @@ static jpk_writer_file make_file(const char *path)
     f.sensitivity = 61.3e-9;
     f.setpoint = 2.5e-9;
     return f;
-}
-
-/* One set serves all tests: making it parses every description. */
-static wt_formats *formats;
-
-static int make_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 typedef struct reading {
@@ -513,5 +498,5 @@ int main(void)
         cmocka_unit_test(described),
         cmocka_unit_test(swollen_entry),
     };
-    return cmocka_run_group_tests(tests, make_formats, free_formats);
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -2,78 +2,12 @@
  * must hold.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "drawn_report.h"
 #include "report/drawing.h"
-#include "report_fixture.h"
-#include "report_place.h"
 
 #include <ctype.h>
 
-/* One report of everything for the tests that only look at it. */
-static char place[] = "/tmp/weartrack-figures-XXXXXX";
-static bool drawn;
-
-static int draw_everything(void **state)
-{
-    (void)state;
-    if (mkdtemp(place) == NULL || chdir(place) != 0)
-        return -1;
-    drawn = have_gnuplot();
-    wt_result *result = fixture_result();
-    if (drawn)
-        write_report(result, "out", NULL);
-    wt_result_free(result);
-    return 0;
-}
-
-static int remove_everything(void **state)
-{
-    (void)state;
-    int status = chdir("/");
-    remove_all(place);
-    return status;
-}
-
-#define NEED_REPORT()                                                                              \
-    do {                                                                                           \
-        if (!drawn)                                                                                \
-            skip();                                                                                \
-        assert_int_equal(chdir(place), 0);                                                         \
-    } while (0)
-
-static char *read_plot(const char *folder, const char *figure, const char *ending)
-{
-    char path[160];
-    size_t length = 0;
-    (void)snprintf(path, sizeof path, "%s/plots/%s.%s", folder, figure, ending);
-    return read_all(path, &length);
-}
-
 /* ---- data ------------------------------------------------------------------------------------ */
-
-enum { MOST = 64 };
-
-/* The sections of a figure's data, which are tables of the text stream. */
-static size_t read_sections(const char *folder, const char *figure, wt_table *sections[MOST])
-{
-    char path[160];
-    size_t n = 0;
-    (void)snprintf(path, sizeof path, "%s/plots/%s.tsv", folder, figure);
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        fail_msg("%s is not there", path);
-    wt_status status = WT_OK;
-    while (n < MOST && (status = wt_stream_read(file, path, &sections[n], NULL)) == WT_OK)
-        assert_true(wt_table_n_rows(sections[n++]) > 0);
-    assert_int_equal(status, WT_END);
-    (void)fclose(file);
-    return n;
-}
-
-static void free_sections(wt_table *sections[MOST], size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_table_free(sections[i]);
-}
 
 static bool has_columns(const wt_table *section, const table_schema *schema,
                         const unsigned *columns, size_t n)
