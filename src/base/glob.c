@@ -98,9 +98,7 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     char *literal = wt_path_join(folder, pattern);
     if (full == NULL || literal == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    if (stat(literal, &info) == 0) {
+    } else if (stat(literal, &info) == 0) {
         /* A file may be called "curve[1].txt". */
         status = add_path(&l, literal, err);
     } else {
@@ -130,7 +128,6 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
         *n = l.n;
         l = (list){NULL, 0, 0};
     }
-done:
     wt_strings_free(l.paths, l.n);
     globfree(&found);
     free(quoted);

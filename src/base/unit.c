@@ -144,24 +144,20 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
  * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
 static bool convert(const char *unit, const char *si, double *factor, double *offset)
 {
-    bool good = false;
-    ut_unit *from = NULL, *to = NULL;
-    cv_converter *converter = NULL;
     base_of base = {NULL, false};
-    from = ut_parse(units, unit, UT_UTF8);
-    to = ut_parse(units, si, UT_UTF8);
-    if (from == NULL || to == NULL || ut_accept_visitor(from, &visitor, &base) != UT_SUCCESS ||
-        ut_compare(base.product, to) != 0)
-        goto done;
-    converter = ut_get_converter(from, to);
-    if (converter == NULL)
-        goto done;
-    *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
-    /* At 2^60 an offset of temperature is below the last digit. */
-    *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
-                          : cv_convert_double(converter, 1.0);
-    good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
-done:
+    ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
+    const bool alike = from != NULL && to != NULL &&
+                       ut_accept_visitor(from, &visitor, &base) == UT_SUCCESS &&
+                       ut_compare(base.product, to) == 0;
+    cv_converter *converter = alike ? ut_get_converter(from, to) : NULL;
+    bool good = converter != NULL;
+    if (good) {
+        *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
+        /* At 2^60 an offset of temperature is below the last digit. */
+        *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
+                              : cv_convert_double(converter, 1.0);
+        good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
+    }
     cv_free(converter);
     ut_free(from);
     ut_free(to);

@@ -39,12 +39,10 @@ int cmd_indent(int argc, char **argv)
                         [OF_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
-    if (own.master == NULL && parts[OF_DMA].given != 0) {
-        (void)cmd_usage_error(&s, "--sample goes with --master");
-        goto done;
-    }
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set) ||
+        (own.master == NULL && parts[OF_DMA].given != 0 &&
+         !cmd_usage_error(&s, "--sample goes with --master")))
+        return cmd_session_free(&s);
     job.sets = &set;
     job.n_sets = 1;
     wt_status made = WT_OK;
@@ -73,7 +71,6 @@ int cmd_indent(int argc, char **argv)
                                       &tables.force_displacement,
                                       &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
     return cmd_session_free(&s);

@@ -160,21 +160,20 @@ static gauss_rule *make_rule(size_t n)
     gauss_rule *made =
         calloc(1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
-    if (made == NULL || table == NULL) {
+    if (made != NULL && table != NULL) {
+        made->n = n;
+        made->room = room;
+        made->node = made->numbers;
+        made->weight = made->node + n;
+        made->running = made->weight + n;
+        made->top = made->running + n * room;
+        for (size_t i = 0; i < n; i++)
+            gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
+        fill_running(made);
+    } else {
         free(made);
         made = NULL;
-        goto done;
     }
-    made->n = n;
-    made->room = room;
-    made->node = made->numbers;
-    made->weight = made->node + n;
-    made->running = made->weight + n;
-    made->top = made->running + n * room;
-    for (size_t i = 0; i < n; i++)
-        gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
-    fill_running(made);
-done:
     gsl_integration_glfixed_table_free(table);
     return made;
 }

@@ -184,28 +184,23 @@ static wt_status make_temporary(report_folder *folder, wt_error *err)
 
 wt_status folder_open(const char *path, report_folder **out, wt_error *err)
 {
-    wt_status status = WT_OK;
     report_folder *folder = calloc(1, sizeof *folder);
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
-    if ((status = find_place(path, &folder->place, err)) != WT_OK ||
-        (status = check_replaceable(folder->place, err)) != WT_OK ||
-        (status = make_temporary(folder, err)) != WT_OK)
-        goto fail;
-    folder->plots = wt_path_join(folder->made, "plots");
-    if (folder->plots == NULL) {
+    wt_status status = find_place(path, &folder->place, err);
+    if (status == WT_OK)
+        status = check_replaceable(folder->place, err);
+    if (status == WT_OK)
+        status = make_temporary(folder, err);
+    if (status == WT_OK && (folder->plots = wt_path_join(folder->made, "plots")) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (mkdir(folder->plots, 0777) != 0) {
+    if (status == WT_OK && mkdir(folder->plots, 0777) != 0)
         status = io_error(err, "cannot be made", folder->plots);
-        goto fail;
-    }
-    *out = folder;
-    return WT_OK;
-fail:
-    folder_discard(folder);
+    if (status == WT_OK)
+        *out = folder;
+    else
+        folder_discard(folder);
     return status;
 }
 

@@ -517,34 +517,31 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
         status = read_files(&task, &files, err);
-    if (status != WT_OK)
-        goto done;
-    if (task.n_curves == 0) {
+    if (status == WT_OK && task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
         flow_tell_files(&files, task.n_failed, err);
-        goto done;
     }
     task.rows.err = err; /* that of the last row was the error of its file */
-    status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
-                               task.scratch, err);
-    if (status != WT_OK)
-        goto done;
-    set_keys(&task, &files);
-    status = indent_say_together(&task.together, job, work, &task.rows, err);
+    if (status == WT_OK)
+        status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
+                                   task.scratch, err);
+    if (status == WT_OK) {
+        set_keys(&task, &files);
+        status = indent_say_together(&task.together, job, work, &task.rows, err);
+    }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
-    if (status != WT_OK)
-        goto done;
-    status = table_end(&task.rows, &tables->indentation);
-    task.rows.table = NULL;
-    tables->n_files = files.n;
-    tables->n_curves = task.n_curves;
-    tables->n_accepted = task.n_accepted;
-    tables->n_failed = task.n_failed;
-    say_cost(&task);
-done:
+    if (status == WT_OK) {
+        status = table_end(&task.rows, &tables->indentation);
+        task.rows.table = NULL;
+        tables->n_files = files.n;
+        tables->n_curves = task.n_curves;
+        tables->n_accepted = task.n_accepted;
+        tables->n_failed = task.n_failed;
+        say_cost(&task);
+    }
     release(&task);
     flow_files_clear(&files);
     return status;

@@ -345,25 +345,23 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     wt_status status = param_check(wt_run_params(), options, err);
     if (status == WT_OK)
         status = prepare(&d, options, log, err);
-    if (status != WT_OK)
-        goto done;
-    flow_plan_make(c, &d.run.plan);
-    d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
-    d.run.job.left_out = find_left_out(&d.run.plan, options);
-    d.have = d.run.plan.sources;
+    if (status == WT_OK) {
+        flow_plan_make(c, &d.run.plan);
+        d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
+        d.run.job.left_out = find_left_out(&d.run.plan, options);
+        d.have = d.run.plan.sources;
+    }
     for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
         status = consider_stage(&d, i, err);
-    if (status != WT_OK)
-        goto done;
-    size_t failed = wt_table_n_rows(d.failures);
-    status = finish(&d, err);
+    const size_t failed = status == WT_OK ? wt_table_n_rows(d.failures) : 0;
+    if (status == WT_OK)
+        status = finish(&d, err);
     if (status == WT_OK) {
         *result = d.result;
         d.result = NULL;
         if (n_failed != NULL)
             *n_failed = failed;
     }
-done:
     flow_run_clear(&d.run);
     wt_formats_free(d.formats);
     wt_result_free(d.result);

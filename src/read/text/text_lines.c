@@ -101,16 +101,16 @@ static char *convert(const encoding_choice *c, const unsigned char *bytes, size_
     const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
     char *text = malloc(capacity);
     iconv_t converter = iconv_open("UTF-8", c->iconv);
-    if (text == NULL || converter == (iconv_t)-1)
-        goto fail;
+    bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = length, room = capacity - 1;
     char *out = text;
-    while (left >= unit) {
+    while (good && left >= unit) {
         if (iconv(converter, &in, &left, &out, &room) != (size_t)-1)
             break;
-        if (errno == E2BIG || room < 3)
-            goto fail;
+        good = errno != E2BIG && room >= 3;
+        if (!good)
+            break;
         memcpy(out, replacement, 3);
         out += 3;
         room -= 3;
@@ -118,12 +118,12 @@ static char *convert(const encoding_choice *c, const unsigned char *bytes, size_
         left -= unit;
         (*n_replaced)++;
     }
-    iconv_close(converter);
-    *n_out = (size_t)(out - text);
-    return text;
-fail:
     if (converter != (iconv_t)-1)
         iconv_close(converter);
+    if (good) {
+        *n_out = (size_t)(out - text);
+        return text;
+    }
     free(text);
     return NULL;
 }
