@@ -64,6 +64,13 @@ static void indentation_caveats(answer_story *story)
         rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
         spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
+    for (int g = 0; g < 2; g++) {
+        char text[512];
+        telling t = {text, sizeof text, 0};
+        if (story->indentation[g].table != NULL &&
+            tell_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
+            answer_caveat(story, CAVEAT_VERDICT, "%s.", text);
+    }
     const bool both = spots[0] != NULL && spots[1] == spots[0];
     for (int g = 0; g < (both ? 1 : 2); g++)
         if (spots[g] != NULL)
