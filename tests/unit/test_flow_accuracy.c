@@ -53,6 +53,29 @@ static void test_stated_errors(void **state)
     }
 }
 
+/* Simpson's rule at 32 places from 1e2 to 1e11 rad/s, the exact integrals by adaptive quadrature
+ * with 20 digits, in Python with mpmath. */
+static void test_angles_of_the_textbook(void **state)
+{
+    (void)state;
+    static const struct {
+        double intervals, error;
+    } known[] = {{10, 0.030060886826}, {30, 0.0091835510741}, {100, 0.0023417165064}};
+    wt_table *table = sweep("angular-integrals");
+    size_t found = 0;
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        if (strcmp(text_cell(table, i, "method"), "textbook") != 0)
+            continue;
+        for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+            if (number_cell(table, i, "value") == known[k].intervals) {
+                assert_near(number_cell(table, i, "true_error"), known[k].error, 1e-8);
+                found++;
+            }
+    }
+    assert_int_equal(found, sizeof known / sizeof *known);
+    wt_table_free(table);
+}
+
 static void test_what_is_estimated(void **state)
 {
     (void)state;
@@ -429,6 +452,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stated_errors),
+        cmocka_unit_test(test_angles_of_the_textbook),
         cmocka_unit_test(test_what_is_estimated),
         cmocka_unit_test(test_spectrum),
         cmocka_unit_test(test_no_such_part),

@@ -5,6 +5,7 @@
 #include "near.h"
 
 #include "dma_data.h"
+#include "fit/dwell/relaxation.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 
@@ -428,11 +429,48 @@ static void test_genuine(void **state)
     wt_dwell_tables_clear(&t);
 }
 
+/* An adhesive way out: the neck holds until 4 um above the contact point, four times the depth, and
+ * the force behind it is that of the baseline. What is free begins behind the neck. */
+static void test_free_of_the_neck(void **state)
+{
+    (void)state;
+    enum { IN = 600, HELD = 600, OUT = 700 };
+    static double time[IN + HELD + OUT], position[IN + HELD + OUT], forces[IN + HELD + OUT];
+    uint64_t seed = 1;
+    for (int i = 0; i < IN + HELD + OUT; i++) {
+        const double in = i < IN          ? (double)(2 * i - IN) / IN
+                          : i < IN + HELD ? 1
+                                          : 1 - 7.0 * (i - IN - HELD + 1) / OUT; /* [um] */
+        const bool neck = i >= IN + HELD && in < 0 && in > -4;
+        time[i] = 1e-3 * i;
+        position[i] = 1e-6 * in;
+        forces[i] = 1e-9 * (in > 0 ? in : neck ? in : 0) + 1e-13 * dma_normal(&seed);
+    }
+    const wt_dwell_history h = {.time = time,
+                                .position = position,
+                                .force = forces,
+                                .n_approach = IN,
+                                .n_dwell = HELD,
+                                .n_retract = OUT,
+                                .spring_constant = 1,
+                                .poisson_ratio = 0.5,
+                                .modulus = 1e6};
+    pool memory = {0};
+    dwell_nodes nodes;
+    assert_string_equal(dwell_nodes_make(&h, 1e-3, &memory, &nodes), "");
+    assert_true(nodes.n > nodes.first_free);
+    for (size_t i = nodes.first_free; i < nodes.n; i++) {
+        assert_true(nodes.position[i] < -4e-6);
+        assert_near_abs(nodes.force[i], 0, 1e-12);
+    }
+    pool_free(&memory);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none), cmocka_unit_test(test_relaxation),
-        cmocka_unit_test(test_lines), cmocka_unit_test(test_modulation),
-        cmocka_unit_test(test_genuine)};
+        cmocka_unit_test(test_none),    cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_lines),   cmocka_unit_test(test_modulation),
+        cmocka_unit_test(test_genuine), cmocka_unit_test(test_free_of_the_neck)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -367,6 +367,25 @@ static void height_without_conversion(void **state)
     unlink(path);
 }
 
+/* A height that cannot be decoded is told of, with what the file says of it. */
+static void height_of_unknown_type(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_odd.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    reading r;
+    f.odd_height = true;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
+    assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
+    assert_true(logged(&r, "channel height left out"));
+    assert_true(logged(&r, "oddinteger"));
+    close_all(&r);
+    unlink(path);
+}
+
 /* As many channels as there is room for; one more is refused in words. */
 static void many_channels(void **state)
 {
@@ -493,6 +512,7 @@ int main(void)
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(height_without_conversion),
+        cmocka_unit_test(height_of_unknown_type),
         cmocka_unit_test(many_channels),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),

@@ -193,12 +193,27 @@ static void test_segments_with_their_contact(void **state)
     end_sections(&s);
 }
 
+/* The colour of the next bars of a budget: what is measured, what the model leaves open, the rest.
+ */
+static void next_bars(const char **script, const char *kind)
+{
+    static const char bars[] = "boxxyerror ls ";
+    const char of = strcmp(kind, "measured") == 0 ? '1' : strcmp(kind, "model") == 0 ? '2' : '5';
+    *script = strstr(*script, bars);
+    assert_non_null(*script);
+    *script += strlen(bars);
+    if (**script != of)
+        fail_msg("bars of kind %s have style %c", kind, **script);
+}
+
 /* Each number of the budget that has an error above what is drawn, its kinds in their order. */
 static void test_error_budget(void **state)
 {
     (void)state;
     NEED_REPORT();
     sections s = begin_sections("error_budget");
+    char *script = read_plot("out", "error_budget", "gp");
+    const char *at = script;
     const wt_table *t = wt_result_find(everything, "error_budget");
     const size_t n = wt_table_n_rows(t);
     for (size_t first = 0, end = 0; first < n; first = end) {
@@ -212,12 +227,15 @@ static void test_error_budget(void **state)
             for (size_t k = first; k < end; k++)
                 any = any || (strcmp(text_cell(t, k, "kind"), kind) == 0 &&
                               isfinite(number_cell(t, k, "relative_error")));
-            if (strcmp(kind, last) != 0 && any)
+            if (strcmp(kind, last) != 0 && any) {
                 next_is(&s, (chosen){"error_budget", {"number", "kind"}, {number, kind}});
+                next_bars(&at, kind);
+            }
             last = kind;
         }
     }
     end_sections(&s);
+    free(script);
 }
 
 static void test_work_precision(void **state)

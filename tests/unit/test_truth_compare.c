@@ -548,6 +548,45 @@ static void test_common(void **state)
                 RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
 }
 
+static void set_lever(wt_table *table, double value, double error)
+{
+    const wt_estimate lever = {value, error, 0, "N/m"};
+    assert_int_equal(wt_table_set_estimate(table, "spring_constant", lever, NULL), WT_OK);
+}
+
+/* Two levers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, whatever is given for such that state
+ * none. Without both stated the given one is that of both. */
+static void test_stated_levers(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    set_lever(bulk_table, 0.5, 0.05);
+    set_lever(track_table, 2, 0.06);
+    wt_compare_job job = wt_compare_job_defaults();
+    job.levers = WT_LEVERS_TWO;
+    job.lever_error = 0.3;
+    assert_non_null(strstr(includes_of(job), "spring constants"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, hypot(0.1, 0.03)), 1e-9);
+    set_lever(track_table, 2, 0);
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, hypot(0.1, 0.3)), 1e-9);
+}
+
+/* What is not given has no value and no error, of which the numerical one does not apply. */
+static void test_not_given(void **state)
+{
+    (void)state;
+    const wt_compare_job job = wt_compare_job_defaults();
+    const wt_estimate unset[] = {job.temperature, job.track_temperature, job.temperature_slope};
+    for (size_t i = 0; i < sizeof unset / sizeof *unset; i++) {
+        assert_true(isnan(unset[i].value) && isnan(unset[i].standard_error));
+        assert_true(unset[i].numerical_error == 0);
+    }
+}
+
 static void set_shown(wt_table *table, double loss, double bend)
 {
     const wt_estimate values[] = {{loss, 0, 0, "1"}, {bend, 0, 0, "1"}};
@@ -696,6 +735,8 @@ int main(void)
         cmocka_unit_test(test_not_known),
         cmocka_unit_test(test_out_of_reach),
         cmocka_unit_test(test_common),
+        cmocka_unit_test(test_stated_levers),
+        cmocka_unit_test(test_not_given),
         cmocka_unit_test(test_shown),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),
