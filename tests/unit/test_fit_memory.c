@@ -233,7 +233,7 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     assert_int_equal(curve_fit_branches(table, &options, &in, &out, k, workspace, &fit, NULL),
                      WT_OK);
     wt_contact_table_free(table);
-    fit.modulus.value = fit.fitted_modulus / whole - 1;
+    fit.modulus.value = fit.modulus.value / whole - 1;
     return fit;
 }
 
@@ -275,8 +275,7 @@ static void no_word_beyond_what_was_tried(void **state)
     (void)state;
     const wt_indent_fit some = fit_lossy(0.3, 1, WITHOUT_TIMES),
                         much = fit_lossy(1.3, 1, WITHOUT_TIMES);
-    assert_int_equal(some.verdict, WT_CURVE_ACCEPTED);
-    assert_int_equal(much.verdict, WT_CURVE_ACCEPTED);
+    assert_true(wt_curve_usable(some.verdict) && wt_curve_usable(much.verdict));
     assert_non_null(strstr(some.reason, "|E*| at 1/(loading time) within 20 %"));
     assert_non_null(strstr(much.reason, "how near |E*| is not known"));
     assert_true(some.loss < 0.85 && much.loss > 0.85);

@@ -191,21 +191,37 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
+curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, wt_indent_workspace *workspace)
+{
+    return (curve_law){.table = table,
+                       .samples = samples,
+                       .workspace = workspace,
+                       .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
+                       .plain = kind->plain,
+                       .adhesive = kind->adhesive,
+                       .constant_pull = kind->constant_pull,
+                       .memory = kind->memory && !kind->adhesive,
+                       .wave = curve_has_wave(&kind->wave),
+                       .jump = kind->jump};
+}
+
+void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    wave_step ignored;
+    curve_model_start(m, p);
+    (void)cost_at(m, p, wave);
+    if (m->wave)
+        (void)curve_wave_imitate(m, p, &ignored);
+    curve_model_complete(m, p);
+}
+
 /* curve_refine with one of the ways of a wave, or without. */
 static void refine_one(const wt_contact_table *table, const curve_samples *samples,
                        const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
                        curve_solution *solution)
 {
-    curve_law m = {.table = table,
-                   .samples = samples,
-                   .workspace = workspace,
-                   .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
-                   .plain = kind->plain,
-                   .adhesive = kind->adhesive,
-                   .memory = kind->memory && !kind->adhesive,
-                   .lossy = kind->lossy,
-                   .wave = curve_has_wave(&kind->wave),
-                   .jump = kind->jump};
+    curve_law m = curve_law_of(table, samples, kind, workspace);
     curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind->tilt ? p[CURVE_T] : 0.0,
                               kind->adhesive ? p[CURVE_W] : 0.0},
                         .wave = kind->wave};

@@ -104,13 +104,11 @@ static bool remember_power(curve_fitting *f)
     curve_power_make(&rubber, power, 1.0);
     if (!curve_remember(f, &rubber.series, true))
         return false;
-    f->kind.memory = f->kind.lossy = true;
+    f->kind.memory = true;
     refine(f, &elastic);
-    f->kind.memory = f->kind.lossy = false;
     const curve_solution *s = &f->solution;
-    const bool fits = s->converged && curve_fits(f);
     const bool worse = elastic.effective_n * log(s->cost / elastic.cost) > better_chi2;
-    if (fits && !worse) {
+    if (s->converged && !worse) {
         f->loss_power = power;
         f->loss_shift = f->loss * more;
         f->loss_error = f->loss * law_error;
@@ -119,6 +117,7 @@ static bool remember_power(curve_fitting *f)
     }
     if (s->converged && (worse || explained)) /* of the piezo, not of the rubber */
         f->loss_power = f->loss_bias = 0.0;
+    f->kind.memory = false;
     f->solution = elastic;
     return false;
 }
@@ -130,9 +129,5 @@ void curve_allow_loss(curve_fitting *f)
         return;
     if (!pull && !f->input.saturated && !f->kind.memory && !f->kind.plain && remember_power(f))
         return;
-    if (!curve_fits(f)) {
-        const curve_solution elastic = f->solution;
-        f->kind.lossy = true;
-        refine(f, &elastic);
-    }
+    f->unknown_loss = !curve_fits(f);
 }

@@ -334,7 +334,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
     if (status != WT_OK)
         return status;
     const wt_estimate found = fitted != NULL ? fit.spectrum_factor : fit.modulus;
-    *again = (curve_again){.accepted = fit.verdict == WT_CURVE_ACCEPTED && found.value > 0,
+    *again = (curve_again){.accepted = wt_curve_usable(fit.verdict) && found.value > 0,
                            .level = found.value,
                            .log_level = {log(found.value / level), relative_error(found), 0, "1"},
                            .contact_point = fit.contact_point};
