@@ -287,7 +287,7 @@ static bool is_adhesive(const curve_fitting *f)
 {
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
-    const adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], root * root};
+    const adhesion law = {f->table, s->p[CURVE_E], root * root};
     return s->converged && root > work_errors * misfit_of(s) * s->standard_error[CURVE_W] &&
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
@@ -317,12 +317,14 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
 {
     const double k = f->input.samples.spring_constant;
     curve_solution start = f->solution;
-    const wt_tip *tip = contact_table_tip(f->table);
-    const adhesion law = {tip, start.p[CURVE_E], adhesion_work(tip, start.p[CURVE_E], k, pull)};
-    if (isnan(law.work) || !adhesion_applies(tip))
+    const adhesion law = {f->table, start.p[CURVE_E],
+                          adhesion_work(f->table, start.p[CURVE_E], k, pull)};
+    if (isnan(law.work) || !adhesion_applies(contact_table_tip(f->table)))
         return false;
-    const double release = adhesion_release(&law, k);
-    const double depth = adhesion_at(&law, adhesion_radius(&law, k, 0.0, release, 0.0)).depth;
+    const double touch = 0.0;
+    double bare;
+    adhesion_balance(&law, k, adhesion_release(&law, k), &touch, 1, &bare);
+    const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
     return try_from(f, start, depth, jump);
