@@ -198,6 +198,8 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
                              .modulus = e,
                              .relaxation_time = tau};
     hereditary law = {0};
+    wt_contact_table *table = NULL;
+    assert_int_equal(wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     wt_contact_function(&tip, depth, &f, &slope);
     const double reduced = whole / 0.75, k = kappa * reduced * slope;
     double top = depth + reduced * f / k;
@@ -209,7 +211,7 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
             base[i] = top * (1 - fabs(1 - time[i]));
         }
         hereditary_begin(&law, &series, reduced / hereditary_modulus(&series, 1), 1e-9, 2);
-        assert_int_equal(hereditary_loop(&law, &tip, 1 / k, time, base, N, force, NULL), WT_OK);
+        assert_int_equal(hereditary_loop(&law, table, 1 / k, time, base, N, force, NULL), WT_OK);
     }
     hereditary_clear(&law);
     for (int i = 0; i < SAMPLES; i++) {
@@ -227,9 +229,7 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     options.plain_least_squares = how == PLAIN;
     const curve_branch in = {height[0], measured[0], how != WITHOUT_TIMES ? times : NULL, SAMPLES},
                        out = {height[1], measured[1], NULL, SAMPLES};
-    wt_contact_table *table = NULL;
     wt_indent_fit fit;
-    assert_int_equal(wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     assert_int_equal(curve_fit_branches(table, &options, &in, &out, k, workspace, &fit, NULL),
                      WT_OK);
     wt_contact_table_free(table);

@@ -321,7 +321,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
     const size_t n = in_contact(k, s, first);
     wt_status status = begin_law(set, k, level, made, n, s, err);
     if (status == WT_OK)
-        status = hereditary_loop(&s->law, &set->tip, 1 / k->spring_constant, s->time, s->base, n,
+        status = hereditary_loop(&s->law, contact, 1 / k->spring_constant, s->time, s->base, n,
                                  s->push, err);
     if (status != WT_OK)
         return status;
