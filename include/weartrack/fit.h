@@ -14,8 +14,8 @@ extern "C" {
 
 /* ---- one force curve: baseline, contact point, modulus --------------------------------------- */
 
-/* Why a curve has no modulus. One list: identifier, words. Tested in about this
- * order; the first that applies is given, with its numbers:
+/* What becomes of a curve. One list: identifier, words. Accepted and doubtful ones have a modulus
+ * to go on with. Tested in about this order; the first that applies is given, with its numbers:
  *   not_finite         more than 10 % of the samples are missing
  *   too_short          fewer than 32 different samples, or than 8 in contact
  *   no_approach        the height does not go one way; the force falls along the segment
@@ -25,21 +25,21 @@ extern "C" {
  *                      sensitivity would change the modulus by more than 50 %
  *   negative_modulus, no_contact   no contact point gives a positive modulus; the largest force is
  *                      less than 5 times the noise
- *   no_baseline        contact before the first sample; baseline of fewer than 10 samples, or
- *                      shorter than 10 % of the indentation
- *   ambiguous_contact  a second contact point is as likely (2 ln likelihood ratio < 4, with the
- *                      effective number of samples) and gives a modulus that differs by 10 %
- *   disturbed_baseline a wave on it of more than 10 % of the largest force, peak to peak; or it is
- *                      bent (chance below 1 %) and the residual is that of a poor_fit
- *   too_deep           deeper than one radius of a sphere; cones and pyramids have no such depth,
- *                      as long as they are that high
- *   poor_fit           the noise of the baseline does not explain the residual (least_chance), or
- *                      no convergence
- *   adhesive           the same, of a curve with a snap-on or a pull-off
- *   imprecise          a standard error of more than largest_error of the modulus
+ *   no_baseline        contact before the first sample; baseline of fewer than 10 samples
+ * A standard error of more than largest_error of the modulus, most of whose square is
+ *   ambiguous_contact  that of a second contact point that is as likely
+ *   adhesive           a misfit, with a snap-on or a pull-off
+ *   disturbed_baseline a misfit, with a bent baseline (chance below 1 %)
+ *   poor_fit           another misfit; or no convergence
+ *   imprecise          noise
+ * A modulus, but
+ *   doubtful           deeper than one radius of a sphere, or than the law of a thin sample holds;
+ * a punch that loses work; a misfit (least_chance) that gives the modulus an error of more than
+ * doubtful_error; a wave on the baseline of more than 10 % of the largest force, peak to peak
  */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
+    X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus to which a misfit gives a large error")            \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
     X(WT_CURVE_TOO_SHORT, "too_short", "too few samples for a fit")                                \
     X(WT_CURVE_NO_BASELINE, "no_baseline", "starts in contact: no baseline before it")             \
@@ -52,7 +52,6 @@ extern "C" {
     X(WT_CURVE_DRIFT, "disturbed_baseline", "the baseline is bent or oscillates")                  \
     X(WT_CURVE_RIGID, "rigid", "no indentation: sample too stiff, or calibration wrong")           \
     X(WT_CURVE_ADHESIVE, "adhesive", "adhesion that the contact law does not describe")            \
-    X(WT_CURVE_TOO_DEEP, "too_deep", "deeper than the shape of the tip is known")                  \
     X(WT_CURVE_IMPRECISE, "imprecise", "the modulus is too uncertain")                             \
     X(WT_CURVE_UNREADABLE, "unreadable", "the curve could not be read")
 
@@ -63,6 +62,9 @@ typedef enum wt_curve_verdict {
 } wt_curve_verdict;
 WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
 WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
+/* Is its modulus one to go on with: accepted or doubtful? The same of an identifier. */
+WT_API bool wt_curve_usable(wt_curve_verdict verdict);
+WT_API bool wt_curve_usable_id(const char *id);
 
 enum { WT_CURVE_WAVES = 6 };
 
@@ -91,8 +93,9 @@ typedef struct wt_indent_options {
     bool fit_tilt;             /* baseline tilt is fitted, else offset only; default true */
     bool contact_estimators;   /* also contact points by other estimators, for comparison */
     double least_chance;  /* that noise like that of the baseline leaves a larger residual; below it
-                             POOR_FIT; default 0.01 */
-    double largest_error; /* standard error over modulus, above it IMPRECISE; default 0.5 */
+                             it is a misfit; default 0.01; 0: none is looked for */
+    double largest_error; /* standard error over modulus, above it no modulus; default 0.5, at which
+                             the 95 % interval reaches twice the modulus */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
     /* Default false: the force is compared with that of lever and sample together at the height of
      * the sample, which is where the noise of the force belongs. true: with the force at the
@@ -108,6 +111,7 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* of the contact only indentations from this on [m] */
     double fit_force_from;          /* and forces from this on [N] */
     double fit_force_fraction_from; /* and from this share of the largest on */
+    double doubtful_error; /* of a misfit, over the modulus: above it DOUBTFUL; default 0.05 */
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -123,7 +127,8 @@ typedef struct wt_indent_fit {
     char reason[160];    /* verdict with its numbers; of an accepted
                             curve what is odd: snap-on left out, missing samples */
     wt_estimate modulus; /* E [Pa]; standard error includes baseline, contact point, the colour
-                            of the noise and a bent baseline; NaN unless accepted */
+                            of the noise, a bent baseline and misfit_error; of every
+                            verdict of a curve that was fitted */
     wt_estimate contact_point;   /* [m] */
     wt_estimate baseline_offset; /* [N] at the contact point */
     wt_estimate baseline_tilt;   /* [N/m] */
@@ -142,9 +147,11 @@ typedef struct wt_indent_fit {
     double adhesion_force; /* pull of the snap-on [N], 0 if none stands out of the baseline */
     wt_estimate work_of_adhesion; /* of the approach [J/m^2]; NaN: fitted without adhesion */
     double pull_off_force;        /* of the retract [N], 0 if none stands out; NaN: no retract */
-    double pull_off_work; /* the work of adhesion that it takes [J/m^2], an upper bound; NaN on
-                      a thin sample and where none from 1e-9 to 1e3 makes it */
-    double tabor_number;  /* of the larger work */
+    double pull_off_work;     /* the work of adhesion that it takes [J/m^2], an upper bound; NaN on
+                          a thin sample and where none from 1e-9 to 1e3 makes it */
+    wt_estimate contact_pull; /* constant force of a contact with adhesion of long range (DMT, a
+                                 capillary) [N]; NaN: fitted without */
+    double tabor_number;      /* of the larger work */
     double loss; /* work not given back by the retract, of that of the approach; NaN: no retract */
     double loss_bias;  /* what a fit without memory has more, of the modulus, which then is |E*| at
                           1/loading time; 0: the way in shows no memory; NaN: no loss, no power that
@@ -157,9 +164,10 @@ typedef struct wt_indent_fit {
     double sensitivity_gain; /* d ln E / d ln sensitivity of this fit, contact point and baseline
                                 fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
                                 known contact it would be 1 + (contact stiffness)/k */
-    double fitted_modulus;   /* the same whatever the verdict */
-    double baseline_length;  /* travel of the piezo before contact [m] */
-    double misfit_length;    /* and what `misfit` is over, to the end [m] */
+    double misfit_error;     /* what the law misses, in the standard error of the modulus [Pa] */
+    double contact_misfit_error; /* and in that of the contact point [m] */
+    double baseline_length;      /* travel of the piezo before contact [m] */
+    double misfit_length;        /* and what `misfit` is over, to the end [m] */
     wt_estimate spectrum_factor; /* modulus over |E*| of the spectrum; NaN without one, or times */
     double direction;            /* +1: the height rises into the sample, -1: it falls */
     size_t contact_index;        /* sample of the contact point in the approach */

@@ -305,6 +305,7 @@ typedef struct wt_group_data {
     double loss_error, bend_error; /* what all moduli may be off by alike, the bend with the sign
                                       that it has in all; 0 if none was found, NaN
                                       if there is one and its size is not known */
+    double misfit_error;           /* likewise of what the contact law misses */
     const char *tip;               /* in words; borrowed from the table; NULL if unknown */
     bool several_levers;           /* the curves have several spring constants */
     bool spots_given;              /* the user named the spots */

@@ -128,9 +128,10 @@ static void caption_force_indentation(figure_drawing *d)
 static void draw_modulus_groups(figure_drawing *d)
 {
     static const unsigned of_curve[] = {INDENTATION_MODULUS, INDENTATION_MODULUS_STANDARD_ERROR};
-    static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false};
+    static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false},
+                            doubtful = {{INDENTATION_VERDICT}, {"doubtful"}, false};
     const size_t n = d->n_groups;
-    int mean[DRAWING_GROUPS];
+    int mean[DRAWING_GROUPS], open[DRAWING_GROUPS];
 
     for (size_t i = 0; i < n; i++) {
         const row_filter rows = {{d->figure->group}, {d->groups[i]}, false};
@@ -138,6 +139,10 @@ static void draw_modulus_groups(figure_drawing *d)
         d->data[i] = curves == NULL
                          ? NO_SECTION
                          : drawing_section(d, curves, d->groups[i], &accepted, of_curve, 2, 1);
+        open[i] = curves == NULL
+                      ? NO_SECTION
+                      : drawing_section(d, curves, "doubtful", &doubtful, of_curve, 2, 1);
+        span_add_section(&d->y[0], d, open[i], 0, true);
         mean[i] = drawing_section(d, d->table, d->groups[i], &rows, d->columns, d->n_columns, 1);
         span_add_section(&d->y[0], d, d->data[i], 0, true);
         for (size_t k = 0; k < d->n_columns; k++)
@@ -150,7 +155,8 @@ static void draw_modulus_groups(figure_drawing *d)
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         growing_text label = {0};
-        text_format(&label, "%s (n = %zu)", d->groups[i], drawing_rows(d, d->data[i]));
+        text_format(&label, "%s (n = %zu)", d->groups[i],
+                    drawing_rows(d, d->data[i]) + drawing_rows(d, open[i]));
         text_add(&d->script, i == 0 ? "" : ", ");
         text_tic(&d->script, text_string(&label));
         text_format(&d->script, " %zu", i + 1);
@@ -164,6 +170,9 @@ static void draw_modulus_groups(figure_drawing *d)
         plot_item(d, d->data[i],
                   "(%zu + spread($0)):($1*y_unit) every %zu with points ls %d ps 0.6", i + 1,
                   drawing_every(d, d->data[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
+        plot_item(d, open[i],
+                  "(%zu + spread($0)):($1*y_unit) every %zu with points ls %d pt 6 ps 0.6", i + 1,
+                  drawing_every(d, open[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
         plot_item(d, mean[i], "(%zu.32):($1*y_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 13",
                   i + 1);
     }
@@ -242,7 +251,8 @@ const figure_description figures_indentation[] = {
      .y = {{MODULUS_GROUPS_GEOMETRIC_MEAN, AXIS_LOG, "Modulus"}},
      .curves = {CURVE(MODULUS_GROUPS_GEOMETRIC_MEAN, OWN, .with_errors = true)},
      .nothing = "no group has a modulus above zero",
-     .words = "Modulus of every accepted curve (spread sideways for sight only) and, to the right, "
+     .words = "Modulus of every accepted curve (open circles: doubtful; spread sideways for sight "
+              "only) and, to the right, "
               "the geometric mean of the group with its 95 % confidence interval; logarithmic "
               "axis.",
      .draw = draw_modulus_groups,
@@ -252,7 +262,8 @@ const figure_description figures_indentation[] = {
      .table = &modulus_groups_schema,
      .by_group = true,
      .group = MODULUS_GROUPS_GROUP,
-     .words = "Modulus of the accepted curves at their positions; crosses: rejected curves. One "
+     .words = "Modulus of the curves at their positions; circles: doubtful, crosses: rejected "
+              "curves. One "
               "scale of colour for all maps.",
      .draw = draw_modulus_map},
     {.name = "modulus_depth",

@@ -35,7 +35,7 @@ static double grid_step(const table_view *table, indentation_column column)
 typedef struct map_panel {
     const char *group;
     const table_view *table;
-    int accepted, rejected;
+    int accepted, doubtful, rejected;
     double step_x, step_y;
 } map_panel;
 
@@ -75,6 +75,10 @@ static void draw_panel(figure_drawing *d, const map_panel *panel)
     plot_item(d, panel->accepted,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
               "boxxyerror fc palette notitle");
+    plot_item(d, panel->doubtful,
+              "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
+              "boxxyerror fc palette notitle");
+    plot_item(d, panel->doubtful, "($1*x_unit):($2*y_unit) with points ls 14 pt 6 notitle");
     plot_item(d, panel->rejected, "($1*x_unit):($2*y_unit) with points ls 14 pt 2 notitle");
     plot_end(d);
 }
@@ -83,7 +87,9 @@ void draw_modulus_map(figure_drawing *d)
 {
     static const unsigned columns[] = {INDENTATION_X, INDENTATION_Y, INDENTATION_MODULUS};
     static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false},
-                            rejected = {{INDENTATION_VERDICT}, {"accepted"}, true};
+                            doubtful = {{INDENTATION_VERDICT}, {"doubtful"}, false};
+    static const row_filter rejected = {
+        {INDENTATION_VERDICT, INDENTATION_VERDICT}, {"accepted", "doubtful"}, true};
     map_panel panels[DRAWING_GROUPS];
     size_t n = 0;
     value_span colour = SPAN_EMPTY;
@@ -94,9 +100,11 @@ void draw_modulus_map(figure_drawing *d)
         if (!is_map(&panel))
             continue;
         panel.accepted = drawing_section(d, panel.table, panel.group, &accepted, columns, 3, 3);
+        panel.doubtful = drawing_section(d, panel.table, "doubtful", &doubtful, columns, 3, 3);
         panel.rejected = drawing_section(d, panel.table, "rejected", &rejected, columns, 3, 2);
         span_add_section(&colour, d, panel.accepted, 2, true);
-        if (panel.accepted >= 0)
+        span_add_section(&colour, d, panel.doubtful, 2, true);
+        if (panel.accepted >= 0 || panel.doubtful >= 0)
             panels[n++] = panel;
     }
     if (n == 0 || span_empty(&colour) || d->status != WT_OK)

@@ -143,22 +143,26 @@ void page_results(page_writer *page)
                      NULL, 0);
 }
 
-/* ---- curves without a modulus ---------------------------------------------------------------- */
+/* ---- curves without a modulus, or with a doubtful one
+ * ---------------------------------------------------------------- */
 
 static void rejected_of(page_writer *page, const table_view *table)
 {
     enum { SHOWN = 200 };
-    size_t rows[SHOWN], n = 0, rejected = 0;
+    size_t rows[SHOWN], n = 0, others = 0, doubtful = 0;
     for (size_t row = 0; row < table->n_rows; row++) {
-        if (strcmp(indentation_text(table, row, INDENTATION_VERDICT), "accepted") == 0)
+        const char *verdict = indentation_text(table, row, INDENTATION_VERDICT);
+        if (strcmp(verdict, "accepted") == 0)
             continue;
+        doubtful += strcmp(verdict, "doubtful") == 0;
         if (n < SHOWN)
             rows[n++] = row;
-        rejected++;
+        others++;
     }
     growing_text caption = {0};
-    text_format(&caption, "%s: %zu of %zu curves rejected", table->suffix, rejected, table->n_rows);
-    if (rejected > n)
+    text_format(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
+                table->n_rows, others - doubtful);
+    if (others > n)
         text_format(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));

@@ -41,6 +41,7 @@ static const struct {
     {"fit-force-fraction", "0.5", NULL, NULL},
     {"least-chance", "0.99", NULL, NULL},
     {"largest-error", "0.00001", NULL, NULL},
+    {"doubtful-error", "0.00001", "least-chance 0.99", NULL},
     {"fixed-contact-point", "1um", NULL, NULL},
     {"tip", "sphere:radius=5um", NULL, NULL},
     {"kind", "sweep", NULL, NULL}, /* which that file does not hold */

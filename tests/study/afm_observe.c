@@ -83,8 +83,12 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
     } else {
         int accepted = 0;
         for (int i = 0; i < CURVES; i++) {
-            const estimate e = place_row(found, &place_modulus, i);
-            accepted += !isnan(e.value);
+            estimate e = place_row(found, &place_modulus, i);
+            const char *table = place_modulus.table;
+            const int good = stream_is(found, table, PLACE_CURVE, i, PLACE_ACCEPTED);
+            accepted += good;
+            if (!good && !stream_is(found, table, PLACE_CURVE, i, PLACE_DOUBTFUL))
+                e.value = e.low = e.high = (double)NAN;
             trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
             if (s->dma > 0)
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
@@ -129,6 +133,11 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const afm_sample *sample = prepared;
     const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
+    char told[128];
+    snprintf(told, sizeof told, "%s", tip[s->tip]);
+    if (s->radius_stated > 0) /* of 50 nm */
+        snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
+                 100 * s->angle_stated, 100 * s->radius_stated);
     const char *arguments[MOST_SPOTS + 20] = {"indent"};
     char values[FURTHER][32];
     spots from;
@@ -138,8 +147,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         trial_broke(t, "the curves cannot be written");
     } else {
         const char *const options[] = {
-            "--tip", tip[s->tip], "--group",         "bulk",
-            "-o",    made,        "--no-provenance", spectrum != NULL ? "--master" : NULL,
+            "--tip", told, "--group",         "bulk",
+            "-o",    made, "--no-provenance", spectrum != NULL ? "--master" : NULL,
             spectrum};
         for (int i = 0; i < from.n; i++)
             arguments[n++] = from.path[i];
@@ -148,7 +157,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         const struct {
             const char *name, *unit;
             double value;
-        } further[FURTHER] = {{"--sample-thickness", "m", s->thickness},
+        } further[FURTHER] = {{"--sample-thickness", "m", s->untold ? 0 : s->thickness},
                               {"--fit-depth-from", "m", s->depth_from},
                               {"--fit-force-fraction", "", s->force_to}};
         for (size_t i = 0; i < FURTHER; i++)

@@ -183,6 +183,13 @@ relaxation relaxation_power(double power, double tan_delta)
     return r;
 }
 
+relaxation relaxation_maxwell(double tan_delta)
+{
+    relaxation r = {.n = 1, .e = {1}, .tau = {1}}; /* E'' = 1/2, E' = rest + 1/2 */
+    r.rest = 0.5 / tan_delta - 0.5;
+    return r;
+}
+
 /* What the recursions of Lee-Radok and Ting remember of the way in. */
 typedef struct memory {
     const afm_tip *tip;

@@ -51,6 +51,8 @@ typedef struct relaxation {
 relaxation relaxation_cole_cole(double alpha, double tan_delta, int beyond);
 /* A power of time over six decades about 1 s, and a rest that sets tan delta at 1 rad/s. */
 relaxation relaxation_power(double power, double tan_delta);
+/* One time of 1 s and a rest, with this tan delta at 1 rad/s. */
+relaxation relaxation_maxwell(double tan_delta);
 double relaxation_modulus(const relaxation *r, double omega, double *tan_delta);
 
 /* Forces of a tip that goes in and out (Lee and Radok, Ting), base positions at equal steps of time

@@ -4,9 +4,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double poisson = 0.5;
-enum { FREE = 2 * AFM_BRANCH / 3, FINE = 4 };
+enum { FINE = 4 };
+
+static int free_of(const afm_scene *s)
+{
+    return (int)((s->before > 0 ? s->before : 2.0 / 3) * AFM_BRANCH);
+}
 
 static double modulus_of(const afm_scene *s)
 {
@@ -53,8 +59,22 @@ static double layer_reduced(const afm_scene *s, double a)
                                   : reduced;
 }
 
-/* Force without loss at a base position; on the way out contact lasts longer. */
-static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
+/* Out of contact, of an attraction A exp(gap / reach): the lever bends towards the sample, up to
+ * where it snaps on; 1 in contact. */
+static double attracted(double a, double reach, double k, double base)
+{
+    double force = 0;
+    for (int i = 0; i < 200; i++) {
+        const double tip = base + force / k;
+        if (tip >= 0)
+            return a;
+        force = a * exp(tip / reach);
+    }
+    return force;
+}
+
+/* Of a tip that touches at once. */
+static double smooth_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
 {
     const double w = out ? s->work_out : s->work;
     if (w > 0 && !s->dmt) {
@@ -62,9 +82,15 @@ static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, do
         const double a = out || base > 0 ? jkr_radius(&law, k, base) : 0;
         return a > 0 ? jkr_force(&law, a) : 0;
     }
-    const double pull = s->pull > 0 ? s->pull : 2 * M_PI * w * tip->radius;
+    const double depth = true_depth(s), most = tip_contact_radius(tip, depth);
+    const double top = layer_reduced(s, most) * tip_force(tip, most);
+    const double pull = (s->pull > 0 ? s->pull : 2 * M_PI * w * tip->radius) +
+                        (s->pull_share + s->attraction) * top;
     double low = 0, high = 1e-9;
-    if (base + pull / k <= 0 || (!out && base <= 0)) /* the lever's own bending there left out */
+    if (s->attraction > 0 && attracted(pull, s->attraction_reach, k, base) < pull)
+        return -attracted(pull, s->attraction_reach, k, base);
+    if (base + pull / k <= 0 ||
+        (!out && base <= 0 && !(s->attraction > 0))) /* the lever's own bending there left out */
         return s->reach > 0 ? -pull * exp((out ? base + pull / k : base) / s->reach) : 0;
 #define BASE(a) (tip_depth(tip, a) + (layer_reduced(s, a) * tip_force(tip, a) - pull) / k)
     while (BASE(high) < base)
@@ -77,6 +103,29 @@ static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, do
     return layer_reduced(s, low) * tip_force(tip, low) - pull;
 }
 
+/* Force without loss at a base position; on the way out contact lasts longer. Roughness: the mean
+ * force of heights that are normal, at one position of the tip. */
+static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
+{
+    if (!(s->roughness > 0))
+        return smooth_force(s, tip, k, base, out);
+    double low = -10 * s->roughness, high = fmax(base, 0) + s->roughness, force = 0;
+    for (int i = 0; i < 60; i++) {
+        const double at = 0.5 * (low + high);
+        force = 0;
+        double weights = 0;
+        for (int j = -20; j <= 20; j++) {
+            const double x = 0.2 * j, weight = exp(-0.5 * x * x), depth = at - x * s->roughness;
+            const double a = depth > 0 ? tip_contact_radius(tip, depth) : 0;
+            force += weight * (a > 0 ? layer_reduced(s, a) * tip_force(tip, a) : 0);
+            weights += weight;
+        }
+        force /= weights;
+        *(at + force / k > base ? &high : &low) = at;
+    }
+    return force;
+}
+
 static void add_elastic(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 {
     for (int i = 0; i < AFM_SAMPLES; i++)
@@ -85,7 +134,8 @@ static void add_elastic(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 
 relaxation afm_relaxation(const afm_scene *s)
 {
-    relaxation r = s->loss == LOSS_POWER
+    relaxation r = s->loss == LOSS_MAXWELL ? relaxation_maxwell(s->tan_delta)
+                   : s->loss == LOSS_POWER
                        ? relaxation_power(0.25, s->tan_delta)
                        : relaxation_cole_cole(0.6, s->tan_delta, s->loss == LOSS_BEYOND);
     double found;
@@ -99,7 +149,7 @@ relaxation afm_relaxation(const afm_scene *s)
 /* In steps finer than the samples, from the first sample in contact on. */
 static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 {
-    const int first = FREE, n = (AFM_SAMPLES - first) * FINE;
+    const int first = free_of(s), n = (AFM_SAMPLES - first) * FINE;
     double *base = calloc((size_t)n, sizeof *base), *force = calloc((size_t)n, sizeof *force);
     const relaxation r = afm_relaxation(s);
     int bad = base == NULL || force == NULL;
@@ -127,6 +177,15 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 /* What piezo, lever and detector do to the force, and the truth at the largest depth. */
 static void disturb(const afm_scene *s, afm_sample *to)
 {
+    double elastic[AFM_SAMPLES];
+    memcpy(elastic, to->force, sizeof elastic);
+    for (int i = 1; i < AFM_SAMPLES; i++) { /* of the piezo's velocity, and that of the tip */
+        const double moved = to->base[i] - to->base[i - 1],
+                     by_tip = moved - (elastic[i] - elastic[i - 1]) / to->spring_constant;
+        const double step = fabs(to->base[2] - to->base[1]);
+        to->force[i] += s->drag * to->largest * fmax(-1, fmin(1, by_tip / step));
+    }
+    to->force[0] += s->drag * to->largest;
     for (int i = 0; i < AFM_SAMPLES; i++) {
         const double part = (double)i / AFM_BRANCH;
         to->force[i] += 4 * s->bow * to->spring_constant * part * (1 - part) +
@@ -152,14 +211,16 @@ afm_sample *afm_sample_make(const afm_scene *s)
     const double a = tip_contact_radius(&tip, depth),
                  top = layer_reduced(s, a) * tip_force(&tip, a);
     const double most = depth + top / to->spring_constant;
-    const double step = most / (AFM_BRANCH - FREE);
+    const int free_samples = free_of(s);
+    const double step = most / (AFM_BRANCH - free_samples);
     to->largest = top;
     to->modulus = layer_reduced(s, a) * (1 - poisson * poisson);
     for (int i = 0; i < AFM_SAMPLES;
          i++) { /* contact 0.3 of a step after a sample; 1 s to the top */
-        to->base[i] =
-            (i < AFM_BRANCH ? i + 1 - FREE - 0.3 : 2 * AFM_BRANCH - 1 - i - FREE - 0.3) * step;
-        to->time[i] = (double)i / (AFM_BRANCH - FREE - 0.3);
+        to->base[i] = (i < AFM_BRANCH ? i + 1 - free_samples - 0.3
+                                      : 2 * AFM_BRANCH - 1 - i - free_samples - 0.3) *
+                      step;
+        to->time[i] = (double)i / (AFM_BRANCH - free_samples - 0.3);
     }
     if (s->loss == LOSS_NONE) {
         add_elastic(s, &tip, to);
@@ -172,12 +233,12 @@ afm_sample *afm_sample_make(const afm_scene *s)
     disturb(s, to);
     if (s->loss != LOSS_NONE && s->force_to > 0) { /* and |E*| is that at 1/(time to there) */
         double found;
-        int last = FREE;
+        int last = free_samples;
         const relaxation r = afm_relaxation(s);
         while (last < AFM_BRANCH && to->force[last] < s->force_to * to->force[AFM_BRANCH - 1])
             last++;
-        to->modulus =
-            relaxation_modulus(&r, 1 / ((last - FREE + 0.7) * (to->time[1] - to->time[0])), &found);
+        to->modulus = relaxation_modulus(
+            &r, 1 / ((last - free_samples + 0.7) * (to->time[1] - to->time[0])), &found);
     }
     return to;
 }
@@ -190,7 +251,7 @@ double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
     const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);
     const double a = tip_contact_radius(&tip, depth),
                  of_stated = tip_contact_radius(&as_stated, depth);
-    if (s->loss != LOSS_NONE || s->thickness > 0)
+    if (s->loss != LOSS_NONE || (s->thickness > 0 && !s->untold))
         return sample->modulus;
     return layer_reduced(s, a) * (1 - poisson * poisson) * tip_force(&tip, a) /
            tip_force(&as_stated, of_stated);
@@ -245,10 +306,12 @@ void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_sourc
         }
         if (s->spikes > 0 && random_uniform(random) < s->spikes)
             force += sd * (20 + 20 * random_uniform(random));
+        const double part = (i < AFM_BRANCH ? i : 2 * AFM_BRANCH - 1 - i) / (double)AFM_BRANCH,
+                     bow = 4 * s->piezo_bow * part * (1 - part);
         if (i == AFM_BRANCH)
             fputs("\n", file);
         fprintf(file, "%s\t%.9g\t%.9g\t%.6g\n", i < AFM_BRANCH ? "approach" : "retract",
-                5e-6 - sample->base[i], force, sample->time[i]);
+                5e-6 - sample->base[i] - bow, force, sample->time[i]);
     }
     fputs("##\n", file);
 }

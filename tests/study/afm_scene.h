@@ -22,7 +22,7 @@ typedef enum afm_kind {
     TIP_PUNCH
 } afm_kind;
 
-typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_BEYOND, LOSS_POWER } afm_loss;
+typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_BEYOND, LOSS_POWER, LOSS_MAXWELL } afm_loss;
 
 /* A four-sided pyramid of 35 degrees and 20 nm, pressed 70 nm into rubber of 5 MPa by a lever of
  * 0.5 N/m, unless a member says otherwise. */
@@ -50,9 +50,18 @@ typedef struct afm_scene {
     double saturation;           /* force at which the detector has lost 10 %, of the largest */
     double spikes;               /* share of samples 20 to 40 noises off */
     double interference, period; /* amplitude in noises; of the path [m] */
-    bool with_height; /* the path is that of the piezo in contact, too, else that of the tip */
-    double soft_top;  /* share of the largest force that the detector loses there, little before */
-    double spots;     /* relative scatter of the moduli of six spots, a file each; 0: one spot */
+    bool with_height;  /* the path is that of the piezo in contact, too, else that of the tip */
+    double soft_top;   /* share of the largest force that the detector loses there, little before */
+    double pull_share; /* constant while in contact, of the largest force */
+    double attraction, attraction_reach; /* exp(-gap/reach) before contact, all of it in contact; of
+                                 the largest force; [m] */
+    double drag;                         /* of the largest force, with the velocity of the tip */
+    double piezo_bow;                    /* of the height over the way in [m] */
+    double roughness;                    /* rms of the heights at which the tip touches [m] */
+    bool untold;                         /* the thickness is not given */
+    double radius_stated, angle_stated;  /* relative standard errors that are told */
+    double before;                       /* share of the way in before contact; 0: two thirds */
+    double spots; /* relative scatter of the moduli of six spots, a file each; 0: one spot */
 } afm_scene;
 
 extern const afm_scene afm_scenes[];

@@ -23,6 +23,9 @@ extern const place place_ratio;                         /* over all rates, the f
 extern const place place_dwell[2], place_dwell_mean[2]; /* E' and E'', a row for each frequency */
 extern const place place_layered_friction;              /* at the reference velocity */
 
+#define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
+#define PLACE_ACCEPTED "accepted"
+#define PLACE_DOUBTFUL "doubtful"
 #define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */
 #define PLACE_DEPTH "modulus_depth"
 #define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or cannot say */

@@ -146,22 +146,37 @@ int stream_rows(const stream *s, const char *table)
     return n;
 }
 
-double stream_cell(const stream *s, const char *table, const char *column, int row)
+/* NULL if there is no such table, column or row. */
+static const char *cell_at(const stream *s, const char *table, const char *column, int row)
 {
     const int names = names_line(s, table), line = row_line(s, table, row);
     if (line < 0)
-        return (double)NAN;
+        return NULL;
     const size_t length = strlen(column);
     const char *name = s->lines[names] + 2, *cell = s->lines[line];
     while (strncmp(name, column, length) != 0 || name[length] != '[') {
         name = strchr(name, '\t');
         cell = strchr(cell, '\t');
         if (name == NULL || cell == NULL)
-            return (double)NAN;
+            return NULL;
         name++;
         cell++;
     }
+    return cell;
+}
+
+double stream_cell(const stream *s, const char *table, const char *column, int row)
+{
+    const char *cell = cell_at(s, table, column, row);
     char *end;
-    const double value = strtod(cell, &end);
-    return end != cell ? value : (double)NAN;
+    const double value = cell != NULL ? strtod(cell, &end) : (double)NAN;
+    return cell != NULL && end != cell ? value : (double)NAN;
+}
+
+int stream_is(const stream *s, const char *table, const char *column, int row, const char *text)
+{
+    const char *cell = cell_at(s, table, column, row);
+    const size_t length = strlen(text);
+    return cell != NULL && strncmp(cell, text, length) == 0 &&
+           (cell[length] == '\t' || cell[length] == '\0');
 }

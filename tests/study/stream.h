@@ -16,5 +16,7 @@ double stream_number(const stream *s, const char *table, const char *key, const 
 int stream_rows(const stream *s, const char *table);
 /* The number in a column; nan if there is no such table, column or row. */
 double stream_cell(const stream *s, const char *table, const char *column, int row);
+/* Does this stand there? */
+int stream_is(const stream *s, const char *table, const char *column, int row, const char *text);
 
 #endif

@@ -110,8 +110,8 @@ static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
         assert_int_equal(wt_indent_fit_curve(table, NULL, data.height, data.force, NULL, t.n,
                                              t.spring_constant, workspace, &fit, NULL),
                          WT_OK);
-        assert_true(fit.verdict == WT_CURVE_ACCEPTED || fit.verdict == WT_CURVE_POOR_FIT);
-        curve[c] = (wt_depth_curve){.modulus = fit.fitted_modulus,
+        assert_true(wt_curve_usable(fit.verdict) || fit.verdict == WT_CURVE_POOR_FIT);
+        curve[c] = (wt_depth_curve){.modulus = fit.modulus.value,
                                     .depth = fit.max_indentation,
                                     .spring_constant = t.spring_constant,
                                     .baseline = fit.baseline_length,

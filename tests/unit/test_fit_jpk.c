@@ -189,8 +189,8 @@ static void awkward_curves(void **state)
     } cases[] = {
         {"jpk/fmt-jpk-fd_single_bad_2017-01-16_2.jpk-force", WT_CURVE_TOO_SHORT, "1 different"},
         {"jpk/fmt-jpk-fd_single_bad_bead7_2017-04-27.jpk-force", WT_CURVE_TOO_SHORT, "3 different"},
-        {"jpk/fmt-jpk-fd_single_tilted-baseline-drift-mitotic_2021-01-29.jpk-force", WT_CURVE_DRIFT,
-         "baseline bent"},
+        {"jpk/fmt-jpk-fd_single_tilted-baseline-drift-mitotic_2021-01-29.jpk-force",
+         WT_CURVE_DOUBTFUL, "misfit: E +- "},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         n_answers = 0;
@@ -202,9 +202,9 @@ static void awkward_curves(void **state)
                      answers[0].reason);
     }
     /* The tilt is what the offset-only fit of this curve could not describe: R^2 0.987 there. */
-    /* 93 errors, which hold what its bend may do to the tilt; by white noise alone it is far more.
+    /* Its error holds what its bend and a misfit may do to it; by white noise alone it is far less.
      */
-    assert_true(answers[0].baseline_tilt.value > 80 * answers[0].baseline_tilt.standard_error);
+    assert_true(answers[0].baseline_tilt.value > 20 * answers[0].baseline_tilt.standard_error);
 }
 
 /* Curves with a second contact point in sums over a few hundred means of neighbours, or in
@@ -218,13 +218,11 @@ static void contact_points_of_all_samples(void **state)
         const char *file;
         size_t curve; /* of the file, by its place */
         bool tilt;
-        wt_curve_verdict verdict;
         double modulus;
     } cases[] = {
-        {"jpk/force-map2x2-example.jpk-force-map", 3, false, WT_CURVE_IMPRECISE, 124132.4},
-        {"jpk/force-map2x2-example.jpk-force-map", 3, true, WT_CURVE_IMPRECISE, 136951.5},
-        {"jpk/fmt-jpk-fd_map-data-reference-points.jpk-force-map", 1, false, WT_CURVE_ADHESIVE,
-         298938.5},
+        {"jpk/force-map2x2-example.jpk-force-map", 3, false, 124132.4},
+        {"jpk/force-map2x2-example.jpk-force-map", 3, true, 136951.5},
+        {"jpk/fmt-jpk-fd_map-data-reference-points.jpk-force-map", 1, false, 298938.5},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         answer_options.fit_tilt = cases[i].tilt;
@@ -232,9 +230,7 @@ static void contact_points_of_all_samples(void **state)
         for_each_curve(cases[i].file, keep_answer);
         assert_true(n_answers > cases[i].curve);
         const wt_indent_fit *fit = &answers[cases[i].curve];
-        if (fit->verdict != cases[i].verdict)
-            fail_msg("%s: %s: %s", cases[i].file, wt_curve_verdict_id(fit->verdict), fit->reason);
-        assert_near(fit->fitted_modulus, cases[i].modulus, 1e-5);
+        assert_near(fit->modulus.value, cases[i].modulus, 1e-5);
     }
     answer_options.fit_tilt = true;
 }

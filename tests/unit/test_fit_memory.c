@@ -199,6 +199,8 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
                              .modulus = e,
                              .relaxation_time = tau};
     hereditary law = {0};
+    wt_contact_table *table = NULL;
+    assert_int_equal(wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     wt_contact_function(&tip, depth, &f, &slope);
     const double reduced = whole / 0.75, k = kappa * reduced * slope;
     double top = depth + reduced * f / k;
@@ -210,7 +212,7 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
             base[i] = top * (1 - fabs(1 - time[i]));
         }
         hereditary_begin(&law, &series, reduced / hereditary_modulus(&series, 1), 1e-9, 2);
-        assert_int_equal(hereditary_loop(&law, &tip, 1 / k, time, base, N, force, NULL), WT_OK);
+        assert_int_equal(hereditary_loop(&law, table, 1 / k, time, base, N, force, NULL), WT_OK);
     }
     hereditary_clear(&law);
     for (int i = 0; i < SAMPLES; i++) {
@@ -228,13 +230,11 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     options.plain_least_squares = how == PLAIN;
     const curve_branch in = {height[0], measured[0], how != WITHOUT_TIMES ? times : NULL, SAMPLES},
                        out = {height[1], measured[1], NULL, SAMPLES};
-    wt_contact_table *table = NULL;
     wt_indent_fit fit;
-    assert_int_equal(wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     assert_int_equal(curve_fit_branches(table, &options, &in, &out, k, workspace, &fit, NULL),
                      WT_OK);
     wt_contact_table_free(table);
-    fit.modulus.value = fit.fitted_modulus / whole - 1;
+    fit.modulus.value = fit.modulus.value / whole - 1;
     return fit;
 }
 
@@ -276,8 +276,7 @@ static void no_word_beyond_what_was_tried(void **state)
     (void)state;
     const wt_indent_fit some = fit_lossy(0.3, 1, WITHOUT_TIMES),
                         much = fit_lossy(1.3, 1, WITHOUT_TIMES);
-    assert_int_equal(some.verdict, WT_CURVE_ACCEPTED);
-    assert_int_equal(much.verdict, WT_CURVE_ACCEPTED);
+    assert_true(wt_curve_usable(some.verdict) && wt_curve_usable(much.verdict));
     assert_non_null(strstr(some.reason, "|E*| at 1/(loading time) within 20 %"));
     assert_non_null(strstr(much.reason, "how near |E*| is not known"));
     assert_true(some.loss < 0.85 && much.loss > 0.85);

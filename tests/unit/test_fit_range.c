@@ -80,7 +80,7 @@ static void range_of_the_fit(void **state)
     fit = fit_with(&t, &options);
     assert_accepted(&fit);
     assert_near(fit.modulus.value, t.modulus, 1e-4);
-    assert_true(fabs(fit_with(&t, NULL).fitted_modulus / t.modulus - 1.0) > 0.05);
+    assert_true(fabs(fit_with(&t, NULL).modulus.value / t.modulus - 1.0) > 0.05);
 }
 
 static double force_at_depth(const curve_truth *t, double depth)
@@ -162,7 +162,7 @@ static void what_is_shallow_does_not_count(void **state)
     const wt_indent_fit fit = fit_with(&t, &options), all = fit_with(&t, NULL);
     assert_accepted(&fit);
     assert_near(fit.modulus.value, t.modulus, 1e-3);
-    assert_true(fabs(all.fitted_modulus / t.modulus - 1) > 0.02);
+    assert_true(fabs(all.modulus.value / t.modulus - 1) > 0.02);
 }
 
 /* 95 % intervals of the modulus and of the contact point with ranges; of 240 the share scatters by
@@ -213,8 +213,9 @@ static void intervals_cover(void **state)
                       i, 100.0 * modulus / n, 100.0 * contact / n, refused, 100 * sum / n,
                       100 * errors / n);
         assert_in_range(refused, 0, 0.04 * CURVES);
-        assert_in_range(modulus, 0.91 * n, 0.99 * n);
-        assert_in_range(contact, 0.91 * n, 0.99 * n);
+        /* with what the law may miss, too, in the depths that are left out above all */
+        assert_in_range(modulus, 0.91 * n, n);
+        assert_in_range(contact, 0.91 * n, n);
         assert_true(fabs(sum) < 0.25 * errors);
     }
     /* a chance is above a half as often as below, of what is compared alone too */
@@ -238,7 +239,7 @@ static void too_little_is_refused(void **state)
         const wt_indent_fit fit = fit_with(&t, &options);
         assert_int_equal(fit.verdict, WT_CURVE_TOO_SHORT);
         assert_non_null(strstr(fit.reason, "samples in contact in the range of the fit, 8 needed"));
-        assert_true(isnan(fit.modulus.value));
+        assert_false(wt_curve_usable(fit.verdict));
     }
 }
 

@@ -161,8 +161,8 @@ static void intervals(void **state)
             if (held[i] < 0.9 * n)
                 fail_msg("kind %d: %g of %g intervals of %s hold", k, held[i], n,
                          i == 0 ? "moduli" : "contact points");
-        /* the noise is as strong as that of the curve */
-        assert_true(square < 1.5 * stated && square > 0.2 * stated);
+        /* the noise is as strong as that of the curve; what the law may miss is stated, too */
+        assert_true(square < 1.5 * stated && square > 0.1 * stated);
         release(&f);
     }
 }

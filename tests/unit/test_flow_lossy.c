@@ -24,7 +24,7 @@ static double error_of(size_t known, size_t unknown)
                              .loss_error = i < known ? 0.04 : (double)NAN,
                              .spectrum_factor = {(double)NAN, (double)NAN, 0, "1"},
                              .misfit = {(double)NAN}};
-        assert_int_equal(indent_together_add(&together, &fit, false, &err), WT_OK);
+        assert_int_equal(indent_together_add(&together, &fit, &job.options, &err), WT_OK);
     }
     assert_int_equal(indent_say_together(&together, &job, &work, &rows, &err), WT_OK);
     wt_estimate error = {0};

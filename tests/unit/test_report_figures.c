@@ -451,8 +451,8 @@ static void test_numbers_of_captions(void **state)
     NEED_REPORT();
     static const char *const captions[][2] = {
         {"force_displacement", " bulk: bulk-1.jpk-force-map curve 5, standard error of the contact "
-                               "point 0.0539 nm. "},
-        {"force_displacement", "$(rm -r x)  curve 7, standard error of the contact point 0.0862 "
+                               "point 0.058 nm. "},
+        {"force_displacement", "$(rm -r x)  curve 7, standard error of the contact point 0.105 "
                                "nm. The vertical line"},
         {"force_indentation", " Lines: contact model with the fitted modulus."},
         {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "

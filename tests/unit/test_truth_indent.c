@@ -77,8 +77,8 @@ static void test_columns(void **state)
     assert_near(cell(t, 0, "y"), 2e-6, 1e-12);
     assert_string_equal(cell_text(t, 0, "verdict"), "accepted");
     assert_non_null(strstr(cell_text(t, 0, "reason"), "(4 samples)"));
-    check("modulus", "modulus_standard_error", truth.modulus, 0.01 * truth.modulus);
-    check("contact_point", "contact_point_standard_error", HERTZ_FREE - HERTZ_TOP, 1e-9);
+    check("modulus", "modulus_standard_error", truth.modulus, 0.06 * truth.modulus);
+    check("contact_point", "contact_point_standard_error", HERTZ_FREE - HERTZ_TOP, 4e-9);
     assert_near_abs(cell(t, 0, "baseline_offset"), HERTZ_OFFSET, HERTZ_NOISE);
     assert_near(cell(t, 0, "baseline_tilt"), HERTZ_TILT, 0.4);
     assert_near(cell(t, 0, "noise"), HERTZ_NOISE, 0.1);
@@ -127,8 +127,8 @@ static void test_rejected(void **state)
     const wt_table *t = tables.indentation;
     assert_string_equal(cell_text(t, 1, "verdict"), "no_contact");
     assert_non_null(strstr(cell_text(t, 1, "reason"), "noise"));
-    assert_true(isnan(cell(t, 1, "modulus")));
     assert_string_equal(wt_table_key(t, "n_accepted"), "1");
+    assert_string_equal(wt_table_key(t, "n_doubtful"), "0");
     assert_string_equal(wt_table_key(t, "n_rejected"), "1");
     assert_string_equal(wt_table_key(t, "spots"), "named");
     assert_near(key_estimate(t, "spring_constant").value, 10, 0);

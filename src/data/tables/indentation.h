@@ -12,17 +12,23 @@
       TEXT, LABEL("Spot"), OPTIONAL)                                                               \
     X(INDENTATION_X, AS(x), "lateral position x", SI(POSITION_X), OPTIONAL)                        \
     X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
-    X(INDENTATION_VERDICT, AS(verdict), "accepted, or why not", TEXT)                              \
+    X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus", TEXT)    \
     X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
       OPTIONAL)                                                                                    \
     X(INDENTATION_MODULUS, IN(fit, modulus), "Young's modulus", SI(MODULUS),                       \
       STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
     X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \
-      "standard error of the modulus", SI(MODULUS), OPTIONAL)                                      \
+      "standard error of the modulus, with that of a misfit", SI(MODULUS), OPTIONAL)               \
+    X(INDENTATION_MODULUS_MISFIT_ERROR, "modulus_misfit_error",                                    \
+      "what the contact law misses, in the standard error of the modulus", SI(MODULUS),            \
+      SHOWS(fit.misfit_error), OPTIONAL)                                                           \
     X(INDENTATION_CONTACT_POINT, IN(fit, contact_point), "tip position at contact", SI(LENGTH),    \
       STANDARD_ERROR(INDENTATION_CONTACT_POINT), OPTIONAL)                                         \
     X(INDENTATION_CONTACT_POINT_STANDARD_ERROR, "contact_point_standard_error",                    \
       "standard error of the contact point", SI(LENGTH), OPTIONAL)                                 \
+    X(INDENTATION_CONTACT_POINT_MISFIT_ERROR, "contact_point_misfit_error",                        \
+      "what the contact law misses, in that of the contact point", SI(LENGTH),                     \
+      SHOWS(fit.contact_misfit_error), OPTIONAL)                                                   \
     X(INDENTATION_CONTACT_THRESHOLD, "contact_threshold",                                          \
       "contact by the threshold of the baseline, less contact_point", SI(LENGTH),                  \
       SHOWS(fit.contact_by[WT_CONTACT_THRESHOLD]), OPTIONAL)                                       \
@@ -71,6 +77,9 @@
       UNIT("J/m^2"), STANDARD_ERROR(INDENTATION_WORK_OF_ADHESION), OPTIONAL)                       \
     X(INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR, "work_of_adhesion_standard_error",              \
       "standard error of the work of adhesion", UNIT("J/m^2"), OPTIONAL)                           \
+    X(INDENTATION_CONTACT_PULL, "contact_pull",                                                    \
+      "constant pull in contact, of adhesion of long range", SI(FORCE),                            \
+      SHOWS(fit.contact_pull.value), OPTIONAL)                                                     \
     X(INDENTATION_PULL_OFF_FORCE, IN(fit, pull_off_force), "largest pull of the retract",          \
       SI(FORCE), OPTIONAL)                                                                         \
     X(INDENTATION_PULL_OFF_WORK, IN(fit, pull_off_work),                                           \
@@ -112,7 +121,8 @@
     X(INDENTATION_KEY_HALF_ANGLE_GAIN, "half_angle_gain", NUMBER, OPTIONAL)                        \
     X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
     X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
-    X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)
+    X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
 
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
@@ -129,7 +139,8 @@
       LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
     X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \
       LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
-    X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves accepted"), OPTIONAL)         \
+    X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
+    X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
 
 #define FORCE_DISPLACEMENT_COLUMNS(X)                                                              \

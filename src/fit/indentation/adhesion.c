@@ -276,32 +276,29 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
     return best;
 }
 
+/* How much larger than the noise the residual is, and so the errors are: any parameter more lowers
+ * the cost of a law that does not describe the curve. */
+static double misfit_of(const curve_solution *s)
+{
+    return sqrt(fmax(1.0, s->lack.statistic));
+}
+
 static bool is_adhesive(const curve_fitting *f)
 {
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
-    const adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], root * root};
-    return s->converged && root > work_errors * s->standard_error[CURVE_W] &&
-           !(adhesion_tabor(&law) < least_tabor);
+    const adhesion law = {f->table, s->p[CURVE_E], root * root};
+    return s->converged && root > work_errors * misfit_of(s) * s->standard_error[CURVE_W] &&
+           (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
 
 /* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
- * a jump before the contact point without adhesion. */
-static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
+ * a jump before the contact point without adhesion. The solution is that of the kind then. */
+static bool try_from(curve_fitting *f, curve_solution start, double depth, size_t jump)
 {
     static const double depths[] = {2.0, 1.0, 4.0};
-    const double k = f->input.samples.spring_constant;
     const curve_samples *samples = &f->input.samples;
-    curve_solution start = f->solution;
-    const wt_tip *tip = contact_table_tip(f->table);
-    const adhesion law = {tip, start.p[CURVE_E], adhesion_work(tip, start.p[CURVE_E], k, pull)};
-    if (isnan(law.work))
-        return false;
-    const double release = adhesion_release(&law, k);
-    const double depth = adhesion_at(&law, adhesion_radius(&law, k, 0.0, release, 0.0)).depth;
     const bool follows = jump == 0;
-    start.p[CURVE_W] = sqrt(law.work);
-    f->kind.adhesive = true;
     for (size_t i = 0; i < (follows ? sizeof depths / sizeof depths[0] : 1); i++) {
         if (follows)
             jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
@@ -310,8 +307,73 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
         f->solution = refine_from(f, start, jump, follows);
         if (is_adhesive(f))
             return true;
+        if (f->solution.converged) /* to next to no adhesion */
+            break;
     }
     return false;
+}
+
+static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
+{
+    const double k = f->input.samples.spring_constant;
+    curve_solution start = f->solution;
+    const adhesion law = {f->table, start.p[CURVE_E],
+                          adhesion_work(f->table, start.p[CURVE_E], k, pull)};
+    if (isnan(law.work) || !adhesion_applies(contact_table_tip(f->table)))
+        return false;
+    const double touch = 0.0;
+    double bare;
+    adhesion_balance(&law, k, adhesion_release(&law, k), &touch, 1, &bare);
+    const double depth = adhesion_at(&law, bare).depth;
+    start.p[CURVE_W] = sqrt(law.work);
+    f->kind.adhesive = true;
+    return try_from(f, start, depth, jump);
+}
+
+static bool try_pull(curve_fitting *f, double pull, size_t jump)
+{
+    curve_solution start = f->solution;
+    start.p[CURVE_W] = pull;
+    f->kind.adhesive = f->kind.constant_pull = true;
+    return try_from(f, start, pull / f->input.samples.spring_constant, jump);
+}
+
+/* A fit, and the kind that it is of. */
+typedef struct outcome {
+    curve_solution solution;
+    curve_kind kind;
+    bool found;
+} outcome;
+
+/* The better one of two laws of adhesion; what the other would give is in the error, as far as it
+ * is likely. False if there is none: then all is as it was. */
+static bool fit_pull(curve_fitting *f, double pull, size_t jump)
+{
+    const outcome before = {f->solution, f->kind, true};
+    outcome law[2] = {{.found = false}, {.found = false}};
+    for (int i = 0; i < 2; i++) {
+        f->solution = before.solution;
+        f->kind = before.kind;
+        const bool found = i == 0 ? try_pull(f, pull, jump) : try_adhesive(f, pull, jump);
+        law[i] = (outcome){f->solution, f->kind, found};
+    }
+    const int best = law[1].found && (!law[0].found || law[1].solution.cost < law[0].solution.cost);
+    const outcome *to = law[best].found ? &law[best] : &before;
+    f->solution = to->solution;
+    f->kind = to->kind;
+    f->kind.wave = to->solution.wave;
+    /* Forces without a wave, depths and residuals shall be of that solution, too. */
+    refine(f, &f->solution);
+    f->solution = to->solution;
+    f->kind = to->kind;
+    if (law[0].found && law[1].found) {
+        const curve_solution *other = &law[1 - best].solution;
+        const double chi2 = f->solution.effective_n * log(other->cost / f->solution.cost) /
+                            fmax(1.0, f->solution.lack.statistic);
+        const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
+        f->other_law = sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+    }
+    return law[best].found;
 }
 
 bool curve_fit_adhesion(curve_fitting *f)
@@ -319,17 +381,14 @@ bool curve_fit_adhesion(curve_fitting *f)
     const curve_solution elastic = f->solution;
     const curve_kind plainly = f->kind;
     const bool try_it =
-        !f->options->plain_least_squares && adhesion_applies(contact_table_tip(f->table));
+        !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
     snap found;
     if (find_snap(f, &found)) {
         f->snap_on = found.pull;
-        if (try_it) {
+        if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (try_adhesive(f, found.pull, found.start)) {
-                curve_allow_loss(f);
-                if (curve_fits(f))
-                    return true;
-            }
+            if (fit_pull(f, found.pull, found.start))
+                return true;
             found.end -= found.deepest + 1 - found.start;
             found.deepest = found.start;
         }
@@ -341,15 +400,16 @@ bool curve_fit_adhesion(curve_fitting *f)
     /* Where the law without adhesion describes the curve it has none to speak of. */
     if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
         return true;
-    if (try_adhesive(f, f->pull_off, 0) &&
-        f->solution.effective_n * log(elastic.cost / f->solution.cost) > better_chi2)
+    if (fit_pull(f, f->pull_off, 0) &&
+        f->solution.effective_n * log(elastic.cost / f->solution.cost) >
+            better_chi2 * fmax(1.0, f->solution.lack.statistic))
         return true;
-    /* Forces without a wave, depths and residuals shall be of that solution, too. */
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
     refine(f, &f->solution);
     f->kind = plainly;
     f->solution = elastic;
+    f->other_law = 0.0;
     return true;
 }

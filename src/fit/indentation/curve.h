@@ -21,6 +21,7 @@
 enum {
     CURVE_MIN_SAMPLES = 32,
     CURVE_MAX_MINIMA = 4,
+    CURVE_TIP_MOVES = 2,
     CURVE_POWER_TERMS = 15, /* of a power law as a series */
 };
 #define CURVE_LEAST_LOSS 0.03
@@ -62,6 +63,9 @@ typedef struct scan_octave {
 } scan_octave;
 
 struct wt_indent_workspace {
+    /* Tips that are off by a standard error of the stated one each, borrowed; NULL: none. A misfit
+     * that they explain is not one of the law, and the standard errors hold theirs. */
+    const wt_contact_table *tip_moved[CURVE_TIP_MOVES];
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
@@ -143,7 +147,7 @@ double curve_select(double *x, size_t n, size_t k, double largest);
 void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
 /* A value as short text with its unit. */
 typedef struct si_text {
-    char words[24];
+    char words[40];
 } si_text;
 si_text curve_si(double value, const char *unit);
 
@@ -205,7 +209,9 @@ typedef struct curve_lack {
 
 typedef struct curve_solution {
     double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of work */
-    double standard_error[CURVE_N_PARAMETERS];
+    double standard_error[CURVE_N_PARAMETERS]; /* with the next */
+    double misfit_error[CURVE_N_PARAMETERS];   /* of them that of what the law misses: misfit.c */
+    double no_misfit;                          /* chance that it misses nothing; 0: not asked */
     double cost;
     double sensitivity_gain;
     double bend_shift;    /* of the reduced modulus, if a bent baseline goes on in contact */
@@ -225,10 +231,12 @@ typedef struct curve_kind {
     bool tilt, contact_fixed;
     bool plain; /* force against measured indentation */
     bool adhesive;
-    bool memory;     /* the rubber has the spectrum of the options; not with adhesion */
-    bool lossy;      /* the retract shows loss: the residual may have its shape */
-    size_t jump;     /* of adhesive contact: the first sample in it; 0: where the tip touches */
-    curve_wave wave; /* where to begin with it */
+    bool
+        constant_pull; /* of adhesive contact: a force in contact beside that of the law (Derjaguin,
+                          Muller and Toporov; a capillary), in the place of the root of the work */
+    bool memory;       /* the rubber has the spectrum of the options; not with adhesion */
+    size_t jump;       /* of adhesive contact: the first sample in it; 0: where the tip touches */
+    curve_wave wave;   /* where to begin with it */
 } curve_kind;
 static inline bool curve_has_wave(const curve_wave *wave)
 {

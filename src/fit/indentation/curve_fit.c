@@ -21,6 +21,7 @@ wt_indent_options wt_indent_defaults(void)
                                .fit_tilt = true,
                                .least_chance = 0.01,
                                .largest_error = 0.5,
+                               .doubtful_error = 0.05,
                                .plain_least_squares = false,
                                .fixed_contact_point = (double)NAN};
 }
@@ -45,10 +46,13 @@ static const wt_param rows[] = {
      .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
     {PARAM("least-chance", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "P",
-     .help =
-         "reject a curve whose residual the noise of its baseline exceeds with a smaller chance"},
+     .help = "chance by noise below which a residual is a misfit; 0: plain least squares, in which "
+             "no misfit is looked for"},
+    {PARAM("doubtful-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "call a modulus doubtful to which a misfit gives a larger error, as a share of it"},
     {PARAM("largest-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .help = "reject a modulus with a larger standard error, as a share of it"},
+     .help = "reject a modulus with a larger standard error, as a share of it; at 0.5 its 95 % "
+             "interval reaches twice the modulus"},
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
      .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
      .help = "do not fit the contact point: take this tip position"},
@@ -150,6 +154,7 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .work_of_adhesion = {nan_, nan_, 0.0, "J/m^2"},
                            .pull_off_force = nan_,
                            .pull_off_work = nan_,
+                           .contact_pull = {nan_, nan_, 0.0, "N"},
                            .tabor_number = nan_,
                            .loss = nan_,
                            .loss_bias = nan_,
@@ -163,7 +168,8 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .second_minimum_ratio = nan_,
                            .second_contact_point = nan_,
                            .sensitivity_gain = nan_,
-                           .fitted_modulus = nan_,
+                           .misfit_error = nan_,
+                           .contact_misfit_error = nan_,
                            .baseline_length = nan_,
                            .misfit_length = nan_,
                            .spectrum_factor = {nan_, nan_, 0.0, "1"},
@@ -181,18 +187,22 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W], k = f->input.samples.spring_constant;
-    adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], 0.0};
+    adhesion law = {f->table, s->p[CURVE_E], 0.0};
     fit->adhesion_force = f->snap_on;
     fit->pull_off_force = f->pull_off;
     if (f->pull_off >= 0.0)
         fit->pull_off_work =
-            f->pull_off > 0.0 ? adhesion_work(law.tip, law.reduced, k, f->pull_off) : 0.0;
-    if (f->kind.adhesive) {
+            f->pull_off > 0.0 ? adhesion_work(f->table, law.reduced, k, f->pull_off) : 0.0;
+    const bool long_range = f->kind.adhesive && f->kind.constant_pull;
+    if (long_range) {
+        fit->contact_pull.value = root;
+        fit->contact_pull.standard_error = s->standard_error[CURVE_W];
+    } else if (f->kind.adhesive) {
         fit->work_of_adhesion.value = root * root;
         fit->work_of_adhesion.standard_error = 2.0 * root * s->standard_error[CURVE_W];
     }
-    law.work =
-        fmax(f->kind.adhesive ? root * root : 0.0, f->pull_off > 0.0 ? fit->pull_off_work : 0.0);
+    law.work = fmax(f->kind.adhesive && !long_range ? root * root : 0.0,
+                    f->pull_off > 0.0 ? fit->pull_off_work : 0.0);
     if (law.work > 0.0)
         fit->tabor_number = adhesion_tabor(&law);
 }
@@ -210,6 +220,7 @@ static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
     fit->spectrum_factor.standard_error = fit->modulus.standard_error / unit;
     fit->modulus.value *= here / unit;
     fit->modulus.standard_error *= here / unit;
+    fit->misfit_error *= here / unit;
 }
 
 static void report(curve_fitting *f, wt_indent_fit *fit)
@@ -219,10 +230,12 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
-    fit->modulus.standard_error =
-        e * hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error);
+    fit->modulus.standard_error = e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) +
+                                           pow(f->loss_error, 2) + pow(f->other_contact, 2));
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
+    fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];
+    fit->contact_misfit_error = s->misfit_error[CURVE_C];
     fit->baseline_offset.value = s->p[CURVE_F0] + f->input.force_origin;
     fit->baseline_offset.standard_error = s->standard_error[CURVE_F0];
     fit->baseline_tilt.value = s->p[CURVE_T];
@@ -265,6 +278,22 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
         fit->second_minimum_ratio = f->minima[1].cost / f->minima[0].cost;
         fit->second_contact_point = f->minima[1].contact_point + f->input.position_origin;
     }
+}
+
+/* 2 ln(likelihood ratio) within which 95 % of the values of one parameter lie. */
+static const double likely_chi2 = 3.84;
+
+/* Two contact points that are about as likely: the better one's modulus, and what the other's is
+ * off as far as it is likely. */
+static void add_other_contact(curve_fitting *f)
+{
+    if (f->n_minima < 2 || f->kind.adhesive)
+        return;
+    const double chi2 = f->solution.effective_n * log(f->minima[1].cost / f->minima[0].cost);
+    const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
+    if (chi2 < likely_chi2)
+        f->other_contact =
+            sqrt(share) * fabs(f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0);
 }
 
 static wt_status check_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
@@ -332,20 +361,18 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
         return WT_OK;
     }
     curve_allow_loss(&f);
+    curve_add_misfit(&f);
+    add_other_contact(&f);
     report(&f, fit);
     find_rates(&f, approach, fit);
     report_spectrum(&f, fit);
-    fit->fitted_modulus = fit->modulus.value;
     fit->verdict = curve_judge(&f, fit);
     if (options->contact_estimators)
         curve_estimate_contact(&f, fit->contact_by);
-    if (fit->verdict == WT_CURVE_ACCEPTED) {
+    if (wt_curve_usable(fit->verdict)) {
         workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
         workspace->step_left = fmax(workspace->step_left, f.solution.step_left);
-        return WT_OK;
     }
-    fit->modulus.value = fit->modulus.standard_error = fit->spectrum_factor.value =
-        fit->spectrum_factor.standard_error = (double)NAN;
     return WT_OK;
 }
 

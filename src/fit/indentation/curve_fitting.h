@@ -27,8 +27,11 @@ typedef struct curve_fitting {
     double loss_shift, loss_error; /* of the modulus: what other spectra have more, and its error */
     size_t n_snap;                 /* samples left out because of a snap-on */
     bool range_settled;
-    bool range_empty;    /* too few samples in it: the fit is that of all */
-    bool another_rubber; /* than that of the spectrum */
+    bool range_empty;     /* too few samples in it: the fit is that of all */
+    bool another_rubber;  /* than that of the spectrum */
+    bool unknown_loss;    /* it loses work, and the law of the fit does not describe it */
+    double other_law;     /* the same by another law of adhesion */
+    double other_contact; /* error of the modulus by a second contact point, over it */
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
 } curve_fitting;
 
@@ -80,14 +83,16 @@ bool curve_fit_adhesion(curve_fitting *f);
 
 /* ---- loss without a spectrum: curve_loss.c --------------------------------------------------- */
 
-/* Where the retract shows loss, finds its bias; where the residual is more than noise, tries it
- * again with the shape of loss allowed for. */
+/* Where the retract shows loss, finds its bias. */
 void curve_allow_loss(curve_fitting *f);
 /* Loss under a punch, without a spectrum: other spectra that lose as much scatter more there than
  * the error that is stated for the other tips. */
 bool curve_unknown_loss(const curve_fitting *f);
 
 /* ---- verdict: curve_judge.c ------------------------------------------------------------------ */
+
+/* What the law misses goes into the parameters and their errors: misfit.c. */
+void curve_add_misfit(curve_fitting *f);
 
 /* A curve of which nothing but a baseline was found. */
 wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160]);

@@ -13,9 +13,10 @@ typedef struct curve_law {
     const curve_samples *samples;
     wt_indent_workspace *workspace; /* delta, g, slope, residual: of the latest evaluation */
     bool free[CURVE_N_PARAMETERS];
-    bool plain, adhesive, memory, lossy;
-    bool balanced; /* the indentations of the workspace, with the force and its slope there */
-    bool wave;     /* in the force; the derivatives then are those less what the wave can imitate */
+    bool plain, adhesive, memory;
+    bool constant_pull; /* adhesive by a force of its own, the parameter of the work [N] */
+    bool balanced;      /* the indentations of the workspace, with the force and its slope there */
+    bool wave; /* in the force; the derivatives then are those less what the wave can imitate */
     double imitated[WAVE_PARAMETERS][CURVE_N_PARAMETERS];
     size_t jump; /* of adhesive contact: its first sample; 0: where the tip touches */
     /* The first samples, far from contact for any step of the fit, enter by their sums alone. */
@@ -24,6 +25,12 @@ typedef struct curve_law {
     double z0, f0;       /* origin of the sums */
     double z, zz, f, zf, ff;
 } curve_law;
+
+/* The law of a kind of fit, to be evaluated; and all of its samples at p. */
+curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, wt_indent_workspace *workspace);
+void curve_law_evaluate(curve_law *model, const double p[CURVE_N_PARAMETERS],
+                        const curve_wave *wave);
 
 typedef struct normal_equations {
     double jj[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS], jr[CURVE_N_PARAMETERS];

@@ -24,7 +24,6 @@ enum {
     WAVES = 64,      /* looked at one by one; faster ones together */
     AT_ONCE = 16,    /* a multiple of WIDE */
     PARTS = AT_ONCE / WIDE,
-    SLOW = 8, /* waves of the contact whose misfit counts */
     PER_OCTAVE = 4,
     POWERS = 4,
     CORNERS = 9,
@@ -32,7 +31,7 @@ enum {
 };
 
 typedef struct block_sums {
-    size_t n, before, length; /* blocks, those before contact, samples in one */
+    size_t n, length;                               /* blocks, samples in one */
     double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
 } block_sums;
 
@@ -158,7 +157,6 @@ WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const 
     b->length = contact / IN_CONTACT > least ? contact / IN_CONTACT : least;
     b->n = s->n / b->length;
     const size_t start = s->n - b->n * b->length;
-    b->before = first > start ? (first - start) / b->length : 0;
     const double length = (double)b->length, share = 1.0 / length;
     for (size_t i = 0; i < b->n; i++) {
         const size_t from = start + i * b->length, to = from + b->length;
@@ -237,22 +235,6 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
     return true;
 }
 
-/* How much more there is of the slow waves in contact than the noise has. */
-static double slow_misfit(const block_sums *b, const curve_spectrum *s)
-{
-    const size_t n = b->n - b->before;
-    double rest[1][BLOCKS], along[AT_ONCE][N], sum = 0.0, waves = 0.0;
-    memcpy(rest[0], b->e + b->before, n * sizeof rest[0][0]);
-    for (size_t k = 1; k <= SLOW && k < n; k++) {
-        const size_t j = (k - 1) % AT_ONCE;
-        if (j == 0)
-            find_waves(k, n, (const double(*)[BLOCKS])rest, 1, along);
-        sum += along[j][0] * along[j][0] / curve_noise_variance(s, (double)k, n, b->length);
-        waves += 1.0;
-    }
-    return waves > 0.0 ? sum / waves : 1.0;
-}
-
 /* to = J' (covariance of the noise) J, of the first parameters. */
 WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free,
                                      double to[N][N])
@@ -322,19 +304,13 @@ WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N],
         if (!curve_noise_spectrum(b.e, b.n, &s))
             return noise;
     }
-    const double misfit = slow_misfit(&b, &s);
     if (noise.variance > 0.0) { /* at waves as long as the contact that the baseline shows, too */
         const double contact = (double)(m->samples->n - first);
         const double wave = fmax(2.0 / contact, 4.0 / (double)first);
         noise.correlation_length = fmax(1.0, curve_noise_variance(&s, wave, 1, 1) / noise.variance);
     }
-    /* What the law misses shows in contact; a little of it is chance. */
-    const double more = sqrt(fmax(1.0, m->lossy ? misfit : 0.5 * (misfit + 1.0)));
-    for (size_t c = 0; c < N; c++) {
+    for (size_t c = 0; c < N; c++)
         noise.bend[c] = curve_dot(b.column[c], bow, b.n);
-        for (size_t i = b.before; i < b.n; i++)
-            b.column[c][i] *= more;
-    }
     sum_waves(&b, &s, m->adhesive ? N : CURVE_W, noise.scatter);
     for (size_t c = 0; c < N; c++)
         for (size_t d = 0; d <= c; d++) {

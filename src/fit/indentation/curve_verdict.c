@@ -4,6 +4,7 @@
  */
 #include "fit/indentation/curve_fitting.h"
 
+#include "base/clocale.h"
 #include "base/number.h"
 #include "model/tip.h"
 
@@ -11,14 +12,11 @@
 #include <string.h>
 
 /* Limits of plausibility; every verdict names the number and the limit. */
-static const double contact_noise = 5.0;   /* force in contact, in noise of the baseline */
-static const double baseline_length = 0.1; /* of the largest indentation */
-static const double baseline_bend = 0.1;   /* departure from a line, of the largest force */
-static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
-static const double told_gain = 1000.0;    /* of it, in words */
-static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
-static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
-static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against the fit */
+static const double contact_noise = 5.0; /* force in contact, in noise of the baseline */
+static const double baseline_bend = 0.1; /* departure from a line, of the largest force */
+static const double rigid_gain = 50.0;   /* % of modulus per % of sensitivity */
+static const double told_gain = 1000.0;  /* of it, in words */
+static const double reverse_ratio = 0.5; /* cost of the fit in reverse against the fit */
 enum { BEND_BLOCKS = 16 };
 static const double least_bias = 0.005; /* of a modulus by loss, to be said */
 /* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
@@ -46,6 +44,17 @@ const char *wt_curve_verdict_text(wt_curve_verdict verdict)
 {
     size_t i = (size_t)verdict;
     return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].text : "unknown verdict";
+}
+
+bool wt_curve_usable(wt_curve_verdict verdict)
+{
+    return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL;
+}
+
+bool wt_curve_usable_id(const char *id)
+{
+    return strcmp(id, wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0 ||
+           strcmp(id, wt_curve_verdict_id(WT_CURVE_DOUBTFUL)) == 0;
 }
 
 /* How far means over blocks of the baseline residual depart from a line, peak to peak of a wave of
@@ -137,11 +146,9 @@ static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fi
                   curve_si(s->noise, "N").words, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
-    if (s->first_contact < CURVE_BASELINE_SAMPLES ||
-        length < baseline_length * s->max_indentation) {
-        curve_say(reason, "baseline of %zu samples and %s; %d samples and %s needed",
-                  s->first_contact, curve_si(length, "m").words, CURVE_BASELINE_SAMPLES,
-                  curve_si(baseline_length * s->max_indentation, "m").words);
+    if (s->first_contact < CURVE_BASELINE_SAMPLES) {
+        curve_say(reason, "baseline of %zu samples, %d needed", s->first_contact,
+                  CURVE_BASELINE_SAMPLES);
         return WT_CURVE_NO_BASELINE;
     }
     if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
@@ -161,18 +168,7 @@ static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fi
             fmin(s->sensitivity_gain, told_gain), rigid_gain);
         return WT_CURVE_RIGID;
     }
-    if (f->n_minima < 2 || f->kind.adhesive)
-        return WT_CURVE_ACCEPTED;
-    const curve_minimum *second = &f->minima[1];
-    const double ratio = second->cost / f->minima[0].cost;
-    const double moduli = log(second->reduced_modulus / s->p[CURVE_E]);
-    if (!(s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio))
-        return WT_CURVE_ACCEPTED;
-    const double other = second->reduced_modulus * fit->modulus.value / s->p[CURVE_E];
-    curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
-              curve_si(fabs(second->contact_point - s->p[CURVE_C]), "m").words,
-              curve_si(other, "Pa").words, curve_si(fit->modulus.value, "Pa").words, ratio);
-    return WT_CURVE_AMBIGUOUS;
+    return WT_CURVE_ACCEPTED;
 }
 
 bool curve_fits(const curve_fitting *f)
@@ -200,50 +196,72 @@ static bool is_too_deep(const curve_fitting *f, char reason[160])
     const wt_tip *tip = contact_table_tip(f->table);
     const double reach = thin_sample_reach(tip, depth);
     if (!contact_law_holds(tip, depth) && !(reach > THIN_SAMPLE_REACH)) {
-        curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
+        curve_say(reason, "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
                   curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
         return true;
     }
     if (reach > THIN_SAMPLE_REACH)
-        curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
-                  reach, THIN_SAMPLE_REACH);
+        curve_say(
+            reason,
+            "doubtful: contact radius %.2f of the thickness of the sample; its law holds to %g",
+            reach, THIN_SAMPLE_REACH);
     return reach > THIN_SAMPLE_REACH;
 }
 
-/* What makes the residual larger than the noise. */
-static wt_curve_verdict judge_lack(const curve_fitting *f, char reason[160])
+/* "misfit: E +- 6 % of 7 %" */
+static si_text misfit_text(const wt_indent_fit *fit)
 {
-    const curve_solution *s = &f->solution;
-    const double lack = sqrt(s->lack.statistic);
-    if (f->snap_on > 0.0 || f->pull_off > 0.0) {
-        curve_say(reason,
-                  "pull of %s; neither contact with adhesion nor without describes the rest: "
-                  "residual %.3g times its noise",
-                  curve_si(fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0), "N").words,
-                  lack);
-        return WT_CURVE_ADHESIVE;
-    }
-    if (s->bent) {
-        curve_say(reason,
-                  "baseline bent (chance %s if it were straight), and slow residual in "
-                  "contact %.3g times its noise: piezo or drift",
-                  number_chance(s->lack.baseline_chance).text, lack);
-        return WT_CURVE_DRIFT;
-    }
-    curve_say(reason,
-              "slow residual %.3g times what the noise of the baseline explains: another "
-              "tip, a layer, loss, adhesion, an uneven piezo or detector",
-              lack);
-    return WT_CURVE_POOR_FIT;
+    si_text text;
+    clocale_print(text.words, sizeof text.words, "E +- %.2g %% of %.2g %%",
+                  100.0 * fit->misfit_error / fit->modulus.value,
+                  100.0 * fit->modulus.standard_error / fit->modulus.value);
+    return text;
 }
 
-/* What is against the contact law. */
+/* What may be behind it. */
+static const char *cause_of_misfit(const curve_fitting *f)
+{
+    if (f->snap_on > 0.0 || f->pull_off > 0.0)
+        return "a pull that the contact law does not describe";
+    if (f->solution.bent)
+        return "baseline bent: piezo or drift";
+    return "another tip, a layer, loss, adhesion, piezo or detector";
+}
+
+/* A modulus with too wide an interval: what makes it wide. */
+static wt_curve_verdict judge_width(const curve_fitting *f, const wt_indent_fit *fit,
+                                    char reason[160])
+{
+    const double e = fit->modulus.value, error = fit->modulus.standard_error / e;
+    if (!(error > f->options->largest_error))
+        return WT_CURVE_ACCEPTED;
+    if (f->other_contact * f->other_contact > 0.5 * error * error) {
+        const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
+        curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
+                  curve_si(fabs(second->contact_point - first->contact_point), "m").words,
+                  curve_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").words,
+                  curve_si(e, "Pa").words, second->cost / first->cost);
+        return WT_CURVE_AMBIGUOUS;
+    }
+    if (fit->misfit_error * fit->misfit_error > 0.5 * error * error * e * e) {
+        curve_say(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).words,
+                  100.0 * f->options->largest_error, cause_of_misfit(f));
+        return f->snap_on > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE
+               : f->solution.bent                    ? WT_CURVE_DRIFT
+                                                     : WT_CURVE_POOR_FIT;
+    }
+    curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s", 100.0 * error,
+              curve_si(e, "Pa").words, 100.0 * f->options->largest_error,
+              f->solution.bent ? "; baseline bent" : "");
+    return WT_CURVE_IMPRECISE;
+}
+
+/* A modulus, and what is against it. */
 static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
                                   char reason[160])
 {
     const curve_solution *s = &f->solution;
-    if (is_too_deep(f, reason))
-        return WT_CURVE_TOO_DEEP;
+    const double departure = baseline_departure(f);
     if (flattens(f)) {
         curve_say(
             reason,
@@ -252,39 +270,34 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
             number_chance(s->lack.flat_chance).text, curve_si(s->lack.flat_from, "N").words);
         return WT_CURVE_SATURATED;
     }
-    if (curve_unknown_loss(f)) {
-        curve_say(
-            reason,
-            "%.0f %% of the work lost; what loss does under a punch is known with the DMA only",
-            100.0 * f->loss);
-        return WT_CURVE_POOR_FIT;
-    }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
         curve_say(reason, "the least-squares fit found no minimum within its iterations");
         return WT_CURVE_POOR_FIT;
     }
-    if (isnan(s->lack.chance) && f->options->least_chance > 0.0) {
-        curve_say(reason, "baseline of %zu samples: too short to try the fit against its noise",
-                  s->first_contact);
-        return WT_CURVE_NO_BASELINE;
-    }
-    if (!curve_fits(f))
-        return judge_lack(f, reason);
-    if (!f->kind.adhesive && fit->tabor_number < 1.0 &&
-        f->pull_off * fit->modulus.value > 2.0 * fit->modulus.standard_error * fit->max_force) {
+    const wt_curve_verdict verdict = judge_width(f, fit, reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+    if (is_too_deep(f, reason))
+        return WT_CURVE_DOUBTFUL;
+    if (curve_unknown_loss(f)) {
         curve_say(reason,
-                  "pull-off of %s at a Tabor number of %.2g: the attraction reaches beyond the "
-                  "contact, of which the contact law knows nothing",
-                  curve_si(f->pull_off, "N").words, fit->tabor_number);
-        return WT_CURVE_ADHESIVE;
+                  "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
+                  "the DMA only",
+                  100.0 * f->loss);
+        return WT_CURVE_DOUBTFUL;
     }
-    if (fit->modulus.standard_error > f->options->largest_error * fit->modulus.value) {
-        curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s",
-                  100.0 * fit->modulus.standard_error / fit->modulus.value,
-                  curve_si(fit->modulus.value, "Pa").words, 100.0 * f->options->largest_error,
-                  s->bent ? "; baseline bent" : "");
-        return WT_CURVE_IMPRECISE;
+    if (!(s->lack.chance >= f->options->least_chance) &&
+        fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
+        curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));
+        return WT_CURVE_DOUBTFUL;
     }
+    if (departure > baseline_bend * fit->max_force) {
+        curve_say(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
+                  curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
+                  curve_si(fit->max_force, "N").words);
+        return WT_CURVE_DOUBTFUL;
+    }
+    curve_say(reason, "accepted");
     return WT_CURVE_ACCEPTED;
 }
 
@@ -299,7 +312,11 @@ static void append(char reason[160], const char *text)
 static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
 {
     char text[160];
-    if (f->kind.adhesive) {
+    if (f->kind.adhesive && f->kind.constant_pull) {
+        curve_say(text, "; with a constant pull of %s",
+                  curve_si(fit->contact_pull.value, "N").words);
+        append(reason, text);
+    } else if (f->kind.adhesive) {
         curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
         append(reason, text);
     } else if (f->snap_on > 0.0) {
@@ -315,7 +332,11 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     }
     if (f->another_rubber && !f->kind.adhesive)
         append(reason, "; not of the spectrum of the DMA");
-    if (f->kind.lossy && f->kind.memory) {
+    if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
+        curve_say(text, "; misfit: %s", misfit_text(fit).words);
+        append(reason, text);
+    }
+    if (f->unknown_loss && f->kind.memory) {
         append(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= least_bias) {
         curve_say(
@@ -324,7 +345,7 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
             100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
             f->loss_bias > 0.0 ? "less" : "more");
         append(reason, text);
-    } else if (f->kind.lossy) {
+    } else if (f->unknown_loss) {
         curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
                   fit->loss > most_tried ? "how near |E*| is not known"
                                          : "|E*| at 1/(loading time) within 20 %");
@@ -363,17 +384,8 @@ wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
     wt_curve_verdict verdict = judge_contact(f, fit, fit->reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
-    const double departure = baseline_departure(f);
-    if (departure > baseline_bend * fit->max_force) {
-        curve_say(fit->reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed",
-                  curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
-                  curve_si(fit->max_force, "N").words, 100.0 * baseline_bend);
-        return WT_CURVE_DRIFT;
-    }
     verdict = judge_law(f, fit, fit->reason);
-    if (verdict != WT_CURVE_ACCEPTED)
-        return verdict;
-    curve_say(fit->reason, "accepted");
-    add_notes(f, fit, fit->reason);
-    return WT_CURVE_ACCEPTED;
+    if (wt_curve_usable(verdict))
+        add_notes(f, fit, fit->reason);
+    return verdict;
 }

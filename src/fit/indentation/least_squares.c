@@ -56,6 +56,8 @@ static double dot(const double a[N], const double b[N])
  * the forces. */
 static const double least_step = 1e-5;
 
+static const double least_damping = 1e-3;
+
 static double by_step(const curve_samples *s, double cost)
 {
     return least_step * least_step / (double)s->n * cost;
@@ -86,7 +88,7 @@ static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const w
 static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
-    double expected = (double)INFINITY;
+    double expected = (double)INFINITY, kept = 0.0; /* damping of the step before, over ten */
     const double rounding = by_rounding(s);
     wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
@@ -98,7 +100,8 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             return false;
         curve_model_normal(m, p, &e);
         bool moved = false;
-        for (double damping = 0.0; !moved; damping = damping > 0.0 ? 10.0 * damping : 1e-3) {
+        for (double damping = 0.0; !moved;
+             damping = damping > 0.0 ? 10.0 * damping : fmax(kept, least_damping)) {
             double step[1][N], trial[N];
             memcpy(step[0], e.jr, sizeof e.jr);
             bool solved = solve(&e, damping, step, 1);
@@ -110,18 +113,25 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
             const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
-            if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+            const double before = *cost;
+            const bool near = expected < fmax(1e-9 * before, 1e-14 * m->ff);
+            const bool too_far = damping == 0.0 && kept > least_damping && !near;
+            if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
                 double trial_cost = cost_at(m, trial, &trial_wave);
                 /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
-                if (trial_cost < *cost ||
-                    (damping == 0.0 && expected < fmax(1e-9 * *cost, 1e-14 * m->ff))) {
+                if (trial_cost < before || (damping == 0.0 && near)) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
                     *wave = trial_wave;
                     moved = true;
+                    kept = 0.1 * damping;
                 }
             }
+            /* At a kink, where a sample lets go, nothing more is gained however much is expected.
+             */
+            if (moved && m->adhesive && damping > 0.0 && before - *cost < 1e4 * by_step(s, before))
+                return expected <= 1e4 * by_step(s, before);
             if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
                 *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
@@ -191,21 +201,37 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
+curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, wt_indent_workspace *workspace)
+{
+    return (curve_law){.table = table,
+                       .samples = samples,
+                       .workspace = workspace,
+                       .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
+                       .plain = kind->plain,
+                       .adhesive = kind->adhesive,
+                       .constant_pull = kind->constant_pull,
+                       .memory = kind->memory && !kind->adhesive,
+                       .wave = curve_has_wave(&kind->wave),
+                       .jump = kind->jump};
+}
+
+void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    wave_step ignored;
+    curve_model_start(m, p);
+    (void)cost_at(m, p, wave);
+    if (m->wave)
+        (void)curve_wave_imitate(m, p, &ignored);
+    curve_model_complete(m, p);
+}
+
 /* curve_refine with one of the ways of a wave, or without. */
 static void refine_one(const wt_contact_table *table, const curve_samples *samples,
                        const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
                        curve_solution *solution)
 {
-    curve_law m = {.table = table,
-                   .samples = samples,
-                   .workspace = workspace,
-                   .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
-                   .plain = kind->plain,
-                   .adhesive = kind->adhesive,
-                   .memory = kind->memory && !kind->adhesive,
-                   .lossy = kind->lossy,
-                   .wave = curve_has_wave(&kind->wave),
-                   .jump = kind->jump};
+    curve_law m = curve_law_of(table, samples, kind, workspace);
     curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind->tilt ? p[CURVE_T] : 0.0,
                               kind->adhesive ? p[CURVE_W] : 0.0},
                         .wave = kind->wave};

@@ -49,7 +49,6 @@ static double loss_of(const curve_fitting *f, double power)
     const curve_samples *s = &f->input.samples;
     const double k = s->spring_constant, modulus = f->solution.p[CURVE_E];
     double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1];
-    const wt_tip *tip = contact_table_tip(f->table);
     hereditary *law = &f->workspace->memory;
     curve_power rubber;
     const double top = s->position[f->input.n_all - f->n_snap - 1] - f->solution.p[CURVE_C];
@@ -60,7 +59,7 @@ static double loss_of(const curve_fitting *f, double power)
     curve_power_make(&rubber, power, 1.0);
     hereditary_begin(law, &rubber.series, modulus / hereditary_modulus(&rubber.series, 1.0),
                      1.0 / STEPS, 2.0);
-    if (hereditary_loop(law, tip, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
+    if (hereditary_loop(law, f->table, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
         return (double)NAN;
     double in = 0.0, back = 0.0;
     for (int i = 1; i <= STEPS; i++) {
@@ -104,13 +103,11 @@ static bool remember_power(curve_fitting *f)
     curve_power_make(&rubber, power, 1.0);
     if (!curve_remember(f, &rubber.series, true))
         return false;
-    f->kind.memory = f->kind.lossy = true;
+    f->kind.memory = true;
     refine(f, &elastic);
-    f->kind.memory = f->kind.lossy = false;
     const curve_solution *s = &f->solution;
-    const bool fits = s->converged && curve_fits(f);
     const bool worse = elastic.effective_n * log(s->cost / elastic.cost) > better_chi2;
-    if (fits && !worse) {
+    if (s->converged && !worse) {
         f->loss_power = power;
         f->loss_shift = f->loss * more;
         f->loss_error = f->loss * law_error;
@@ -119,6 +116,7 @@ static bool remember_power(curve_fitting *f)
     }
     if (s->converged && (worse || explained)) /* of the piezo, not of the rubber */
         f->loss_power = f->loss_bias = 0.0;
+    f->kind.memory = false;
     f->solution = elastic;
     return false;
 }
@@ -130,9 +128,5 @@ void curve_allow_loss(curve_fitting *f)
         return;
     if (!pull && !f->input.saturated && !f->kind.memory && !f->kind.plain && remember_power(f))
         return;
-    if (!curve_fits(f)) {
-        const curve_solution elastic = f->solution;
-        f->kind.lossy = true;
-        refine(f, &elastic);
-    }
+    f->unknown_loss = !curve_fits(f);
 }

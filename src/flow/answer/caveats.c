@@ -15,10 +15,10 @@ static const char *const group_words[2] = {"bulk", "wear-track"};
  * rule for films). */
 #define DEEP_SHARE 0.1
 
+/* Doubtful ones, too: with a modulus. */
 static bool is_accepted(const table_view *indentation, size_t row)
 {
-    return strcmp(indentation_text(indentation, row, INDENTATION_VERDICT),
-                  wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0;
+    return wt_curve_usable_id(indentation_text(indentation, row, INDENTATION_VERDICT));
 }
 
 /* Median of a column over the accepted curves; NaN if there are none. */

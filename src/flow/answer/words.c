@@ -326,11 +326,11 @@ size_t words_of_rejected(const table_view *indentation, char *text, size_t size)
     text[0] = '\0';
     for (size_t i = 0; i < indentation->n_rows; i++) {
         const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
-        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++)
+        for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++)
             if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
                 counts[v]++;
     }
-    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++) {
+    for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++) {
         total += counts[v];
         if (counts[v] > 0 && used < size)
             used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",

@@ -133,21 +133,25 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
 }
 
 /* What the curves themselves show and no scatter does. One piezo goes on bending in contact in both
- * groups or in none; the spectra of bulk and track may differ. */
+ * groups or in none, and one tip is as wrong in both; the spectra of bulk and track may differ. */
 static void add_shown(const compare_pair *p, compare_known *k)
 {
-    double loss[2], bend[2];
+    double loss[2], bend[2], misfit[2];
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
         loss[g] = p->by_factor ? 0 : d->loss_error;
         bend[g] = d->bend_error;
+        misfit[g] = d->misfit_error;
     }
     const double of_loss = hypot(loss[0], loss[1]),
-                 of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]);
-    k->shown = hypot(of_loss, of_bend);
+                 of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
+                 of_misfit =
+                     k->two_levers ? hypot(misfit[0], misfit[1]) : fabs(misfit[1] - misfit[0]);
+    k->shown = hypot(hypot(of_loss, of_bend), of_misfit);
     k->loss_not_known = isnan(of_loss);
     add_error(k, of_loss, "loss of unknown spectrum");
     add_error(k, of_bend, "bend of the baselines");
+    add_error(k, of_misfit, "misfit of the contact law");
 }
 
 /* ---- temperature and rate -------------------------------------------------------------------- */

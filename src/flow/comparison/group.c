@@ -109,13 +109,13 @@ static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
 
 /* ---- a table --------------------------------------------------------------------------------- */
 
-/* The rows of the accepted curves, each one once. */
+/* The rows of the curves with a modulus, accepted or doubtful, each one once. */
 static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of, wt_error *err)
 {
     size_t n = 0;
     for (size_t row = 0; row < t->n_rows; row++) {
         const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
-        if (strcmp(indentation_text(t, row, INDENTATION_VERDICT), "accepted") != 0) {
+        if (!wt_curve_usable_id(indentation_text(t, row, INDENTATION_VERDICT))) {
             d->group.n_rejected++;
             continue;
         }
@@ -212,6 +212,7 @@ static void read_common(const table_view *t, wt_group_data *d)
     }
     d->loss_error = shown_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
+    d->misfit_error = shown_error(t, INDENTATION_KEY_MISFIT_ERROR);
     d->pooled_misfit = plain_number(t, INDENTATION_KEY_POOLED_MISFIT);
     d->pooled_misfit_chance = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
 }

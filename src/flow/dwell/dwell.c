@@ -192,7 +192,7 @@ static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_fo
     if (status != WT_OK)
         return status;
     task->n_dwells++;
-    if (!isfinite(fit.contact_point.value) || !(fit.fitted_modulus > 0)) {
+    if (!isfinite(fit.contact_point.value) || !(fit.modulus.value > 0)) {
         begin_row(task, file, curve, first, "", fit.reason);
         return WT_OK;
     }

@@ -211,7 +211,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                            .spring_constant = k,
                            .poisson_ratio = poisson,
                            .contact_point = fit->contact_point.value,
-                           .modulus = fit->fitted_modulus,
+                           .modulus = fit->modulus.value,
                            .baseline_offset = fit->baseline_offset.value,
                            .baseline_tilt = fit->baseline_tilt};
     status = find_air(curve, approach, fit->direction, &h, to, err);

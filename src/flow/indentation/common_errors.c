@@ -97,6 +97,14 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_er
     return status;
 }
 
+void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
+{
+    size_t n = 0;
+    for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
+        if (of->error[i] > 0 && of->tip[i][1] != NULL)
+            workspace->tip_moved[n++] = of->tip[i][1];
+}
+
 static void forget(common_curve *curve)
 {
     for (int i = 0; i < 2; i++)
@@ -214,7 +222,7 @@ static wt_status move(void *user, size_t item, unsigned worker)
                                f->workspaces[worker], &fit, &f->errors[item]);
         if (status != WT_OK)
             return status;
-        log_modulus[way] = fit.fitted_modulus > 0 ? log(fit.fitted_modulus) : (double)NAN;
+        log_modulus[way] = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     }
     if (step > 0)
         to->gain[at][source] = (log_modulus[1] - log_modulus[0]) / (2 * step);

@@ -34,6 +34,9 @@ typedef struct common_errors {
 
 wt_status common_errors_begin(const wt_indent_job *job, common_errors *to,
                               wt_error *err) WT_NODISCARD;
+/* Fits of the workspace take the stated errors of the tip into account, as long as these are there.
+ */
+void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace);
 /* Keeps a copy of an accepted curve: of every so many of them. */
 wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
                              wt_error *err) WT_NODISCARD;

@@ -321,7 +321,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
     const size_t n = in_contact(k, s, first);
     wt_status status = begin_law(set, k, level, made, n, s, err);
     if (status == WT_OK)
-        status = hereditary_loop(&s->law, &set->tip, 1 / k->spring_constant, s->time, s->base, n,
+        status = hereditary_loop(&s->law, contact, 1 / k->spring_constant, s->time, s->base, n,
                                  s->push, err);
     if (status != WT_OK)
         return status;
@@ -334,7 +334,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
     if (status != WT_OK)
         return status;
     const wt_estimate found = fitted != NULL ? fit.spectrum_factor : fit.modulus;
-    *again = (curve_again){.accepted = fit.verdict == WT_CURVE_ACCEPTED && found.value > 0,
+    *again = (curve_again){.accepted = wt_curve_usable(fit.verdict) && found.value > 0,
                            .level = found.value,
                            .log_level = {log(found.value / level), relative_error(found), 0, "1"},
                            .contact_point = fit.contact_point};

@@ -67,7 +67,7 @@ typedef struct indent_task {
     wt_status status;
     wt_error *err;
     table_writer rows;
-    size_t n_curves, n_accepted, n_failed;
+    size_t n_curves, n_accepted, n_doubtful, n_failed; /* accepted: doubtful ones, too */
     /* equal failures of one file make one row */
     wt_error failure;
     size_t n_equal, first_equal;
@@ -180,7 +180,7 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                                               .curve = it->curve.index,
                                               .order = task->n_moduli};
     task->n_moduli++;
-    return indent_together_add(&task->together, &it->fit, task->options.contact_estimators, err);
+    return indent_together_add(&task->together, &it->fit, &task->options, err);
 }
 
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
@@ -202,9 +202,10 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
         status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
     if (status != WT_OK)
         return status;
-    if (task->rows.status != WT_OK || it->fit.verdict != WT_CURVE_ACCEPTED)
+    if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))
         return task->rows.status;
     task->n_accepted++;
+    task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
     task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
     task->by_sensitivity = task->by_sensitivity || it->curve.cantilever.sensitivity_given;
@@ -401,6 +402,7 @@ static void set_keys(indent_task *task, const flow_files *files)
                               task->k_high);
     indentation_set_text(t, INDENTATION_KEY_SPOTS, spots);
     indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
+    indentation_set_print(t, INDENTATION_KEY_N_DOUBTFUL, "%zu", task->n_doubtful);
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }
 
@@ -459,9 +461,11 @@ static wt_status prepare(indent_task *task, wt_error *err)
     task->items = calloc(task->n_items, sizeof *task->items);
     if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (unsigned i = 0; i < task->n_workers; i++)
+    for (unsigned i = 0; i < task->n_workers; i++) {
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
+        common_errors_tell(&task->common, task->scratch[i]);
+    }
     return WT_OK;
 }
 

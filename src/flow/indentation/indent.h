@@ -16,17 +16,18 @@ typedef struct indent_shifts {
     size_t n;
 } indent_shifts;
 
-/* The accepted curves. */
+/* The curves with a modulus. */
 typedef struct indent_together {
     size_t n;
-    indent_shifts bend, loss, loss_error; /* relative to the modulus */
-    size_t n_unknown;                     /* that lose what their moduli are not known to hold */
-    double (*misfits)[WT_CURVE_WAVES];    /* [n_misfits] of those that have one */
+    indent_shifts bend, loss, loss_error, misfit; /* relative to the modulus */
+    size_t n_misfit;                              /* that show one */
+    size_t n_unknown;                  /* that lose what their moduli are not known to hold */
+    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
     size_t n_misfits;
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
 } indent_together;
-wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit, bool contacts,
-                              wt_error *err);
+wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
+                              const wt_indent_options *options, wt_error *err);
 void indent_together_clear(indent_together *together);
 /* Says what moves all moduli alike, so that their scatter does not show it, tests the mean residual
  * and says where other estimators see contact. */

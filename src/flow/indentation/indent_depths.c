@@ -21,8 +21,10 @@ wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
 {
     if (fit->fitted_from > 0) /* what a law misses at small depths is not in it */
         return WT_OK;
-    if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
-        !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
+    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
+    if ((!wt_curve_usable(fit->verdict) && fit->verdict != WT_CURVE_POOR_FIT) ||
+        (fit->verdict == WT_CURVE_DOUBTFUL && pull) || !isnan(fit->work_of_adhesion.value) ||
+        !isnan(fit->contact_pull.value) || !(fit->modulus.value > 0) || isnan(fit->misfit[0]))
         return WT_OK;
     wt_depth_curve *deep = array_grow(to->curve, to->n, sizeof *deep);
     if (deep == NULL)
@@ -33,7 +35,7 @@ wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
         to->n_spots++;
     to->last_spot = spot;
     *deep =
-        (wt_depth_curve){.modulus = fit->fitted_modulus,
+        (wt_depth_curve){.modulus = fit->modulus.value,
                          .depth = fit->max_indentation,
                          .spring_constant = curve->cantilever.spring_constant,
                          .baseline = fit->baseline_length,

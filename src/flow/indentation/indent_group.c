@@ -17,14 +17,16 @@ static void add_shift(indent_shifts *all, double shift)
     all->n++;
 }
 
-wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit, bool contacts,
-                              wt_error *err)
+wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
+                              const wt_indent_options *options, wt_error *err)
 {
     add_shift(&to->bend, fit->bend_shift / fit->modulus.value);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
+    add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
+    to->n_misfit += fit->lack_of_fit_chance < options->least_chance;
     to->n_unknown += indent_loss_is_unknown(fit);
-    if (contacts) {
+    if (options->contact_estimators) {
         double(*more)[WT_CONTACT_ESTIMATORS] = array_grow(to->contacts, to->n, sizeof *more);
         if (more == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -105,11 +107,18 @@ static void pool_curves(const indent_together *together, const wt_indent_job *jo
     const size_t n = together->n_misfits;
     const wt_curve_pool pool =
         wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])together->misfits, n);
+    const bool seen = pool.chance < job->options.least_chance;
+    /* What all curves miss alike does not average away; what each of them misses may be alike. */
+    indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR,
+                          seen || 2 * together->n_misfit > together->n
+                              ? together->misfit.sum / (double)together->n
+                              : 0,
+                          0, 0);
     if (isnan(pool.chance))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
-    if (pool.chance < job->options.least_chance)
+    if (seen)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
                         "force, which scatter does not explain (chance %s): another tip, a "

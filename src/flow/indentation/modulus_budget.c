@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* The shared ones first, then those that the curves themselves show, then the scatter. */
-enum { LOSS = WT_COMMON_SOURCES, BEND, SCATTER, PARTS };
+enum { LOSS = WT_COMMON_SOURCES, BEND, MISFIT, SCATTER, PARTS };
 
 typedef struct part {
     const char *words;
@@ -64,6 +64,11 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
                            d->loss_error != 0};
     const double bend = fabs(d->bend_error);
     b->part[BEND] = (part){"bend of the baselines", bend, bend, {1, 0, 0, "1"}, bend != 0};
+    b->part[MISFIT] = (part){"misfit of the contact law",
+                             d->misfit_error,
+                             d->misfit_error,
+                             {1, 0, 0, "1"},
+                             d->misfit_error > 0};
     for (int i = 0; i < SCATTER; i++) /* an error whose effect is not known makes all of it so */
         if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_COMMON_SOURCES))
             variance += b->part[i].error * b->part[i].error;
