@@ -23,7 +23,7 @@ struct wt_parselog {
     size_t lost;
 };
 
-static int compare(const void *a, const void *b)
+static int by_entry(const void *a, const void *b)
 {
     const log_entry *const p = a, *const q = b;
     if (p->severity != q->severity)
@@ -86,7 +86,7 @@ static bool add(wt_parselog *log, wt_severity severity, const char *file, const 
     if (entries != NULL)
         log->entries = entries;
     log_entry *const *const found =
-        entries != NULL ? tsearch(new_entry, &log->tree, compare) : NULL;
+        entries != NULL ? tsearch(new_entry, &log->tree, by_entry) : NULL;
     if (found != NULL && *found == new_entry) {
         log->entries[log->n++] = new_entry;
         return true;

@@ -163,7 +163,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
 }
 
 /* The n pieces of a text that a mark parts, without blanks around them; NULL when out of memory. */
-static char **split(const char *text, char mark, size_t n)
+static char **split_at_mark(const char *text, char mark, size_t n)
 {
     char **pieces = calloc(n, sizeof *pieces);
     const char *begin = text;
@@ -192,7 +192,7 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
         n_parts += *p == (range ? ':' : ',');
     if (n_parts > (range ? 4 : MAX_LIST))
         return list_error(text, range ? "too many parts" : "the list is too long", err);
-    char **parts = split(text, range ? ':' : ',', n_parts);
+    char **parts = split_at_mark(text, range ? ':' : ',', n_parts);
     if (parts == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else if (!range)

@@ -142,7 +142,7 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
 
 /* Converts under the lock. False if `unit` is unknown or not a multiple of `si`. UDUNITS itself
  * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
-static bool convert(const char *unit, const char *si, double *factor, double *offset)
+static bool convert_unit(const char *unit, const char *si, double *factor, double *offset)
 {
     base_of base = {NULL, false};
     ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
@@ -272,16 +272,16 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         char amplitude[UNIT_MAX];
         memcpy(amplitude, text, sizeof amplitude);
         good = strip_root_hertz(amplitude) &&
-               convert(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
+               convert_unit(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
     } else {
-        good = convert(text, si, &f, &o);
+        good = convert_unit(text, si, &f, &o);
         /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
         if (!good && quantity == WT_Q_WAVENUMBER)
-            good = convert(text, "1/m", &f, &o);
+            good = convert_unit(text, "1/m", &f, &o);
         if (!good && quantity == WT_Q_ANGULAR_FREQUENCY)
-            angular = convert(text, "Hz", &f, &o);
+            angular = convert_unit(text, "Hz", &f, &o);
         if (!good && quantity == WT_Q_FREQUENCY)
-            angular = convert(text, "rad/s", &f, &o);
+            angular = convert_unit(text, "rad/s", &f, &o);
     }
     leave_units(before);
     const bool failed = starved;

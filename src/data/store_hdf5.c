@@ -34,7 +34,7 @@ static bool no_memory(reader *r)
 }
 
 /* A name that the data types refuse is the file's fault, not an argument's. */
-static bool taken(reader *r, wt_status status)
+static bool is_taken(reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -235,7 +235,7 @@ static bool read_estimate(reader *r, hid_t group, const char *key, double value,
            read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
            (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
     e.unit = unit;
-    good = good && taken(r, wt_table_set_estimate(table, key, e, r->err));
+    good = good && is_taken(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
@@ -253,7 +253,7 @@ static bool read_keys(reader *r, hid_t group, wt_table *table)
         good = read_number(r, group, keys[i], &value, &is_text);
         if (good && is_text) {
             char *const text = read_text(r, group, keys[i]);
-            good = text != NULL && taken(r, wt_table_set_key(table, keys[i], text, r->err));
+            good = text != NULL && is_taken(r, wt_table_set_key(table, keys[i], text, r->err));
             free(text);
         } else if (good) {
             good = read_estimate(r, group, keys[i], value, table);
@@ -276,9 +276,9 @@ static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows
     char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
     bool good = words != NULL;
     if (good && class == H5T_FLOAT)
-        good = taken(r, wt_table_add_column(table, name, units, words, r->err));
+        good = is_taken(r, wt_table_add_column(table, name, units, words, r->err));
     else if (good && class == H5T_STRING)
-        good = taken(r, wt_table_add_text_column(table, name, words, r->err));
+        good = is_taken(r, wt_table_add_text_column(table, name, words, r->err));
     else if (good)
         good = corrupt(r, name, "a column that is neither numbers nor text");
     free(units);
@@ -304,8 +304,8 @@ static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
         if (blocks[row] != before && blocks[row] != before + (row > 0))
             good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            good = taken(r, wt_table_new_block(table, r->err));
-        good = good && taken(r, wt_table_add_row(table, r->err));
+            good = is_taken(r, wt_table_new_block(table, r->err));
+        good = good && is_taken(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
     hdf5_close(dataset);
@@ -372,7 +372,7 @@ static wt_table *read_table(reader *r, const char *name)
 static bool pass_table(reader *r, const char *name)
 {
     wt_table *const table = read_table(r, name);
-    const bool good = table != NULL && taken(r, table_bytes_write(r->out, table, r->err));
+    const bool good = table != NULL && is_taken(r, table_bytes_write(r->out, table, r->err));
     wt_table_free(table);
     return good;
 }

@@ -11,7 +11,7 @@
 /* ---- headlines of one result ----------------------------------------------------------------- */
 
 /* A row of the table "keys"; the words are those of a text, or what the number is. */
-static void put(table_writer *t, const char *name, wt_estimate e, const char *words)
+static void put_key(table_writer *t, const char *name, wt_estimate e, const char *words)
 {
     table_row(t);
     keys_put_text(t, KEYS_KEY, name);
@@ -27,12 +27,12 @@ static void put_number(table_writer *t, const char *stem, const char *suffix, do
 {
     char name[2 * SCHEMA_NAME_SIZE];
     (void)snprintf(name, sizeof name, "%s%s", stem, suffix);
-    put(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
+    put_key(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
 }
 
 static void put_text(table_writer *t, const char *name, const char *words)
 {
-    put(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+    put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
 static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
@@ -64,7 +64,7 @@ static void put_keys(table_writer *t, const finding_tables *found, const table_v
         if (key->kind == SCHEMA_TEXT)
             put_text(t, key->name, view_key_text(view, schema, i));
         else
-            put(t, key->name, view_key(view, schema, i), key->headline);
+            put_key(t, key->name, view_key(view, schema, i), key->headline);
         if (finding_of_key(found, key, &f))
             put_finding(t, key->name, &f);
     }
@@ -175,7 +175,7 @@ typedef struct columns {
 } columns;
 
 /* Puts the headlines of a result into the list, a new one behind that which it follows there. */
-static wt_status merge(columns *list, const table_view *headlines, wt_error *err)
+static wt_status merge_headlines(columns *list, const table_view *headlines, wt_error *err)
 {
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
@@ -258,7 +258,7 @@ wt_status wt_summary(const char *const *files, const wt_table *const *headlines,
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
         if (status == WT_OK)
-            status = merge(&list, &views[i], err);
+            status = merge_headlines(&list, &views[i], err);
     }
     if (status == WT_OK)
         status = add_columns(table, &list, err);

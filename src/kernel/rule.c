@@ -98,8 +98,8 @@ double rule_running(const gauss_rule *rule, const double *f, double *running)
 
 /* Without a store in between. */
 WIDE_REGISTERS
-static void tops(const double *restrict top, size_t n, const double *restrict f,
-                 const double *restrict g, double *restrict of_f, double *restrict of_g)
+static void top_sums(const double *restrict top, size_t n, const double *restrict f,
+                     const double *restrict g, double *restrict of_f, double *restrict of_g)
 {
     wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
     for (size_t i = 0; i < n; i++) {
@@ -119,7 +119,7 @@ static void tops(const double *restrict top, size_t n, const double *restrict f,
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
                rule_top *of_g)
 {
-    tops(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
+    top_sums(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
 }
 
 double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest)

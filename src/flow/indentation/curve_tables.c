@@ -57,8 +57,8 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
 }
 
 /* Turns elastic forces over modulus into those of rubber with memory. */
-static wt_status remember(const wt_prony *spectrum, const double *time, size_t n, double *force,
-                          wt_error *err)
+static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
+                              wt_error *err)
 {
     hereditary law = {0};
     double before = 0, shortest = (double)INFINITY;
@@ -105,7 +105,7 @@ static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options
             modulus /=
                 (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
         }
-        status = remember(known ? options->spectrum : &power.series, time, m, model, err);
+        status = apply_memory(known ? options->spectrum : &power.series, time, m, model, err);
     }
     for (size_t i = 0; i < n; i++)
         model[i] *= modulus / reduced;

@@ -91,8 +91,8 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
 }
 
 /* NULL when out of memory or when the system cannot convert. */
-static char *convert(const encoding_choice *c, const unsigned char *bytes, size_t length,
-                     size_t *n_out, size_t *n_replaced)
+static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                          size_t *n_out, size_t *n_replaced)
 {
     const size_t unit = c->utf_16 ? 2 : 1;
     /* Two bytes of UTF-16 become at most three, one of Latin-1 at most two. */
@@ -166,7 +166,7 @@ static wt_status decode(const encoding_choice *c, const unsigned char *bytes, si
     if (c->iconv == NULL)
         made.text = clean_utf_8((const char *)bytes, length, &n, &made.n_replaced);
     else
-        made.text = convert(c, bytes, length, &n, &made.n_replaced);
+        made.text = text_to_utf8(c, bytes, length, &n, &made.n_replaced);
     if (made.text == NULL || !find_lines(&made, n)) {
         lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");

@@ -41,8 +41,8 @@ static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err
     return WT_E_CORRUPT;
 }
 
-static wt_status collect(const text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
-                         wt_parselog *log, wt_error *err)
+static wt_status collect_points(const text_file *file, point *points, size_t *n,
+                                wt_spectrum_kind *kind, wt_parselog *log, wt_error *err)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
@@ -101,9 +101,9 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     if (points == NULL || made.wavenumber == NULL || made.density == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK)
-        status = collect(&file, points, &n, &made.kind, log, err);
+        status = collect_points(&file, points, &n, &made.kind, log, err);
     if (status == WT_OK && n < 2)
-        status = text_nothing(&file, "power spectrum", err);
+        status = text_fail_empty(&file, "power spectrum", err);
     if (status == WT_OK)
         qsort(points, n, sizeof *points, by_wavenumber);
     for (made.n = 0; status == WT_OK && made.n < n; made.n++) {
