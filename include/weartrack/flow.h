@@ -309,6 +309,8 @@ typedef struct wt_group_data {
     const char *tip;               /* in words; borrowed from the table; NULL if unknown */
     bool several_levers;           /* the curves have several spring constants */
     bool spots_given;              /* the user named the spots */
+    wt_curve_verdict rejected_for; /* the commonest verdict of the rejected curves */
+    size_t n_rejected_for;         /* that have it */
 } wt_group_data;
 /* A spot is what was named so, else a file, or `each_place` of those that were not named. */
 WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
@@ -570,8 +572,8 @@ typedef struct wt_compare_tables {
     wt_table *modulus_budget; /* NULL where no group states a common error */
 } wt_compare_tables;
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
-/* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for
- * and a group has no accepted curve, WT_E_RANGE if a curve is in both groups. */
+/* Also with bulk or track NULL: then without "comparison". Where a group has no curve with a
+ * modulus it says so, in a row without numbers. WT_E_RANGE if a curve is in both groups. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 

@@ -28,6 +28,7 @@ static double modulus(double mean, int r, int spot)
     return mean * with_rate[r] * exp((spot - 1) * SCATTER * spread[r]);
 }
 
+static wt_curve_verdict verdict_of_all = WT_CURVE_ACCEPTED; /* but the one that is rejected */
 static int n_names = SPOTS; /* of spots; the others are called as those are */
 
 /* An indentation table with all its columns; one curve for each spot and rate, one rejected. */
@@ -73,8 +74,8 @@ static wt_table *indentation(const char *group, double mean)
         snprintf(spot, sizeof spot, "s%d", s % n_names);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
         assert_int_equal(wt_table_put_text(t, SPOT, spot, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, VERDICT, good ? "accepted" : "saturated", NULL),
-                         WT_OK);
+        const char *said = good ? wt_curve_verdict_id(verdict_of_all) : "saturated";
+        assert_int_equal(wt_table_put_text(t, VERDICT, said, NULL), WT_OK);
         if (!good)
             break;
         wt_table_put(t, MODULUS, modulus(mean, r, s));
@@ -722,12 +723,64 @@ static void test_temperature_error(void **state)
     assert_near(key_estimate(tables.dma_comparison, "temperature").standard_error, 2, 1e-12);
 }
 
+/* Without an accepted curve in a group the other one is told, and what rejected the most. */
+static void test_none_accepted(void **state)
+{
+    (void)state;
+    static const struct {
+        wt_curve_verdict verdict;
+        const char *settled_by;
+    } cases[] = {{WT_CURVE_POOR_FIT, "whether it wore"},
+                 {WT_CURVE_DRIFT, "begin farther from the sample"},
+                 {WT_CURVE_NO_CONTACT, "pressed further"},
+                 {WT_CURVE_SATURATED, "or a stiffer lever"},
+                 {WT_CURVE_NEGATIVE, "the sign of the deflection"},
+                 {WT_CURVE_UNREADABLE, "whose approach is there"}};
+    const wt_job common = wt_job_defaults();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const int empty = (int)(i % 2);
+        static const char *const names[2] = {"bulk", "track"};
+        wt_table *groups[2];
+        wt_compare_job job = wt_compare_job_defaults();
+        wt_compare_tables made = {0};
+        char words[256];
+        for (int g = 0; g < 2; g++) {
+            verdict_of_all = g == empty ? cases[i].verdict : WT_CURVE_ACCEPTED;
+            groups[g] = indentation(names[g], BULK);
+        }
+        verdict_of_all = WT_CURVE_ACCEPTED;
+        job.bulk = groups[0];
+        job.track = groups[1];
+        assert_int_equal(wt_compare_groups(&job, &common, &made, NULL), WT_OK);
+        const wt_table *c = made.comparison;
+        const size_t rejected = cases[i].verdict == WT_CURVE_SATURATED ? 7 : 6;
+        snprintf(words, sizeof words,
+                 "cannot say: none of the 7 curves of the %s has a modulus (%zu: %s)",
+                 empty ? "track" : "bulk", rejected, wt_curve_verdict_text(cases[i].verdict));
+        assert_string_equal(wt_table_key(c, "differs"), words);
+        assert_non_null(strstr(wt_table_key(c, "settled_by"), cases[i].settled_by));
+        assert_int_equal(wt_table_n_rows(c), 1);
+        assert_near(cell(c, 0, empty ? "n_bulk" : "n_track"), SPOTS * RATES, 0);
+        assert_near(cell(c, 0, empty ? "spots_bulk" : "spots_track"), SPOTS, 0);
+        assert_near(cell(c, 0, empty ? "n_track" : "n_bulk"), 0, 0);
+        assert_true(isnan(cell(c, 0, "ratio")) && isnan(cell(c, 0, "ratio_low")));
+        assert_null(wt_table_key(c, "modulus_ratio"));
+        assert_int_equal(wt_table_n_rows(made.modulus_groups), 2);
+        assert_near(cell(made.modulus_groups, (size_t)!empty, "geometric_mean"), BULK, 1e-9);
+        assert_true(isnan(cell(made.modulus_groups, (size_t)empty, "geometric_mean")));
+        wt_compare_tables_clear(&made);
+        wt_table_free(groups[0]);
+        wt_table_free(groups[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
         cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_two_spots),
+        cmocka_unit_test(test_none_accepted),
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),
