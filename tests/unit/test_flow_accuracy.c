@@ -441,6 +441,16 @@ static void test_isotherms_again(void **state)
         }
         assert_true(square > 0 && sqrt(square / POINTS) < 0.01);
     }
+    /* the same draw with vertical shifts: a modulus is what the spectrum says over b */
+    wt_sweep moved = {0};
+    for (int i = 0; i < ISOTHERMS; i++)
+        fit.shifts[i].log_b.value = 0.1 * i - 0.15;
+    assert_int_equal(regenerate_sweep(&sweep, &fit, 4, &moved, shift, NULL), WT_OK);
+    for (int i = 0; i < ISOTHERMS; i++)
+        for (int j = 0; j < POINTS; j++)
+            assert_near(moved.isotherms[i].storage_modulus[j] * pow(10, 0.1 * i - 0.15),
+                        again.isotherms[i].storage_modulus[j], 1e-12);
+    wt_sweep_clear(&moved);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(&again);
     wt_master_clear(&fit);
