@@ -1,5 +1,6 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/digest.h"
+#include "base/mix.h"
 #include "base/temporary.h"
 #include "near.h"
 
@@ -333,6 +334,17 @@ static void outfile_failures(void **state)
 }
 
 /* Known answers of FIPS 180-2. */
+/* The first numbers of splitmix64 from the seed 1234567, as the reference implementation gives them
+ * (S. Vigna, splitmix64.c): each seed is the one before and the golden step. */
+static void mixed_numbers(void **state)
+{
+    (void)state;
+    static const uint64_t known[] = {UINT64_C(6457827717110365317), UINT64_C(3203168211198807973),
+                                     UINT64_C(9817491932198370423)};
+    for (uint64_t i = 0; i < sizeof known / sizeof *known; i++)
+        assert_true(mix64(1234567 + i * UINT64_C(0x9e3779b97f4a7c15)) == known[i]);
+}
+
 static void digests(void **state)
 {
     (void)state;
@@ -442,7 +454,7 @@ int main(void)
         cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
         cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
         cmocka_unit_test(digests),         cmocka_unit_test(digests_of_pieces),
-        cmocka_unit_test(provenance),
+        cmocka_unit_test(mixed_numbers),   cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -271,6 +271,25 @@ static void test_nothing_stated(void **state)
     wt_table_free(table);
 }
 
+/* A ratio without an error is no source of one. */
+static void test_exact_ratio(void **state)
+{
+    (void)state;
+    const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
+                                  .modulus_ratio = {0.6, 0, 0, "1"}};
+    set_up();
+    wt_table *table = NULL;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
+                     WT_OK);
+    assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        assert_string_not_equal(text_cell(table, i, "source"), "modulus ratio");
+        assert_string_not_equal(text_cell(table, i, "source"), "stated error");
+        assert_string_not_equal(text_cell(table, i, "source"), "calibration");
+    }
+    wt_table_free(table);
+}
+
 /* The scatter of the spots and what is known of their calibration are parts of one variance. */
 static void test_calibration(void **state)
 {
@@ -422,6 +441,16 @@ static void test_isotherms_again(void **state)
         }
         assert_true(square > 0 && sqrt(square / POINTS) < 0.01);
     }
+    /* the same draw with vertical shifts: a modulus is what the spectrum says over b */
+    wt_sweep moved = {0};
+    for (int i = 0; i < ISOTHERMS; i++)
+        fit.shifts[i].log_b.value = 0.1 * i - 0.15;
+    assert_int_equal(regenerate_sweep(&sweep, &fit, 4, &moved, shift, NULL), WT_OK);
+    for (int i = 0; i < ISOTHERMS; i++)
+        for (int j = 0; j < POINTS; j++)
+            assert_near(moved.isotherms[i].storage_modulus[j] * pow(10, 0.1 * i - 0.15),
+                        again.isotherms[i].storage_modulus[j], 1e-12);
+    wt_sweep_clear(&moved);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(&again);
     wt_master_clear(&fit);
@@ -459,6 +488,7 @@ int main(void)
         cmocka_unit_test(test_one_source_at_a_time),
         cmocka_unit_test(test_seconds),
         cmocka_unit_test(test_nothing_stated),
+        cmocka_unit_test(test_exact_ratio),
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_verdicts_of_shares),

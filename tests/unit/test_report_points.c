@@ -167,6 +167,13 @@ static void test_groups(void **state)
     end_sections(&map);
     end_sections(&dma);
     end_sections(&ratio);
+    /* of three rows and two columns the first panel has the names */
+    char *script = read_plot("out", "material_ratio", "gp"), *key = strstr(script, "unset key");
+    assert_non_null(key);
+    *key = '\0';
+    assert_non_null(strstr(script, " title "));
+    assert_null(strstr(key + 1, " title "));
+    free(script);
 }
 
 static void test_segments_with_their_contact(void **state)
@@ -389,6 +396,8 @@ static void test_names_at_their_places(void **state)
                 fail_msg("error_budget, %s: no %s", number, tic);
         }
         snprintf(tic, sizeof tic, "set title '%s'", number);
+        assert_true(!shown || strstr(script, tic) != NULL);
+        snprintf(tic, sizeof tic, "set yrange [-0.7:%zu.7]", end - first - 1); /* a row for each */
         assert_true(!shown || strstr(script, tic) != NULL);
     }
     free(script);

@@ -549,6 +549,25 @@ static void test_common(void **state)
                 RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
 }
 
+/* So does a half-angle; what is given for tips that state nothing is not taken then. */
+static void test_half_angle(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    for (size_t g = 0; g < 2; g++) {
+        wt_table *const table = g == 0 ? bulk_table : track_table;
+        const wt_estimate error = {0.1, 0, 0, "1"}, gain = {g == 0 ? -1.5 : -1.9, 0, 0, "1"};
+        assert_int_equal(wt_table_set_estimate(table, "half_angle_error", error, NULL), WT_OK);
+        assert_int_equal(wt_table_set_estimate(table, "half_angle_gain", gain, NULL), WT_OK);
+    }
+    wt_compare_job job = wt_compare_job_defaults();
+    job.tip_error = 0.7;
+    assert_non_null(strstr(includes_of(job), "half-angle of the tip"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, 0.4 * 0.1), 1e-9);
+}
+
 static void set_lever(wt_table *table, double value, double error)
 {
     const wt_estimate lever = {value, error, 0, "N/m"};
@@ -788,6 +807,7 @@ int main(void)
         cmocka_unit_test(test_not_known),
         cmocka_unit_test(test_out_of_reach),
         cmocka_unit_test(test_common),
+        cmocka_unit_test(test_half_angle),
         cmocka_unit_test(test_stated_levers),
         cmocka_unit_test(test_not_given),
         cmocka_unit_test(test_shown),
