@@ -254,10 +254,11 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
     const bool fixed = f->kind.contact_fixed;
     const size_t n = f->input.samples.n;
     curve_solution best = {.cost = (double)INFINITY};
+    size_t jump_of_best = jump;
     if (!fixed)
         s.p[CURVE_C] = f->input.samples.position[jump];
     f->kind.jump = jump;
-    f->kind.contact_fixed = true;
+    f->kind.contact_fixed = f->kind.rough = true;
     refine(f, &s);
     f->kind.contact_fixed = fixed;
     for (int round = 0; !fixed && round < MAX_ROUNDS; round++) {
@@ -265,6 +266,7 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
         if (!(s.cost < best.cost))
             break;
         best = s;
+        jump_of_best = f->kind.jump;
         jump = first_beyond(&f->input.samples, s.p[CURVE_C]);
         if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
             n - jump < CURVE_BASELINE_SAMPLES)
@@ -272,6 +274,10 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
         f->kind.jump = jump;
     }
     best = fixed ? s : best;
+    f->kind.jump = jump_of_best;
+    f->kind.rough = false;
+    if (best.converged)
+        refine(f, &best);
     f->kind.jump = best.first_contact;
     return best;
 }
