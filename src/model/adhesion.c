@@ -27,12 +27,12 @@ static const double force_range = 0.3e-9;
 static const double least_work = 1e-9, most_work = 1e3;
 /* Halves and false positions to the last digit of a double need some 60 and 10. */
 /* Of a place: after it the error is of the order of its square. */
-static const double close_step = 1e-8;
+static const double close_step = 1e-7;
 enum {
     MAX_ROUNDS = 200,
     MAX_STEPS = 600,   /* by 4: more than a double has */
     CORNER_NODES = 32, /* where the end of the branch is looked for beside a corner */
-    NODES = 64,        /* of the branch, from which a place on it is guessed: to a thousandth */
+    NODES = 64,        /* of the branch, from which a place on it is guessed, to 1e-7 */
     BLOCK = ADHESION_BLOCK,
 };
 
@@ -153,23 +153,25 @@ double adhesion_release(const adhesion *law, double k)
 
 /* ---- in balance with a lever ----------------------------------------------------------------- */
 
-/* Positions of the base at places of the branch. */
+/* Positions of the base at places of the branch, and how they rise with these. */
 WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double *bare, size_t n,
-                                    double *base)
+                                    double *base, double *rise)
 {
     bare_contacts v;
     const double pull = pull_of(law), soft = law->reduced / k;
     bare_at(law, bare, n, &v);
     for (size_t i = 0; i < n; i++) {
-        const double a = 0.5 * v.slope[i], fall = pull * sqrt(a);
+        const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
+                     q = 0.25 * pull * v.curvature[i] / root;
         base[i] = bare[i] - fall + soft * (v.g[i] - 2.0 * fall * a);
+        rise[i] = 1.0 - q + 2.0 * soft * a * (1.0 - 3.0 * q);
     }
 }
 
 static double base_at(const adhesion *law, double k, double bare)
 {
-    double base;
-    bases_at(law, k, &bare, 1, &base);
+    double base, rise;
+    bases_at(law, k, &bare, 1, &base, &rise);
     return base;
 }
 
@@ -182,15 +184,11 @@ typedef struct balance_block {
  */
 WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
 {
-    bare_contacts v;
-    const double pull = pull_of(law), soft = law->reduced / k;
-    double largest = 0.0;
-    bare_at(law, b->bare, BLOCK, &v);
+    double base[BLOCK], rise[BLOCK], largest = 0.0;
+    bases_at(law, k, b->bare, BLOCK, base, rise);
     for (size_t i = 0; i < BLOCK; i++) {
-        const double bare = b->bare[i], a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
-                     q = 0.25 * pull * v.curvature[i] / root;
-        const double excess = bare - fall + soft * (v.g[i] - 2.0 * fall * a) - b->position[i];
-        const double next = bare - excess / (1.0 - q + 2.0 * soft * a * (1.0 - 3.0 * q));
+        const double bare = b->bare[i], excess = base[i] - b->position[i],
+                     next = bare - excess / rise[i];
         b->low[i] = excess > 0.0 ? b->low[i] : bare;
         b->high[i] = excess > 0.0 ? bare : b->high[i];
         const bool inside = (next >= b->low[i]) & (next <= b->high[i]);
@@ -202,7 +200,7 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
 }
 
 typedef struct branch {
-    double bare[NODES + 1], base[NODES + 1];
+    double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
 } branch;
 
 /* From its end to beyond a position. At its end the position is a square. */
@@ -216,7 +214,24 @@ static void nodes_to(const adhesion *law, double k, double release, double farth
         to->bare[j] = release + share * share * (top - release);
     }
     for (size_t j = 0; j <= NODES; j += BLOCK)
-        bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j);
+        bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
+                 to->rise + j);
+}
+
+/* Between two nodes, by the cubic with their slopes; not at the end, where the slope is infinite.
+ */
+static double guess(const branch *nodes, size_t at, double position)
+{
+    const double low = nodes->bare[at], high = nodes->bare[at + 1],
+                 span = nodes->base[at + 1] - nodes->base[at],
+                 t = (position - nodes->base[at]) / span, u = 1.0 - t;
+    const double line = low + (high - low) * t;
+    if (at == 0)
+        return line;
+    const double bend = u * t *
+                        (u * (span / nodes->rise[at] - (high - low)) -
+                         t * (span / nodes->rise[at + 1] - (high - low)));
+    return line + bend > low && line + bend < high ? line + bend : line;
 }
 
 void adhesion_balance(const adhesion *law, double k, double release, const double *position,
@@ -244,8 +259,7 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
                 at++;
             b.low[j] = nodes.bare[at];
             b.high[j] = nodes.bare[at + 1];
-            b.bare[j] = b.low[j] + (b.high[j] - b.low[j]) * (z - nodes.base[at]) /
-                                       (nodes.base[at + 1] - nodes.base[at]);
+            b.bare[j] = guess(&nodes, at, z);
         }
         for (int round = 0; round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
         }

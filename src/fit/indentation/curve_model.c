@@ -190,23 +190,25 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
 }
 
 /* Contact with a constant pull P: the lever is at a height that is larger by P/k. */
-static void balance_pull(const curve_law *m, const double p[N], size_t first)
+static void balance_pull(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     const double k = s->spring_constant, e = p[CURVE_E], pull = p[CURVE_W];
+    double higher[N];
+    memcpy(higher, p, sizeof higher);
+    higher[CURVE_C] -= pull / k;
+    m->balanced = false; /* the forces of before have the pull in them */
+    balance(m, higher, first);
     for (size_t i = first; i < s->n; i++) {
-        const double z = s->position[i] - p[CURVE_C], higher = z + pull / k, start = w->delta[i];
-        w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
-        if (m->jump > 0 ? i < m->jump : !(z > 0.0))
-            continue;
-        double g = 0.0, slope = 0.0;
-        if (higher > 0.0)
-            w->delta[i] = curve_balanced_depth(m->table, k, higher, e, 0.0, 1.0, start, &g, &slope);
-        w->g[i] = g - (higher > 0.0 ? pull : -k * z) / e;
-        w->slope[i] = slope;
-        w->by_modulus[i] = g;
-        w->by_work[i] = higher > 0.0 ? -1.0 : 0.0;
+        const double z = s->position[i] - p[CURVE_C], g = w->g[i];
+        const bool touches = m->jump > 0 ? i >= m->jump : z > 0.0, rests = z + pull / k > 0.0;
+        const bool presses = touches && rests;
+        w->delta[i] = presses ? w->delta[i] : 0.0;
+        w->g[i] = !touches ? 0.0 : presses ? g - pull / e : k * z / e;
+        w->slope[i] = presses ? w->slope[i] : 0.0;
+        w->by_modulus[i] = presses ? g : 0.0;
+        w->by_work[i] = presses ? -1.0 : 0.0;
     }
 }
 

@@ -56,6 +56,9 @@ static double dot(const double a[N], const double b[N])
  * the forces. */
 static const double least_step = 1e-5;
 
+/* Of what a step may leave that is none: a thousandth of a standard error. */
+static const double nearly = 1e4;
+static const double stuck = 1e6; /* a hundredth */
 static const double least_damping = 1e-3;
 
 static double by_step(const curve_samples *s, double cost)
@@ -89,7 +92,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
     double expected = (double)INFINITY, kept = 0.0; /* damping of the step before, over ten */
-    const double rounding = by_rounding(s);
+    const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
     wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
     *cost = cost_at(m, p, wave);
@@ -107,7 +110,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             bool solved = solve(&e, damping, step, 1);
             if (damping == 0.0) {
                 expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
-                if (expected <= by_step(s, *cost) || expected <= rounding)
+                if (expected <= close * by_step(s, *cost) || expected <= rounding)
                     return true;
             }
             for (size_t a = 0; a < N; a++)
@@ -130,15 +133,25 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             }
             /* At a kink, where a sample lets go, nothing more is gained however much is expected.
              */
-            if (moved && m->adhesive && damping > 0.0 && before - *cost < 1e4 * by_step(s, before))
-                return expected <= 1e4 * by_step(s, before);
+            if (moved && m->adhesive && damping > 0.0 &&
+                before - *cost < stuck * by_step(s, before))
+                return expected <= nearly * by_step(s, before);
             if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
                 *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
             }
         }
     }
-    return expected <= 1e4 * by_step(s, *cost);
+    return expected <= nearly * by_step(s, *cost);
+}
+
+static size_t first_contact(const curve_law *m, const double p[N])
+{
+    const curve_samples *s = m->samples;
+    size_t first = 0;
+    while (first < s->n && (m->jump > 0 ? first < m->jump : s->position[first] < p[CURVE_C]))
+        first++;
+    return first;
 }
 
 WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
@@ -148,10 +161,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     const double *p = s->p;
     const size_t n = samples->n;
 
-    size_t first = 0;
-    while (first < n && (m->jump > 0 ? first < m->jump : samples->position[first] < p[CURVE_C]))
-        first++;
-    s->first_contact = first;
+    const size_t first = s->first_contact;
 
     /* A sensitivity larger by a share u acts like a noise of u times the force f: J'f is J'r where
      * the baseline is, which has nothing but noise. */
@@ -213,6 +223,7 @@ curve_law curve_law_of(const wt_contact_table *table, const curve_samples *sampl
                        .constant_pull = kind->constant_pull,
                        .memory = kind->memory && !kind->adhesive,
                        .wave = curve_has_wave(&kind->wave),
+                       .rough = kind->rough && !curve_has_wave(&kind->wave),
                        .jump = kind->jump};
 }
 
@@ -240,7 +251,9 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     if (m.wave)
         s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
     curve_model_complete(&m, s.p);
-    statistics(&m, &s);
+    s.first_contact = first_contact(&m, s.p);
+    if (!m.rough)
+        statistics(&m, &s);
     *solution = s;
 }
 
