@@ -227,8 +227,13 @@ static void say_group(const answer_story *story, const char *name, const char *w
         snprintf(interval, sizeof interval, "%s by %s", words_of_interval(&modulus).text,
                  modulus.includes);
     if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
-        answer_say(story, how_different, "difference", "%s: none of the %.0f curves has a modulus.",
-                   words, modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED));
+        const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
+        if (rejected == 1)
+            answer_say(story, how_different, "difference", "%s: the only curve has no modulus.",
+                       words);
+        else
+            answer_say(story, how_different, "difference",
+                       "%s: none of the %.0f curves has a modulus.", words, rejected);
         return;
     }
     answer_say(story, how_different, "difference",

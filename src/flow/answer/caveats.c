@@ -126,8 +126,11 @@ static void calibration_caveats(answer_story *story)
         "by about as much as itself. %s",
         gains, lever);
     tell(&t, "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    /* of a group without a modulus there is no gain, and no ratio in which an error could cancel */
     const char *cantilevers =
-        comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
+        isnan(gain[0]) || isnan(gain[1])
+            ? NULL
+            : comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
     const char *includes = comparison_words(&story->found.comparison, COMPARISON_KEY_INCLUDES);
     if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
         tell(&t,

@@ -132,9 +132,14 @@ static bool judge_empty(const compare_pair *p, compare_verdict *v)
         const size_t used = strlen(v->differs), told = strlen(v->settled_by);
         if (!empty[g])
             continue;
-        clocale_print(v->differs + used, sizeof v->differs - used,
-                      "%snone of the %zu curves of the %s has a modulus",
-                      g > 0 && empty[0] ? "; " : "", d->group.n_rejected, compare_group_name[g]);
+        const char *also = g > 0 && empty[0] ? "; " : "";
+        if (d->group.n_rejected == 1)
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%sthe only curve of the %s has no modulus", also, compare_group_name[g]);
+        else
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%snone of the %zu curves of the %s has a modulus", also,
+                          d->group.n_rejected, compare_group_name[g]);
         const char *better = better_curves(d->rejected_for);
         if (d->n_rejected_for > 0) {
             const size_t end = strlen(v->differs);
