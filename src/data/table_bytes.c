@@ -212,7 +212,7 @@ static bool take_rows(byte_reader *r)
     for (size_t block = 0; good && block < n_blocks; block++) {
         const size_t first = next;
         good = take_count(r, n - 1, &next) &&
-               (block == 0 ? next == 0 : next > first || corrupt(r, "blocks without an order"));
+               ((block == 0 ? next == 0 : next > first) || corrupt(r, "blocks without an order"));
         while (good && r->table->n_rows < next)
             good = is_taken(r, wt_table_add_row(r->table, r->err));
         good = good && is_taken(r, wt_table_new_block(r->table, r->err));
