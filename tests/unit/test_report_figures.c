@@ -2,6 +2,7 @@
  * must hold.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
 #include "drawn_report.h"
 #include "report/drawing.h"
 
@@ -292,6 +293,30 @@ static void test_the_key_lists_what_is_drawn(void **state)
 static void grow_at_once(wt_table *layer, size_t row)
 {
     fixture_put(layer, "thickness", 1e-8 * (double)(row + 1));
+}
+
+/* A time that is the last of the curve is on its axis. */
+static void relax_at_the_end(wt_table *layer)
+{
+    fixture_key(layer, "relaxation_time", number_cell(layer, wt_table_n_rows(layer) - 1, "time"), 0,
+                "s");
+}
+
+static void test_marks_at_the_end(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    const fixture_change change = {"layer", .finish = relax_at_the_end};
+    wt_result *result = fixture_with(&change);
+    const wt_table *const layer = wt_result_find(result, "layer");
+    write_report(result, "ends", NULL);
+    char *script = read_plot("ends", "layer", "gp");
+    const char *label = strstr(script, "set label 'relaxation' at ");
+    assert_non_null(label);
+    assert_near(strtod(label + strlen("set label 'relaxation' at "), NULL),
+                number_cell(layer, wt_table_n_rows(layer) - 1, "time"), 1e-6);
+    free(script);
+    wt_result_free(result);
 }
 
 static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
@@ -617,6 +642,7 @@ int main(void)
         cmocka_unit_test(test_data_have_the_described_columns),
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),
         cmocka_unit_test(test_the_key_lists_what_is_drawn),
+        cmocka_unit_test(test_marks_at_the_end),
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
         cmocka_unit_test(test_label_with_subscripts),
         cmocka_unit_test(test_labels_are_on_the_paper),
