@@ -75,6 +75,9 @@ WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job
 WT_API wt_status wt_tables_read_headlines(const char *path, wt_result **tables,
                                           wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
+/* Says in the failures, of which there is one at least, how much is answered (key "status"). */
+WT_API wt_status wt_failures_answered(wt_table *failures, wt_answered answered,
+                                      wt_error *err) WT_NODISCARD;
 /* What the failure of a file or sample comes to: a row of the failures, whose message does not name
  * it again, and WT_OK; or, where there are none or the work cannot go on, its error and `status`.
  */
@@ -856,7 +859,8 @@ WT_API const wt_params *wt_run_params(void);
 WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NODISCARD;
 /* Runs what the plan says. Stages left out leave no tables; the table "cost" lists every stage.
  * A file that fails in a batch does not stop the others: it is listed in the table "failures" and
- * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. */
+ * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. With no
+ * table of what was asked for the result is one nevertheless, and says WT_ANSWERED_NOTHING. */
 WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 

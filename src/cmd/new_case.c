@@ -102,7 +102,7 @@ static void look_at_entry(new_case *c, entry *e)
     if (found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
         e->place = place_of(&e->found);
     } else {
-        cmd_fail(c->s);
+        cmd_fail_one(c->s);
         snprintf(e->found.words, sizeof e->found.words, "%s", c->s->err.message);
         e->place = UNUSED;
     }
@@ -115,7 +115,7 @@ static wt_status add_files(new_case *c, const char *pattern)
     char **paths = NULL;
     size_t n = 0;
     if (wt_glob(NULL, pattern, &paths, &n, &c->s->err) != WT_OK) {
-        cmd_fail(c->s);
+        cmd_fail_one(c->s);
         return WT_OK;
     }
     entry *grown = realloc(c->entries, (c->n + n) * sizeof *grown);
@@ -329,7 +329,9 @@ int cmd_new_case(int argc, char **argv)
             "patterns are allowed): force curves as bulk or track, by the names of their "
             "folders; DMA sweeps; a power spectrum. What no file says stands there as " FILL_IN ".",
         .common = "output formats files-from",
-        .notes = "Exit status 1 if a file was not understood; the case names it in a comment.",
+        .notes =
+            "Exit status 3 if a file was not understood, 1 if none was; the case names it in a "
+            "comment.",
         .n_files = CMD_SOME};
     cmd_session s = cmd_session_defaults();
     new_case c = {.s = &s};
@@ -344,6 +346,8 @@ int cmd_new_case(int argc, char **argv)
         made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
     if (made == WT_OK) {
         guess_groups(&c);
+        if (s.status == CMD_PARTLY && count_entries(&c, UNUSED) == c.n)
+            s.status = CMD_FAILED;
         made = write_case(&c);
         cmd_say_log(&s, s.log, false);
     }

@@ -79,6 +79,13 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
     return table_end(&t, NULL);
 }
 
+wt_status wt_failures_answered(wt_table *failures, wt_answered answered, wt_error *err)
+{
+    table_writer t = table_continue(failures, &failures_schema, "", err);
+    failures_set_print(&t, FAILURES_KEY_STATUS, "%d", (int)answered);
+    return table_end(&t, NULL);
+}
+
 wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
                         wt_error *err)
 {
