@@ -43,7 +43,7 @@ typedef struct wt_job {
     unsigned threads;          /* 0 = one per processor; never changes a result */
     double tolerance;          /* relative numerical error asked for; default 1e-10 */
     uint64_t seed;             /* of the replicates */
-    size_t replicates;         /* for standard errors; default 64, 0 = no standard errors */
+    size_t replicates;         /* for standard errors; default 200, 0 = no standard errors */
     wt_progress progress;
     wt_parselog *log;          /* borrowed, may be NULL */
     wt_provenance *provenance; /* every file read is added; may be NULL */
@@ -510,10 +510,15 @@ typedef enum wt_solid_program {
 /* Stress and time: Pa and s, MPa and s, GPa and ms. */
 typedef enum wt_solid_units { WT_SOLID_M_KG_S, WT_SOLID_MM_T_S, WT_SOLID_MM_KG_MS } wt_solid_units;
 typedef enum wt_solid_temperature { WT_SOLID_CELSIUS, WT_SOLID_KELVIN } wt_solid_temperature;
+typedef enum wt_solid_domain { WT_SOLID_TIME, WT_SOLID_FREQUENCY } wt_solid_domain;
 typedef struct wt_solid_options {
     wt_solid_units units;
     wt_solid_temperature temperature;
-    double poisson_ratio; /* at all times; default 0.5: incompressible */
+    wt_solid_domain domain; /* of Abaqus, which tells them apart */
+    const char *name;       /* a letter, then letters, digits and '_', 32 at most; NULL: RUBBER */
+    double density;         /* [kg/m3], NaN: not written */
+    double expansion;       /* coefficient of linear thermal expansion [1/K], NaN: not written */
+    double poisson_ratio;   /* at all times; default 0.5: incompressible */
 } wt_solid_options;
 WT_API wt_solid_options wt_solid_options_defaults(void);
 WT_API const wt_params *wt_solid_options_params(void);
@@ -844,7 +849,7 @@ typedef struct wt_run_options {
     double tolerance;    /* relative numerical error asked for; default 1e-10 */
     unsigned threads;    /* 0 = one per processor */
     uint64_t seed;       /* of the draws */
-    size_t replicates;   /* of the draws; default 64 */
+    size_t replicates;   /* of the draws; default 200 */
     wt_progress progress;
     size_t trials;              /* of the table "coverage"; default 100 */
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
