@@ -35,6 +35,16 @@ static void put_text(table_writer *t, const char *name, const char *words)
     put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
+/* Of a verdict the word alone: what stands behind its colon are numbers of columns of their own. */
+static void put_word(table_writer *t, const char *name, const char *verdict)
+{
+    char word[256];
+    const char *colon = strstr(verdict, ": ");
+    (void)snprintf(word, sizeof word, "%.*s",
+                   colon != NULL ? (int)(colon - verdict) : (int)strlen(verdict), verdict);
+    put_text(t, name, word);
+}
+
 static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
                      double high, const char *unit)
 {
@@ -62,7 +72,7 @@ static void put_keys(table_writer *t, const finding_tables *found, const table_v
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
             continue;
         if (key->kind == SCHEMA_TEXT)
-            put_text(t, key->name, view_key_text(view, schema, i));
+            put_word(t, key->name, view_key_text(view, schema, i));
         else
             put_key(t, key->name, view_key(view, schema, i), key->headline);
         if (finding_of_key(found, key, &f))
@@ -91,28 +101,39 @@ static void put_ratio(table_writer *t, const finding_tables *found)
     const finding f = finding_of_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
+    if (f.verdict != NULL)
+        put_word(t, "verdict", f.verdict);
     put_number(t, f.name, "", f.number.value, f.number.unit);
     put_finding(t, f.name, &f);
     put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
 }
 
-/* The first sentence of the answer to the first question. */
-static void put_verdict(table_writer *t, const table_view *view)
+/* A key that is a number without an error. */
+static double plain_key(const char *words)
 {
-    if (view->table == NULL)
-        return;
-    if (answer_words(view, ANSWER_KEY_CASE_TITLE) != NULL)
-        put_text(t, "case_title", answer_words(view, ANSWER_KEY_CASE_TITLE));
-    for (size_t row = 0; row < view->n_rows; row++) {
-        const char *words = answer_text(view, row, ANSWER_ANSWER), *end = strstr(words, ". ");
-        char sentence[512];
-        if (strcmp(answer_text(view, row, ANSWER_KIND), "layer") != 0)
-            continue;
-        (void)snprintf(sentence, sizeof sentence, "%.*s",
-                       end != NULL ? (int)(end - words) : (int)strlen(words), words);
-        put_text(t, "verdict", sentence);
-        return;
-    }
+    double value = (double)NAN;
+    return words != NULL && wt_number_parse(words, strlen(words), '.', &value) ? value
+                                                                               : (double)NAN;
+}
+
+/* How much of what was asked for the result has. */
+static wt_answered answered_by(const table_view *failures, const table_view *notes)
+{
+    bool lost = failures->n_rows > 0;
+    for (size_t row = 0; row < notes->n_rows; row++)
+        lost = lost || strcmp(notes_text(notes, row, NOTES_SEVERITY), "loss") == 0;
+    if (plain_key(failures_words(failures, FAILURES_KEY_STATUS)) == WT_ANSWERED_NOTHING)
+        return WT_ANSWERED_NOTHING;
+    return lost ? WT_ANSWERED_PARTLY : WT_ANSWERED_WHOLE;
+}
+
+/* How far one spectrum is from the isotherms: the number behind the word. */
+static void put_misfit(table_writer *t, const table_view *shifts)
+{
+    static const char *ends[2] = {"_low", "_high"};
+    put_ends(t, "superposition_misfit", ends,
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
 }
 
 /* The tables that have headlines beside those of the findings; behind the first ones all are keys.
@@ -147,11 +168,14 @@ wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_
     for (size_t row = 0; row < views[NOTES].n_rows; row++)
         n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
     table_writer t = table_begin(&keys_schema, err);
-    put_verdict(&t, &views[ANSWER]);
+    put_number(&t, "status", "", answered_by(&views[FAILURES], &views[NOTES]), "1");
+    if (views[ANSWER].table != NULL && answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
+        put_text(&t, "case_title", answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
     put_ratio(&t, &found);
     put_groups(&t, &found);
     for (size_t i = WITH_KEYS; i < N_TABLES; i++)
         put_keys(&t, &found, &views[i]);
+    put_misfit(&t, &views[WITH_KEYS]);
     put_number(&t, "remarks", "", n_remarks, "1");
     put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);

@@ -219,6 +219,10 @@ static wt_status finish_result(conduct *d, wt_error *err)
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
+    if (status == WT_OK && wt_table_n_rows(d->failures) > 0)
+        status = wt_failures_answered(
+            d->failures,
+            wt_result_n_tables(d->result) > 0 ? WT_ANSWERED_PARTLY : WT_ANSWERED_NOTHING, err);
     if (status == WT_OK)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
                              &answer, err);
