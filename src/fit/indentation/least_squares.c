@@ -58,7 +58,7 @@ static const double least_step = 1e-5;
 
 /* Of what a step may leave that is none: a thousandth of a standard error. */
 static const double nearly = 1e4;
-static const double stuck = 1e6; /* a hundredth */
+static const double stuck = 1e8; /* a tenth */
 static const double least_damping = 1e-3;
 
 static double by_step(const curve_samples *s, double cost)
