@@ -58,7 +58,7 @@ static const double least_step = 1e-5;
 
 /* Of what a step may leave that is none: a thousandth of a standard error. */
 static const double nearly = 1e4;
-static const double stuck = 1e6; /* a hundredth */
+static const double stuck = 1e8; /* a tenth */
 static const double least_damping = 1e-3;
 
 static double by_step(const curve_samples *s, double cost)
@@ -91,7 +91,7 @@ static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const w
 static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
-    double expected = (double)INFINITY, kept = 0.0; /* damping of the step before, over ten */
+    double expected = (double)INFINITY, kept = 0.0; /* damping to begin a step with */
     const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
     wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
@@ -118,7 +118,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
             const double before = *cost;
             const bool near = expected < fmax(1e-9 * before, 1e-14 * m->ff);
-            const bool too_far = damping == 0.0 && kept > least_damping && !near;
+            const bool too_far = damping == 0.0 && kept > 0.0 && !near;
             if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
                 double trial_cost = cost_at(m, trial, &trial_wave);
@@ -128,7 +128,10 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
                     memcpy(p, trial, sizeof trial);
                     *wave = trial_wave;
                     moved = true;
-                    kept = 0.1 * damping;
+                    if (damping <= kept) /* at once */
+                        kept = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
+                    else
+                        kept = damping;
                 }
             }
             /* At a kink, where a sample lets go, nothing more is gained however much is expected.
