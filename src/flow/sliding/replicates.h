@@ -6,6 +6,7 @@
 #include "flow/sliding/drawn_materials.h"
 #include "flow/work/draws.h"
 
+/* More than the stated errors of a contact and its layer, which are eleven. */
 enum { REPLICATES_MOST = 12 };
 
 typedef struct replicates {
