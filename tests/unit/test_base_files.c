@@ -5,6 +5,7 @@
 #include "near.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <locale.h>
 #include <signal.h>
@@ -308,6 +309,7 @@ static void outfile_failures(void **state)
     const wt_status status = wt_outfile_commit(file, &err);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_int_equal(status, WT_E_IO);
+    assert_non_null(strstr(err.message, strerror(EFBIG))); /* why, in the words of the system */
     assert_int_equal(count_files(), 0);
 
     /* The target became a folder meanwhile. */

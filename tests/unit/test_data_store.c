@@ -423,6 +423,29 @@ static void outside_links(void **state)
     wt_result_free(result);
 }
 
+/* Blocks begin with 0, also in a table of one row. */
+static void odd_block(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("block.h5", path);
+    wt_table *const t = wt_table_new("one", "");
+    wt_result *const result = wt_result_new();
+    const uint64_t five = 5;
+    assert_true(t != NULL && result != NULL);
+    assert_int_equal(wt_table_add_column(t, "x", "1", "", NULL), WT_OK);
+    assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+    wt_table_put(t, 0, 1);
+    assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),
+                block = H5Dopen2(file, "one/block", H5P_DEFAULT);
+    assert_true(H5Dwrite(block, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &five) >= 0);
+    assert_true(H5Dclose(block) >= 0 && H5Fclose(file) >= 0);
+    check_refused(path, WT_E_CORRUPT);
+    wt_result_free(result);
+}
+
 /* Replaces the column "modulus" of the one table by something else. */
 static void replace_column(const char *path, const wt_result *result, hid_t type, hsize_t n,
                            bool chunked)
@@ -533,10 +556,10 @@ int main(void)
         cmocka_unit_test(length_is_right),    cmocka_unit_test(empty_result),
         cmocka_unit_test(as_others_see_it),   cmocka_unit_test(not_a_store),
         cmocka_unit_test(cut_files),          cmocka_unit_test(flipped_values),
-        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_columns),
-        cmocka_unit_test(cannot_write),       cmocka_unit_test(names_that_collide),
-        cmocka_unit_test(block_without_rows), cmocka_unit_test(first_layout),
-        cmocka_unit_test(headlines),
+        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_block),
+        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
+        cmocka_unit_test(names_that_collide), cmocka_unit_test(block_without_rows),
+        cmocka_unit_test(first_layout),       cmocka_unit_test(headlines),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

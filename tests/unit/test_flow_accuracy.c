@@ -302,6 +302,7 @@ static void test_exact_ratio(void **state)
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
+    assert_non_null(strstr(wt_table_key(table, "lacks"), "modulus ratio"));
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
         assert_string_not_equal(text_cell(table, i, "source"), "modulus ratio");
         assert_string_not_equal(text_cell(table, i, "source"), "stated error");
