@@ -496,11 +496,11 @@ static void test_numbers_of_captions(void **state)
         {"power_spectrum", " height 44.8 ± 1.1 µm. Root-mean-square slope 0.945 ± 0.024."},
         {"friction", " (from material with its shift law, roughness, shear stress, "
                      "thickness of the layer, modulus ratio of the layer)."},
-        {"friction", ", thickness 3.16 ± 0.78 µm. Conditions: nominal pressure 400 kPa, "
+        {"friction", ", thickness 3.16 ± 0.80 µm. Conditions: nominal pressure 400 kPa, "
                      "temperature 30 °C, shear stress of the real contact 5 MPa. "},
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
         {"friction", " Up to 4.0 % of the hysteresis part comes"},
-        {"layer", " Balance thickness 3.16 ± 0.78 µm. Incubation time 1.20 ± 0.15 s. Relaxation "
+        {"layer", " Balance thickness 3.16 ± 0.80 µm. Incubation time 1.20 ± 0.15 s. Relaxation "
                   "time 47 ± 16 s."},
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
