@@ -76,6 +76,27 @@ static double factor_peak(double f, double *height)
     return best;
 }
 
+/* Both peaks are told with their errors, and without where those are not known. Takes the table. */
+static void check_sentence(wt_table *transition)
+{
+    const wt_estimate factor = {280.45, (double)NAN, 0, "K"}, loss = {270.44, 0.31, 0, "K"};
+    char words[1000];
+    wt_result *result = wt_result_new();
+    assert_int_equal(
+        wt_table_set_estimate(transition, "loss_factor_peak_temperature", factor, NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(transition, "loss_modulus_peak_temperature", loss, NULL),
+                     WT_OK);
+    assert_int_equal(wt_result_add(result, transition, NULL), WT_OK);
+    assert_true(wt_result_sentence(result, words, sizeof words) < sizeof words);
+    const char *first = strstr(words, "7.3 \xc2\xb0"
+                                      "C (peak of tan delta, error not known)"),
+               *second = strstr(words, "-2.71 \xc2\xb0"
+                                       "C \xc2\xb1 0.31 K (peak of the loss modulus)");
+    if (first == NULL || second == NULL || second < first)
+        fail_msg("%s", words);
+    wt_result_free(result);
+}
+
 static void test_ramps(void **state)
 {
     (void)state;
@@ -161,6 +182,8 @@ static void test_ramps(void **state)
                 cell(peaks, 0, "loss_factor_peak_temperature_standard_error"), 1e-9);
     assert_near(key_estimate(peaks, "loss_modulus_peak_temperature").value,
                 cell(peaks, 0, "loss_modulus_peak_temperature"), 1e-9);
+    check_sentence(tables.glass_transition);
+    tables.glass_transition = NULL;
     wt_ramp_tables_clear(&tables);
 }
 
