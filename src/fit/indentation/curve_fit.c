@@ -230,8 +230,9 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
-    fit->modulus.standard_error = e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) +
-                                           pow(f->loss_error, 2) + pow(f->other_contact, 2));
+    fit->modulus.standard_error =
+        e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) + pow(f->loss_error, 2) +
+                 pow(f->other_contact, 2) + pow(f->other_law, 2));
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
     fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];

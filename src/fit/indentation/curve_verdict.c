@@ -291,6 +291,13 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));
         return WT_CURVE_DOUBTFUL;
     }
+    const double pull = fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0);
+    if (departure > baseline_bend * fit->max_force && pull > 0.0) {
+        curve_say(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
+                  curve_si(pull, "N").words, curve_si(departure, "N").words,
+                  "a longer baseline would tell them apart");
+        return WT_CURVE_DOUBTFUL;
+    }
     if (departure > baseline_bend * fit->max_force) {
         curve_say(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
                   curve_si(departure, "N").words, 100.0 * departure / fit->max_force,

@@ -22,6 +22,7 @@ static const double plateau_ratio = 5.0; /* force gained before a flat top again
 static const size_t plateau_samples = 5;
 static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
 static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
+static const double end_step = 3.0;    /* of the last sample, in the step before it */
 static const double spike_share = 0.2; /* of the samples: with more it is no spike */
 enum {
     SPIKE_SIDE = 7, /* neighbours on each side */
@@ -256,6 +257,19 @@ static bool above_most(const double side[SPIKE_SIDE], double x)
     return 2 * n > SPIKE_SIDE;
 }
 
+/* Does the force go on from sample i as a contact does at its end? Most of what follows is not
+ * below it then, and the last step grows by less than a factor 3 (the second one of a force that
+ * goes with the square of the depth). */
+static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
+{
+    const double x = s->force[i], step = s->force[kept - 1] - s->force[kept - 2];
+    size_t above = 0;
+    for (size_t j = i + 1; j < s->n; j++)
+        above += s->force[j] > x - 0.5 * far;
+    return i + 1 < s->n ? 2 * above > s->n - i - 1
+                        : x - s->force[kept - 1] < far + end_step * fabs(step);
+}
+
 /* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
  * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
  * one side only, and how that goes on. */
@@ -269,7 +283,7 @@ static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
     if (start || i + SPIKE_SIDE >= s->n) {
         const double level = median_of(start ? right : left, SPIKE_SIDE);
         const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
-        return x - level > far + 2.0 * fabs(level - next);
+        return x - level > far + 2.0 * fabs(level - next) && (start || !goes_on(s, i, kept, far));
     }
     const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
     if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
