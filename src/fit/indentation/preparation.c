@@ -15,12 +15,14 @@
 #include <string.h>
 
 /* Tests of plausibility; each is named in the reason that it gives. */
-static const double missing_share = 0.1;
+static const double missing_share = 0.1; /* of the samples: with more the file is damaged */
 static const double travel_share = 0.5;  /* of the range of the height that must be net travel */
-static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
+/* Least advance of the tip per bending of the lever: 1 % of sensitivity is half of it. */
+static const double rigid_share = 0.02;
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
-static const size_t plateau_samples = 5;
-static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
+static const size_t plateau_samples = 5; /* fewer are a turning point */
+/* A spike beyond its neighbours, in noise: next to the 6 of a pull, which must not be one. */
+static const double spike_noise = 8.0;
 static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
 static const double end_step = 3.0;    /* of the last sample, in the step before it */
 static const double spike_share = 0.2; /* of the samples: with more it is no spike */
@@ -392,7 +394,7 @@ WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char 
 }
 
 /* A tip that hardly goes in, or backwards. */
-static wt_curve_verdict judge_advance(const curve_input *input, char reason[160])
+static wt_curve_verdict advance_verdict(const curve_input *input, char reason[160])
 {
     const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
     if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
@@ -468,7 +470,7 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
-    return judge_advance(input, reason);
+    return advance_verdict(input, reason);
 }
 
 void curve_reverse(curve_samples *s)
