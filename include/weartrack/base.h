@@ -196,7 +196,9 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_DEFLECTION_NOISE, "deflection_noise", "m^2/Hz", "power spectral density of deflection") \
     X(WT_Q_VOLTAGE_NOISE, "voltage_noise", "V^2/Hz", "power spectral density of the detector")     \
     X(WT_Q_VOLTAGE_DENSITY, "voltage_density", "V.Hz^-0.5",                                        \
-      "amplitude spectral density of the detector")
+      "amplitude spectral density of the detector")                                                \
+    X(WT_Q_MASS_DENSITY, "mass_density", "kg/m^3", "mass per volume")                              \
+    X(WT_Q_THERMAL_EXPANSION, "thermal_expansion", "1/K", "coefficient of linear expansion")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

@@ -326,6 +326,12 @@ WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_for
 WT_API wt_status wt_result_contents(const wt_result *result, wt_table **contents,
                                     wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_table_keys(const wt_table *table, wt_table **keys, wt_error *err) WT_NODISCARD;
+/* How much of what was asked for a result answers, as the exit status says it. */
+typedef enum wt_answered {
+    WT_ANSWERED_WHOLE = 0,
+    WT_ANSWERED_NOTHING = 1, /* nothing usable */
+    WT_ANSWERED_PARTLY = 3   /* what failed is left out */
+} wt_answered;
 /* The main numbers and verdicts of a result, as a table "keys". */
 WT_API wt_status wt_result_headlines(const wt_result *result, wt_table **headlines,
                                      wt_error *err) WT_NODISCARD;

@@ -349,7 +349,9 @@ WT_API wt_status wt_worn_tip_fit(const wt_tip *stated, double radius, double dep
  * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
                                     wt_error *err) WT_NODISCARD;
-/* The units are spots if both groups name them, else curves. `offset` is what ln(E_track / E_bulk)
+/* Welch, Biometrika 34 (1947) 28, with the freedom of Satterthwaite, Biometrics Bull. 2 (1946) 110;
+ * Mann and Whitney, Ann. Math. Stat. 18 (1947) 50; Hedges, J. Educ. Stat. 6 (1981) 107.
+ * The units are spots if both groups name them, else curves. `offset` is what ln(E_track / E_bulk)
  * is known to hold beside the difference, such as a temperature or separate levers, with its
  * standard error; NULL = nothing. WT_E_EMPTY for a group without curves, WT_E_RANGE for a modulus
  * that is not positive or groups without any scatter. */
@@ -358,14 +360,14 @@ WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, const w
 /* The smallest number of spots in each group at which a difference `log_ratio` of ln E is seen in
  * four of five trials when spots scatter by `scatter`; 0 if 1000 are not enough. */
 WT_API size_t wt_spots_needed(double log_ratio, double scatter);
-/* Holm's correction of n p-values for n rates; adjusted[n]. A NaN stays and is not counted. */
+/* Holm's correction (Scand. J. Stat. 6 (1979) 65) of n p-values for n rates; adjusted[n]. A NaN
+ * stays and is not counted. */
 WT_API void wt_holm(const double *p, size_t n, double *adjusted);
 /* Equivalent angular frequency [rad/s] of a loading of time t [s] with F ~ delta^p: exp(psi(p+1))/t
  * (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
-/* ---- peaks and values of a curve against temperature ------------------------------------------
- */
+/* ---- peaks and values of a curve against temperature --------------------------------------- */
 
 /* The maximum of a curve of scattered points. The errors are those of the scatter of the points,
  * not of the thermometer. */
@@ -387,8 +389,9 @@ WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, do
 
 /* ---- strain sweeps (Payne effect) ------------------------------------------------------------ */
 
-/* Kraus: storage = storage_inf + (storage_0 - storage_inf) / (1 + x^2), loss = loss_inf +
- * (loss_m - loss_inf) 2 x / (1 + x^2), x = (strain / strain_c)^exponent. */
+/* Kraus 1984, as in Rutherford et al., Polymers 15 (2023) 1675 (doi:10.3390/polym15071675): storage
+ * = storage_inf + (storage_0 - storage_inf) / (1 + x^2), loss = loss_inf + (loss_m - loss_inf) 2 x
+ * / (1 + x^2), x = (strain / strain_c)^exponent. */
 typedef struct wt_kraus {
     double storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
 } wt_kraus;
@@ -538,7 +541,8 @@ WT_API wt_interval wt_student_mean(const double *values, const long *units, size
 
 /* ---- thermal noise of a lever ---------------------------------------------------------------- */
 
-/* A simple harmonic oscillator on a white floor: S(f) = floor + 2 mean_square f0^3 / (pi Q) /
+/* Thermal tune: a simple harmonic oscillator (of a lever: Butt and Jaschke, Nanotechnology 6 (1995)
+ * 1) on a white floor: S(f) = floor + 2 mean_square f0^3 / (pi Q) /
  * ((f0^2 - f^2)^2 + (f f0 / Q)^2), one-sided. Intervals are of 95 %, normal in the logarithm. */
 typedef struct wt_thermal {
     bool found;
@@ -564,7 +568,8 @@ typedef enum wt_medium { WT_MEDIUM_AIR, WT_MEDIUM_WATER } wt_medium;
 typedef struct wt_fluid {
     double density, viscosity; /* [kg/m^3], [Pa s] */
 } wt_fluid;
-/* Dry air at 1013.25 hPa or water at a temperature [K]; NaN for water that is not liquid. */
+/* Dry air at 1013.25 hPa (Sutherland's law) or water (density: Tanaka et al., Metrologia 38 (2001)
+ * 301; viscosity: IAPWS) at a temperature [K]; NaN for water that is not liquid. */
 WT_API wt_fluid wt_fluid_at(wt_medium medium, double temperature);
 /* Of a rectangular blade at the Reynolds number density omega width^2 / (4 viscosity), above 0
  * (Sader, J. Appl. Phys. 84 (1998) 64). */
@@ -694,9 +699,9 @@ typedef struct wt_master {
 WT_API void wt_master_clear(wt_master *master);
 
 /* Fits one relaxation spectrum with shifts of all isotherms to ln E' and ln E'' together. Smoothing
- * and noise by restricted likelihood, a factor on the noise for each isotherm, correlation along
- * it, single points far off left out. Isotherms and points may come in any order; one isotherm is
- * allowed. options NULL = defaults; log may be NULL.
+ * and noise by restricted likelihood (Wood and Fasiolo, Biometrics 73 (2017) 1071), a factor on the
+ * noise for each isotherm, correlation along it, single points far off left out. Isotherms and
+ * points may come in any order; one isotherm is allowed. options NULL = defaults; log may be NULL.
  *
  * Points with a modulus <= 0 are left out with a warning in the log, and are an error (WT_E_RANGE)
  * naming the isotherm if fewer than four others remain. Isotherms that share less than 0.3 decade
@@ -753,8 +758,9 @@ WT_API void wt_common_law_clear(wt_common_law *common);
 WT_API wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common how,
                                    double reference, wt_common_law *common,
                                    wt_error *err) WT_NODISCARD;
-/* log10 aT of an isotherm by the closed form of ISO 18437-6, for comparison: storage moduli alone,
- * neighbour by neighbour, without a vertical shift. NaN where neighbours share too little. */
+/* log10 aT of an isotherm by the closed form of ISO 18437-6 (Gergesova, Zupancic, Saprunov and
+ * Emri, J. Rheol. 55 (2011) 1), for comparison: storage moduli alone, neighbour by neighbour,
+ * without a vertical shift. NaN where neighbours share too little. */
 WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);
 /* What the spectrum was fitted to: MODULI only where both were measured. */
 WT_API wt_shift_by wt_master_shifted_by(const wt_master *master);
@@ -773,8 +779,7 @@ WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t i
                                 wt_prony *prony, wt_shift_law *law, double *log_b,
                                 wt_error *err) WT_NODISCARD;
 
-/* ---- few terms in place of a spectrum ---------------------------------------------------------
- */
+/* ---- few terms in place of a spectrum ------------------------------------------------------ */
 
 typedef struct wt_reduction {
     unsigned terms;   /* 0 (default): as few as the error needs */
@@ -793,7 +798,8 @@ WT_API void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double 
 
 /* A fractional Zener law through the points of a master curve that were not left out, by least
  * squares of the logarithms, and how both it and a series describe them: root mean squares in ln,
- * and Akaike's criterion with the correction for few points, less being better. No errors: what the
+ * and Akaike's criterion with the correction for few points (Hurvich and Tsai, Biometrika 76 (1989)
+ * 297), less being better. No errors: what the
  * law is off is not noise. */
 typedef struct wt_zener_fit {
     double e0, eg, tau, alpha; /* (E0 + Eg z)/(1 + z), z = (i w tau)^alpha; moduli as measured */

@@ -43,7 +43,7 @@ typedef struct wt_job {
     unsigned threads;          /* 0 = one per processor; never changes a result */
     double tolerance;          /* relative numerical error asked for; default 1e-10 */
     uint64_t seed;             /* of the replicates */
-    size_t replicates;         /* for standard errors; default 64, 0 = no standard errors */
+    size_t replicates;         /* for standard errors; default 200, 0 = no standard errors */
     wt_progress progress;
     wt_parselog *log;          /* borrowed, may be NULL */
     wt_provenance *provenance; /* every file read is added; may be NULL */
@@ -75,6 +75,9 @@ WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job
 WT_API wt_status wt_tables_read_headlines(const char *path, wt_result **tables,
                                           wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
+/* Says in the failures, of which there is one at least, how much is answered (key "status"). */
+WT_API wt_status wt_failures_answered(wt_table *failures, wt_answered answered,
+                                      wt_error *err) WT_NODISCARD;
 /* What the failure of a file or sample comes to: a row of the failures, whose message does not name
  * it again, and WT_OK; or, where there are none or the work cannot go on, its error and `status`.
  */
@@ -309,6 +312,8 @@ typedef struct wt_group_data {
     const char *tip;               /* in words; borrowed from the table; NULL if unknown */
     bool several_levers;           /* the curves have several spring constants */
     bool spots_given;              /* the user named the spots */
+    wt_curve_verdict rejected_for; /* the commonest verdict of the rejected curves */
+    size_t n_rejected_for;         /* that have it */
 } wt_group_data;
 /* A spot is what was named so, else a file, or `each_place` of those that were not named. */
 WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
@@ -508,10 +513,15 @@ typedef enum wt_solid_program {
 /* Stress and time: Pa and s, MPa and s, GPa and ms. */
 typedef enum wt_solid_units { WT_SOLID_M_KG_S, WT_SOLID_MM_T_S, WT_SOLID_MM_KG_MS } wt_solid_units;
 typedef enum wt_solid_temperature { WT_SOLID_CELSIUS, WT_SOLID_KELVIN } wt_solid_temperature;
+typedef enum wt_solid_domain { WT_SOLID_TIME, WT_SOLID_FREQUENCY } wt_solid_domain;
 typedef struct wt_solid_options {
     wt_solid_units units;
     wt_solid_temperature temperature;
-    double poisson_ratio; /* at all times; default 0.5: incompressible */
+    wt_solid_domain domain; /* of Abaqus, which tells them apart */
+    const char *name;       /* a letter, then letters, digits and '_', 32 at most; NULL: RUBBER */
+    double density;         /* [kg/m3], NaN: not written */
+    double expansion;       /* coefficient of linear thermal expansion [1/K], NaN: not written */
+    double poisson_ratio;   /* at all times; default 0.5: incompressible */
 } wt_solid_options;
 WT_API wt_solid_options wt_solid_options_defaults(void);
 WT_API const wt_params *wt_solid_options_params(void);
@@ -570,8 +580,8 @@ typedef struct wt_compare_tables {
     wt_table *modulus_budget; /* NULL where no group states a common error */
 } wt_compare_tables;
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
-/* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for
- * and a group has no accepted curve, WT_E_RANGE if a curve is in both groups. */
+/* Also with bulk or track NULL: then without "comparison". Where a group has no curve with a
+ * modulus it says so, in a row without numbers. WT_E_RANGE if a curve is in both groups. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 
@@ -842,7 +852,7 @@ typedef struct wt_run_options {
     double tolerance;    /* relative numerical error asked for; default 1e-10 */
     unsigned threads;    /* 0 = one per processor */
     uint64_t seed;       /* of the draws */
-    size_t replicates;   /* of the draws; default 64 */
+    size_t replicates;   /* of the draws; default 200 */
     wt_progress progress;
     size_t trials;              /* of the table "coverage"; default 100 */
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
@@ -857,7 +867,8 @@ WT_API const wt_params *wt_run_params(void);
 WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NODISCARD;
 /* Runs what the plan says. Stages left out leave no tables; the table "cost" lists every stage.
  * A file that fails in a batch does not stop the others: it is listed in the table "failures" and
- * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. */
+ * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. With no
+ * table of what was asked for the result is one nevertheless, and says WT_ANSWERED_NOTHING. */
 WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 

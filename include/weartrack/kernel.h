@@ -23,10 +23,11 @@ typedef struct wt_layer_state {
     double modulus_ratio; /* E_layer / E_bulk, > 0 */
 } wt_layer_state;
 
-/* How the moduli soften with strain (Payne effect): E' becomes f E', E'' becomes g E''. f and g are
- * linear in ln strain between n >= 1 points and constant outside; the strain at a wavenumber is
- * strain_factor times the rms slope of the roughness up to there. Of a transversely isotropic
- * rubber it is the modulus that its surface feels. */
+/* How the moduli soften with strain (Payne effect; Lorenz, Oh, Nam, Jeon and Persson, J. Chem.
+ * Phys. 142 (2015) 194701): E' becomes f E', E'' becomes g E''. f and g are linear in ln strain
+ * between n >= 1 points and constant outside; the strain at a wavenumber is strain_factor times the
+ * rms slope of the roughness up to there. Of a transversely isotropic rubber it is the modulus that
+ * its surface feels. */
 typedef struct wt_softening {
     size_t n;
     double *strain;  /* [n] amplitude, 1 = 100 %, > 0 and rising */
@@ -39,7 +40,8 @@ WT_API wt_status wt_softening_check(const wt_softening *softening, wt_error *err
 
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
-    double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
+    double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson,
+                     J. Phys.: Condens. Matter 27 (2015) 105102); 1 = Persson 2001 */
     wt_layer_state layer; /* default none */
     unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
     bool without_share;   /* the extrapolated share is not asked for, and NaN; default false */
@@ -101,13 +103,13 @@ WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pr
 WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
                                      wt_estimate shear_stress, double pressure);
 
-/* ---- modified layer
- * ------------------------------------------------------------------------------ */
+/* ---- modified layer ------------------------------------------------------------------------ */
 
 /* Depth profile of the energy density, theory W2: w(z) = sum_i power[i] g(z; q[i]). */
 typedef enum wt_depth_profile {
-    WT_PROFILE_PERSSON,       /* 2 q exp(-2 q z) */
-    WT_PROFILE_INCOMPRESSIBLE /* nu = 1/2 half-space under pressure and local friction m */
+    WT_PROFILE_PERSSON,       /* 2 q exp(-2 q z): J. Phys.: Condens. Matter 18 (2006) 7789 */
+    WT_PROFILE_INCOMPRESSIBLE /* Mohr radius squared in a half-space with nu = 1/2 under a cosine of
+                                 pressure and of shear, local friction m */
 } wt_depth_profile;
 
 /* A source of energy: power per nominal area at a set of wavenumbers (one for a single
@@ -129,7 +131,8 @@ WT_API double wt_energy_density(const wt_energy_source *source, double depth); /
 WT_API double wt_energy_tail(const wt_energy_source *source,
                              double depth); /* int_z^inf w [W/m^2] */
 
-/* Energy closure: Omega = w / critical_energy, modified where int Omega dt >= damage. */
+/* Energy closure, rebuilt from what Mokhtari 2015 says of it: Omega = w / critical_energy, modified
+ * where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
     double critical_energy;    /* U_c [J/m^3], > 0 */
     double damage;             /* Lambda, > 0; default 1 */

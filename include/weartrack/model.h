@@ -14,6 +14,7 @@ extern "C" {
 
 /* ---- tips and contact: F = E/(1-nu^2) G(delta) ---------------------------------------------- */
 
+/* Sneddon, Int. J. Eng. Sci. 3 (1965) 47; pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914. */
 typedef enum wt_tip_shape {
     WT_TIP_BLUNTED_PYRAMID, /* n-sided pyramid with a parabolic cap */
     WT_TIP_PARABOLOID,      /* Hertz: G = 4/3 sqrt(R) delta^1.5; a sphere for delta << R */
@@ -73,7 +74,8 @@ WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *d
 
 /* ---- shift laws ------------------------------------------------------------------------------ */
 
-/* log10 aT = -c1 (T - Tref) / (c2 + T - Tref). */
+/* log10 aT = -c1 (T - Tref) / (c2 + T - Tref): Williams, Landel and Ferry, J. Am. Chem. Soc. 77
+ * (1955) 3701. */
 typedef struct wt_wlf {
     double reference_temperature; /* [K] */
     double c1;                    /* 1 */
@@ -81,7 +83,7 @@ typedef struct wt_wlf {
 } wt_wlf;
 /* NaN at and below the pole Tref - c2. */
 WT_API double wt_wlf_log_shift(const wt_wlf *wlf, double temperature);
-/* log10 aT = (Ea / (R ln 10)) (1/T - 1/Tref); Ea in J/mol. */
+/* Arrhenius: log10 aT = (Ea / (R ln 10)) (1/T - 1/Tref); Ea in J/mol. */
 WT_API double wt_arrhenius_log_shift(double activation_energy, double reference_temperature,
                                      double temperature);
 
@@ -145,7 +147,8 @@ struct wt_material {
  * silent: the kernel reports the share that comes from outside frequency_min..frequency_max. */
 typedef enum wt_extrapolation { WT_EXTRAPOLATE_HOLD, WT_EXTRAPOLATE_SLOPE } wt_extrapolation;
 
-/* Copies the series; shear moduli are converted, E = 2 (1 + nu) G. poisson_ratio in [0, 0.5]. */
+/* Generalised Maxwell model. Copies the series; shear moduli are converted, E = 2 (1 + nu) G.
+ * poisson_ratio in [0, 0.5]. */
 WT_API wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio,
                                    wt_material **material, wt_error *err) WT_NODISCARD;
 /* ln E' and ln E'' linear in ln w between n >= 2 rising knots, all values > 0. Continued with
@@ -154,7 +157,7 @@ WT_API wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio,
 WT_API wt_status wt_material_table(const double *omega, const double *storage, const double *loss,
                                    size_t n, double poisson_ratio, wt_extrapolation extrapolation,
                                    wt_material **material, wt_error *err) WT_NODISCARD;
-/* E(w) = (E0 + Eg z) / (1 + z), z = (i w tau)^alpha. */
+/* Fractional Zener model: E(w) = (E0 + Eg z) / (1 + z), z = (i w tau)^alpha. */
 WT_API wt_status wt_material_fractional_zener(double e0, double eg, double tau, double alpha,
                                               double poisson_ratio, wt_material **material,
                                               wt_error *err) WT_NODISCARD;
@@ -173,7 +176,8 @@ WT_API wt_transverse wt_transverse_defaults(void); /* isotropic */
 WT_API const wt_params *wt_transverse_params(void);
 /* The isotropic solid of this Poisson ratio that its surface feels like. `axial` and `shear` may be
  * NULL or `plane`, the law of which then holds. Takes the laws, also on failure. With one law, all
- * factors 1 and equal Poisson ratios that is `plane` itself. What is unstable or singular shows
+ * factors 1 and equal Poisson ratios that is `plane` itself. The compliance of the surface: Conway,
+ * Farnham and Ku, J. Appl. Mech. 34 (1967) 491. What is unstable or singular shows
  * when frequencies are known: wt_material_law.check. */
 WT_API wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_material *shear,
                                         const wt_transverse *transverse, double poisson_ratio,

@@ -10,7 +10,7 @@
 #include <openssl/sha.h>
 #include <string.h>
 
-static void finish(SHA256_CTX *context, char hex[65])
+static void finish_digest(SHA256_CTX *context, char hex[65])
 {
     static const char digits[] = "0123456789abcdef";
     unsigned char digest[SHA256_DIGEST_LENGTH];
@@ -27,7 +27,7 @@ void wt_digest(const void *bytes, size_t length, char hex[65])
     SHA256_CTX context;
     SHA256_Init(&context);
     SHA256_Update(&context, bytes, length);
-    finish(&context, hex);
+    finish_digest(&context, hex);
 }
 
 /* Several chains, for one would wait for itself at each word. */
@@ -66,6 +66,6 @@ wt_status digest_pieces(digest_source *source, void *user, size_t length, char h
     for (size_t c = 0; c < CHAINS; c++)
         *fingerprint = mix64(*fingerprint ^ chain[c]);
     if (status == WT_OK && hex != NULL)
-        finish(&context, hex);
+        finish_digest(&context, hex);
     return status;
 }

@@ -105,7 +105,7 @@ static size_t data_size(void)
 }
 
 /* Signals wait until the new process has forgotten the handlers of this one. */
-static pid_t start(int to, const door_call *door, const door_limits *limits)
+static pid_t start_child(int to, const door_call *door, const door_limits *limits)
 {
     sigset_t all, before;
     const pid_t parent = getpid();
@@ -145,7 +145,7 @@ struct door_flow {
 
 /* Collects what comes until there is so much, it ends or takes too much. Only waiting counts as
  * time: the caller may be long about what it takes. */
-static void collect(door_flow *flow, size_t want)
+static void collect_answer(door_flow *flow, size_t want)
 {
     const size_t most = flow->limits.answer + sizeof(wt_error);
     while (flow->how == COMING && flow->length < want) {
@@ -179,7 +179,7 @@ static void collect(door_flow *flow, size_t want)
 
 /* Ends the process; its state as waitpid gives it, 0 if the caller's program took that. While the
  * pipe has not ended it lives, so that its number is its own. */
-static int finish(pid_t child, bool lives)
+static int finish_child(pid_t child, bool lives)
 {
     int state = 0;
     if (lives)
@@ -191,7 +191,7 @@ static int finish(pid_t child, bool lives)
     return state;
 }
 
-static wt_status refuse(wt_error *err)
+static wt_status advise_damaged(wt_error *err)
 {
     wt_error_advice(err, "the file is damaged or was made to do harm: nothing of it was used; make "
                          "it again from the measured data");
@@ -199,8 +199,8 @@ static wt_status refuse(wt_error *err)
 }
 
 /* Why there is no whole answer. */
-static wt_status explain(const char *what, ending how, int state, const door_limits *limits,
-                         wt_error *err)
+static wt_status explain_ending(const char *what, ending how, int state, const door_limits *limits,
+                                wt_error *err)
 {
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
     if (how == NO_MEMORY)
@@ -219,7 +219,7 @@ static wt_status explain(const char *what, ending how, int state, const door_lim
     else
         (void)wt_fail(err, WT_E_CORRUPT, "the %s library fails on this file%s%s", what,
                       by != 0 ? ": SIG" : "", by != 0 ? sigabbrev_np(by) : "");
-    return refuse(err);
+    return advise_damaged(err);
 }
 
 /* The error that the process reported, as far as it is one. */
@@ -259,7 +259,7 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
         return wt_fail(err, WT_E_IO, "no pipe for reading %s: %s", door->what, strerror(errno));
     }
     flow->from = channel[0];
-    flow->child = start(channel[1], door, limits);
+    flow->child = start_child(channel[1], door, limits);
     const int number = errno;
     (void)close(channel[1]);
     if (flow->child < 0) {
@@ -275,18 +275,18 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
 /* Ends the process, whose answer is over, and says what became of it. */
 static wt_status end_process(door_flow *flow, wt_error *err)
 {
-    const int state = finish(flow->child, flow->how != ENDED);
+    const int state = finish_child(flow->child, flow->how != ENDED);
     flow->child = -1;
     if (flow->how == ENDED && state == 0 && flow->length >= sizeof(wt_error))
         return reported_error(flow->what, flow->bytes + flow->length - sizeof(wt_error),
                               &flow->limits, err);
-    return explain(flow->what, flow->how, state, &flow->limits, err);
+    return explain_ending(flow->what, flow->how, state, &flow->limits, err);
 }
 
 static wt_status fail_unexpected(const door_flow *flow, const char *how, wt_error *err)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", flow->what, how);
-    return refuse(err);
+    return advise_damaged(err);
 }
 
 wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
@@ -294,7 +294,7 @@ wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
     /* The error that the answer ends with must not be taken for a part of it. */
-    collect(flow, n + sizeof(wt_error));
+    collect_answer(flow, n + sizeof(wt_error));
     if (flow->length < n + sizeof(wt_error)) {
         const wt_status status = end_process(flow, err);
         return status != WT_OK ? status : fail_unexpected(flow, "less", err);
@@ -312,7 +312,7 @@ wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
     while (status == WT_OK && flow->how == COMING) {
-        collect(flow, ANSWER_BUFFER + sizeof(wt_error));
+        collect_answer(flow, ANSWER_BUFFER + sizeof(wt_error));
         /* The error at the end is not a part of it. */
         const size_t n = flow->length > sizeof(wt_error) ? flow->length - sizeof(wt_error) : 0;
         status = n > 0 ? sink(user, flow->bytes, n, err) : WT_OK;
@@ -327,7 +327,7 @@ wt_status door_end(door_flow *flow, wt_error *err)
 {
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
-    collect(flow, SIZE_MAX);
+    collect_answer(flow, SIZE_MAX);
     const wt_status status = end_process(flow, err);
     return status == WT_OK && flow->length != sizeof(wt_error) ? fail_unexpected(flow, "more", err)
                                                                : status;
@@ -338,7 +338,7 @@ void door_close(door_flow *flow)
     if (flow == NULL)
         return;
     if (flow->child >= 0)
-        (void)finish(flow->child, true);
+        (void)finish_child(flow->child, true);
     (void)close(flow->from);
     free(flow->bytes);
     free(flow);
@@ -351,7 +351,7 @@ wt_status door_read(const door_call *door, const door_limits *limits, char **ans
     wt_status status = door_begin(door, limits, &flow, err);
     if (status != WT_OK)
         return status;
-    collect(flow, SIZE_MAX);
+    collect_answer(flow, SIZE_MAX);
     status = end_process(flow, err);
     if (status == WT_OK) {
         *answer = flow->bytes;

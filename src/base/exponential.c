@@ -19,7 +19,7 @@ static inline double power_of_two(double shifted)
 }
 
 /* e^x = 2^k (1 + *rest), |*rest| < 0.42; returns 2^k. */
-static inline double split(double x, double *rest)
+static inline double split_power(double x, double *rest)
 {
     const double shift = 0x1.8p52; /* so large that the unit is its last bit */
     /* k times the first part of ln 2 is exact */
@@ -51,7 +51,7 @@ void exponential(const double *restrict x, size_t n, double *restrict power)
 {
     for (size_t i = 0; i < n; i++) {
         double rest;
-        const double scale = split(x[i], &rest);
+        const double scale = split_power(x[i], &rest);
         power[i] = scale + scale * rest;
     }
 }
@@ -61,7 +61,7 @@ void exponential_less_one(const double *restrict x, size_t n, double *restrict p
 {
     for (size_t i = 0; i < n; i++) {
         double rest;
-        const double scale = split(x[i], &rest);
+        const double scale = split_power(x[i], &rest);
         power[i] = (scale - 1) + scale * rest;
     }
 }

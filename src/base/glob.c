@@ -28,7 +28,7 @@ static bool list_take(list *l, char *path)
     return true;
 }
 
-static int compare(const void *a, const void *b)
+static int by_bytes(const void *a, const void *b)
 {
     char *const *const p = a, *const *const q = b;
     return strcmp(*p, *q);
@@ -72,7 +72,7 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
 }
 
 /* The folder with every character that means something to glob quoted. */
-static char *quote(const char *text)
+static char *quote_for_glob(const char *text)
 {
     char *const quoted = malloc(2 * strlen(text) + 1);
     if (quoted == NULL)
@@ -93,14 +93,12 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     list l = {NULL, 0, 0};
     glob_t found = {0};
     struct stat info;
-    char *quoted = quote(folder != NULL ? folder : "");
+    char *quoted = quote_for_glob(folder != NULL ? folder : "");
     char *full = quoted != NULL ? wt_path_join(quoted, pattern) : NULL;
     char *literal = wt_path_join(folder, pattern);
     if (full == NULL || literal == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    if (stat(literal, &info) == 0) {
+    } else if (stat(literal, &info) == 0) {
         /* A file may be called "curve[1].txt". */
         status = add_path(&l, literal, err);
     } else {
@@ -125,12 +123,11 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     }
     if (status == WT_OK) {
         /* Bytewise: glob's own order depends on the locale. */
-        qsort(l.paths, l.n, sizeof *l.paths, compare);
+        qsort(l.paths, l.n, sizeof *l.paths, by_bytes);
         *paths = l.paths;
         *n = l.n;
         l = (list){NULL, 0, 0};
     }
-done:
     wt_strings_free(l.paths, l.n);
     globfree(&found);
     free(quoted);

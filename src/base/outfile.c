@@ -144,32 +144,11 @@ static char *behind_links(const char *path)
     return name;
 }
 
-wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
+/* `info` is of the file that is replaced, NULL if there is none. */
+static wt_status open_stream(wt_outfile *new_file, const char *folder, const struct stat *info,
+                             wt_error *err)
 {
-    wt_status status = WT_OK;
     int descriptor = -1;
-    char *folder = NULL;
-    struct stat info;
-    wt_outfile *new_file = calloc(1, sizeof *new_file);
-    if (new_file == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    const bool exists = stat(path, &info) == 0;
-    new_file->direct = exists && !S_ISREG(info.st_mode);
-    new_file->final = new_file->direct ? strdup(path) : behind_links(path);
-    folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
-    if (folder == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    if ((status = wt_guard_write(path, err)) != WT_OK)
-        goto done;
-    if (exists && S_ISDIR(info.st_mode)) {
-        status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
-        wt_error_expected(err, "the name of a file");
-        goto done;
-    }
     if (new_file->direct) {
         new_file->temporary = strdup(new_file->final);
         if (new_file->temporary != NULL)
@@ -183,23 +162,46 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
     if (descriptor >= 0 && !new_file->direct)
         temporary_hold(descriptor);
     /* Before there is anything in it that others might not read. */
-    const bool moded = !exists || new_file->direct || fchmod(descriptor, info.st_mode & 0777) == 0;
+    const bool moded =
+        info == NULL || new_file->direct || fchmod(descriptor, info->st_mode & 0777) == 0;
     if (descriptor >= 0 && moded)
         new_file->stream = fdopen(descriptor, "w");
-    if (new_file->stream == NULL) {
-        status = wt_fail(err, WT_E_IO, "cannot create the file: %s", strerror(errno));
-        wt_error_advice(err, "check that the folder exists and may be written to");
-        if (descriptor >= 0) {
-            (void)close(descriptor);
-            remove_temporary(new_file);
-        }
-        goto done;
+    if (new_file->stream != NULL)
+        return WT_OK;
+    wt_fail(err, WT_E_IO, "cannot create the file: %s", strerror(errno));
+    wt_error_advice(err, "check that the folder exists and may be written to");
+    if (descriptor >= 0) {
+        (void)close(descriptor);
+        remove_temporary(new_file);
     }
-    *file = new_file;
-    new_file = NULL;
-done:
-    wt_error_file(status != WT_OK ? err : NULL, path);
-    outfile_free(new_file);
+    return WT_E_IO;
+}
+
+wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
+{
+    char *folder = NULL;
+    struct stat info;
+    wt_outfile *new_file = calloc(1, sizeof *new_file);
+    const bool exists = stat(path, &info) == 0;
+    if (new_file != NULL) {
+        new_file->direct = exists && !S_ISREG(info.st_mode);
+        new_file->final = new_file->direct ? strdup(path) : behind_links(path);
+        folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
+    }
+    wt_status status =
+        folder == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(path, err);
+    if (status == WT_OK && exists && S_ISDIR(info.st_mode)) {
+        status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
+        wt_error_expected(err, "the name of a file");
+    }
+    if (status == WT_OK)
+        status = open_stream(new_file, folder, exists ? &info : NULL, err);
+    if (status == WT_OK) {
+        *file = new_file;
+    } else {
+        wt_error_file(err, path);
+        outfile_free(new_file);
+    }
     free(folder);
     return status;
 }

@@ -20,7 +20,7 @@ size_t wt_params_count(const wt_params *params)
 }
 
 /* Record i and where the structure lies that it is about. */
-static const wt_param *locate(const wt_params *params, size_t i, size_t *offset)
+static const wt_param *param_at(const wt_params *params, size_t i, size_t *offset)
 {
     if (i < params->n_own)
         return &params->own[i];
@@ -29,7 +29,7 @@ static const wt_param *locate(const wt_params *params, size_t i, size_t *offset)
         const size_t n = wt_params_count(params->part[k].params());
         if (i < n) {
             *offset += params->part[k].offset;
-            return locate(params->part[k].params(), i, offset);
+            return param_at(params->part[k].params(), i, offset);
         }
         i -= n;
     }
@@ -39,11 +39,11 @@ static const wt_param *locate(const wt_params *params, size_t i, size_t *offset)
 const wt_param *wt_params_get(const wt_params *params, size_t i)
 {
     size_t offset = 0;
-    return locate(params, i, &offset);
+    return param_at(params, i, &offset);
 }
 
 /* Its number in the table; that of all if there is none. */
-static size_t find(const wt_params *params, const char *name)
+static size_t param_number(const wt_params *params, const char *name)
 {
     const size_t n = wt_params_count(params);
     size_t i = 0;
@@ -64,7 +64,7 @@ typedef struct slot {
 static slot slot_of(const wt_params *params, size_t i, void *structure)
 {
     size_t offset = 0;
-    const wt_param *param = locate(params, i, &offset);
+    const wt_param *param = param_at(params, i, &offset);
     char *base = (char *)structure + offset;
     return (slot){param, base + param->offset, (void *)(base + param->count_offset)};
 }
@@ -314,7 +314,7 @@ static wt_status read_member(const slot *s, const char *text, wt_error *err)
 wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
                         const char *text, uint64_t *given, wt_error *err)
 {
-    const size_t i = find(params, name);
+    const size_t i = param_number(params, name);
     if (i == wt_params_count(params))
         return wt_fail(err, WT_E_NOT_FOUND, "there is no parameter '%s'", name);
     const slot s = slot_of(params, i, structure);

@@ -23,7 +23,7 @@ struct wt_parselog {
     size_t lost;
 };
 
-static int compare(const void *a, const void *b)
+static int by_entry(const void *a, const void *b)
 {
     const log_entry *const p = a, *const q = b;
     if (p->severity != q->severity)
@@ -72,7 +72,6 @@ void wt_parselog_free(wt_parselog *log)
 static bool add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
                 const char *text)
 {
-    bool good = false;
     log_entry *new_entry = calloc(1, sizeof *new_entry);
     if (new_entry == NULL)
         return false;
@@ -81,25 +80,21 @@ static bool add(wt_parselog *log, wt_severity severity, const char *file, const 
     new_entry->place = strdup(place != NULL ? place : "");
     new_entry->text = strdup(text);
     new_entry->count = 1;
-    if (new_entry->file == NULL || new_entry->place == NULL || new_entry->text == NULL)
-        goto done;
-    log_entry **const entries = array_grow(log->entries, log->n, sizeof *entries);
-    if (entries == NULL)
-        goto done;
-    log->entries = entries;
-    log_entry *const *const found = tsearch(new_entry, &log->tree, compare);
-    if (found == NULL)
-        goto done;
-    if (*found == new_entry) {
+    const bool whole =
+        new_entry->file != NULL && new_entry->place != NULL && new_entry->text != NULL;
+    log_entry **const entries = whole ? array_grow(log->entries, log->n, sizeof *entries) : NULL;
+    if (entries != NULL)
+        log->entries = entries;
+    log_entry *const *const found =
+        entries != NULL ? tsearch(new_entry, &log->tree, by_entry) : NULL;
+    if (found != NULL && *found == new_entry) {
         log->entries[log->n++] = new_entry;
-        new_entry = NULL;
-    } else {
-        (*found)->count++;
+        return true;
     }
-    good = true;
-done:
+    if (found != NULL)
+        (*found)->count++;
     entry_free(new_entry);
-    return good;
+    return found != NULL;
 }
 
 void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, const char *place,

@@ -53,7 +53,7 @@ static bool is_plain(const char *word)
 }
 
 /* Writes `word` as a shell would need it; returns the end. */
-static char *quote(char *to, const char *word)
+static char *quote_for_shell(char *to, const char *word)
 {
     if (is_plain(word))
         return stpcpy(to, word);
@@ -83,7 +83,7 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
         if (i > 0)
             *to++ = ' ';
         /* Where the program is installed says nothing about the result. */
-        to = quote(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
+        to = quote_for_shell(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
     }
     free(p->command);
     p->command = command;

@@ -68,24 +68,17 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
 {
     if (text == NULL || estimate == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
-    wt_status status;
     wt_estimate parsed = {(double)NAN, 0, 0, wt_quantity_unit(quantity)};
-    char *head = NULL, *tail = NULL;
-    const char *sign = find_plus_minus(text);
-
-    head = copy_trimmed(text, sign != NULL ? sign : text + strlen(text));
-    if (sign != NULL)
-        tail = copy_trimmed(sign + 2, text + strlen(text));
-    if (head == NULL || (sign != NULL && tail == NULL)) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    status = wt_quantity_parse(head, quantity, &parsed.value, err);
+    const char *sign = find_plus_minus(text), *end = text + strlen(text);
+    char *head = copy_trimmed(text, sign != NULL ? sign : end);
+    char *tail = sign != NULL ? copy_trimmed(sign + 2, end) : NULL;
+    wt_status status = head == NULL || (sign != NULL && tail == NULL)
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                           : wt_quantity_parse(head, quantity, &parsed.value, err);
     if (status == WT_OK && tail != NULL)
         status = parse_error_part(tail, quantity, parsed.value, &parsed.standard_error, err);
     if (status == WT_OK)
         *estimate = parsed;
-done:
     free(head);
     free(tail);
     return status;
@@ -170,7 +163,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
 }
 
 /* The n pieces of a text that a mark parts, without blanks around them; NULL when out of memory. */
-static char **split(const char *text, char mark, size_t n)
+static char **split_at_mark(const char *text, char mark, size_t n)
 {
     char **pieces = calloc(n, sizeof *pieces);
     const char *begin = text;
@@ -199,7 +192,7 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
         n_parts += *p == (range ? ':' : ',');
     if (n_parts > (range ? 4 : MAX_LIST))
         return list_error(text, range ? "too many parts" : "the list is too long", err);
-    char **parts = split(text, range ? ':' : ',', n_parts);
+    char **parts = split_at_mark(text, range ? ':' : ',', n_parts);
     if (parts == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else if (!range)

@@ -142,26 +142,22 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
 
 /* Converts under the lock. False if `unit` is unknown or not a multiple of `si`. UDUNITS itself
  * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
-static bool convert(const char *unit, const char *si, double *factor, double *offset)
+static bool convert_unit(const char *unit, const char *si, double *factor, double *offset)
 {
-    bool good = false;
-    ut_unit *from = NULL, *to = NULL;
-    cv_converter *converter = NULL;
     base_of base = {NULL, false};
-    from = ut_parse(units, unit, UT_UTF8);
-    to = ut_parse(units, si, UT_UTF8);
-    if (from == NULL || to == NULL || ut_accept_visitor(from, &visitor, &base) != UT_SUCCESS ||
-        ut_compare(base.product, to) != 0)
-        goto done;
-    converter = ut_get_converter(from, to);
-    if (converter == NULL)
-        goto done;
-    *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
-    /* At 2^60 an offset of temperature is below the last digit. */
-    *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
-                          : cv_convert_double(converter, 1.0);
-    good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
-done:
+    ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
+    const bool alike = from != NULL && to != NULL &&
+                       ut_accept_visitor(from, &visitor, &base) == UT_SUCCESS &&
+                       ut_compare(base.product, to) == 0;
+    cv_converter *converter = alike ? ut_get_converter(from, to) : NULL;
+    bool good = converter != NULL;
+    if (good) {
+        *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
+        /* At 2^60 an offset of temperature is below the last digit. */
+        *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
+                              : cv_convert_double(converter, 1.0);
+        good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
+    }
     cv_free(converter);
     ut_free(from);
     ut_free(to);
@@ -276,16 +272,16 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         char amplitude[UNIT_MAX];
         memcpy(amplitude, text, sizeof amplitude);
         good = strip_root_hertz(amplitude) &&
-               convert(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
+               convert_unit(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
     } else {
-        good = convert(text, si, &f, &o);
+        good = convert_unit(text, si, &f, &o);
         /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
         if (!good && quantity == WT_Q_WAVENUMBER)
-            good = convert(text, "1/m", &f, &o);
+            good = convert_unit(text, "1/m", &f, &o);
         if (!good && quantity == WT_Q_ANGULAR_FREQUENCY)
-            angular = convert(text, "Hz", &f, &o);
+            angular = convert_unit(text, "Hz", &f, &o);
         if (!good && quantity == WT_Q_FREQUENCY)
-            angular = convert(text, "rad/s", &f, &o);
+            angular = convert_unit(text, "rad/s", &f, &o);
     }
     leave_units(before);
     const bool failed = starved;

@@ -41,10 +41,8 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
         status = wt_run(c, run, s->log, &s->result, &n_failed, &s->err);
     cmd_progress_end(s);
     wt_case_free(c);
-    if (s->result != NULL && n_failed > 0) {
+    if (s->result != NULL && n_failed > 0)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
-        s->status = CMD_FAILED;
-    }
     const wt_table *table = s->result != NULL ? wt_result_find(s->result, asked) : NULL;
     if (status == WT_OK && table == NULL)
         status = lacks_table(s, run->trials > 0 ? "intervals to be counted" : "error budget");
@@ -75,26 +73,24 @@ int cmd_accuracy(int argc, char **argv)
                         {wt_run_params(), &run, NULL, 0},
                         {wt_coverage_job_params(), &coverage, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
-        goto done;
+        return cmd_session_free(&s);
     if (s.n_files > 1)
         cmd_usage_error(&s, "one case at most");
     else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
         cmd_usage_error(&s, "--part and --repeats are not for a case");
     else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0))
         cmd_usage_error(&s, "without a case there are --part and --repeats only");
-    else if (s.common.n_columns > 0 && !cmd_read_formats(&s))
-        goto done;
-    else if (s.n_files == 1) {
+    else if (s.n_files == 1 && (s.common.n_columns == 0 || cmd_read_formats(&s))) {
         s.log = wt_parselog_new();
         run.trials = coverage.trials;
         const wt_status made =
             s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
         cmd_end(&s, made);
-    } else if (cmd_begin(&s)) {
+    } else if (s.n_files == 0 && (s.common.n_columns == 0 || cmd_read_formats(&s)) &&
+               cmd_begin(&s)) {
         const wt_status made = wt_accuracy_make(&job, &s.work, &table, &s.err);
         wt_table **const made_tables[] = {&table};
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     }
-done:
     return cmd_session_free(&s);
 }

@@ -9,8 +9,13 @@
 #include "base/param.h"
 #include "weartrack/weartrack.h"
 
-/* Exit status: good, data or run-time error, usage error. */
-enum { CMD_OK = 0, CMD_FAILED = 1, CMD_USAGE = 2 };
+/* Exit status: all that was asked for, nothing usable or a fault, a wrong call, a part of it. */
+enum {
+    CMD_OK = WT_ANSWERED_WHOLE,
+    CMD_FAILED = WT_ANSWERED_NOTHING,
+    CMD_USAGE = 2,
+    CMD_PARTLY = WT_ANSWERED_PARTLY
+};
 
 /* A subcommand gets its own argv: argv[0] is its name. */
 typedef struct cmd_command {
@@ -161,12 +166,16 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
 /* Prints the error on stderr as one line; returns false. */
 bool cmd_fail(cmd_session *s);
+/* The same of one among others, which go on; what was given is then answered in part. */
+void cmd_fail_one(cmd_session *s);
+/* Something is missing from what is given. */
+void cmd_partly(cmd_session *s);
 /* Prints the remarks of a log on stderr, equal words once, and their number; notes too if `notes`;
- * of a quiet call the losses alone. The call has failed where something was lost and, with
- * --strict, where there is a remark at all. */
+ * of a quiet call the losses alone. The call has answered in part where something was lost; with
+ * --strict it has failed where there is a remark at all. */
 void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes);
 /* Lists the files that failed (table "failures", may be NULL) on stderr; false if there are none.
- */
+ * The call has answered in part then, or not at all if the table says so. */
 bool cmd_say_failures(cmd_session *s, const wt_table *failures);
 
 wt_progress cmd_progress_start(cmd_session *s);

@@ -18,7 +18,7 @@ int cmd_friction(int argc, char **argv)
     wt_friction_tables tables = {0};
     wt_table *contact_area = NULL, *directions = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
-        goto done;
+        return cmd_sliding_free(&s);
     const bool has_layer = cmd_given(own, "layer-thickness");
     if (has_layer != cmd_given(own, "modulus-ratio"))
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio go together");
@@ -47,6 +47,5 @@ int cmd_friction(int argc, char **argv)
                                     &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
-done:
     return cmd_sliding_free(&s);
 }

@@ -22,7 +22,9 @@ int cmd_indent(int argc, char **argv)
                 "(folders and patterns are allowed). One row per curve; a curve without a modulus "
                 "says why.",
         .common = "output formats columns files-from provenance cost",
-        .notes = "Exit status 1 if a file could not be read; the others are answered all the same.",
+        .notes =
+            "Exit status 3 if a file or curve could not be read and others are answered, 1 if no "
+            "curve has a modulus.",
         .n_files = CMD_SOME};
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -39,12 +41,10 @@ int cmd_indent(int argc, char **argv)
                         [OF_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
-        goto done;
-    if (own.master == NULL && parts[OF_DMA].given != 0) {
-        (void)cmd_usage_error(&s, "--sample goes with --master");
-        goto done;
-    }
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set) ||
+        (own.master == NULL && parts[OF_DMA].given != 0 &&
+         !cmd_usage_error(&s, "--sample goes with --master")))
+        return cmd_session_free(&s);
     job.sets = &set;
     job.n_sets = 1;
     wt_status made = WT_OK;
@@ -66,6 +66,10 @@ int cmd_indent(int argc, char **argv)
         made = wt_modulus_groups(indentation, 1, &groups, &s.err);
     if (made == WT_OK)
         made = wt_modulus_budget(indentation, 1, &budget, &s.err);
+    if (made == WT_OK && tables.n_accepted == 0) {
+        cmd_say("weartrack indent: no curve has a modulus; the column verdict says why\n");
+        s.status = CMD_FAILED;
+    }
     wt_table **const made_tables[] = {&tables.indentation,
                                       &groups,
                                       &budget,
@@ -73,7 +77,6 @@ int cmd_indent(int argc, char **argv)
                                       &tables.force_displacement,
                                       &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
     return cmd_session_free(&s);

@@ -29,7 +29,8 @@ static void print_facts(const char *name, const wt_table *facts)
     }
 }
 
-static void info_one(cmd_session *s, const char *path, const wt_read_options *options,
+/* Whether it is known what the file is. */
+static bool info_one(cmd_session *s, const char *path, const wt_read_options *options,
                      found_file *found)
 {
     wt_table *facts = NULL;
@@ -40,9 +41,10 @@ static void info_one(cmd_session *s, const char *path, const wt_read_options *op
     /* Somebody who asks what a file is wants to see everything that is odd about it. */
     cmd_say_log(s, log, true);
     if (status != WT_OK)
-        cmd_fail(s);
+        cmd_fail_one(s);
     wt_table_free(facts);
     wt_parselog_free(log);
+    return status == WT_OK;
 }
 
 /* As a shell takes it for one word. */
@@ -107,16 +109,18 @@ int cmd_info(int argc, char **argv)
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read, NULL, 0};
     cmd_session s = cmd_session_defaults();
-    size_t n_found = 0;
+    size_t n_known = 0, n_found = 0;
     found_file found;
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin_reading(&s, read.format))
         return cmd_session_free(&s);
     for (size_t i = 0; i < s.n_files; i++) {
         if (i > 0)
             putchar('\n');
-        info_one(&s, s.files[i], &read, &found);
+        n_known += info_one(&s, s.files[i], &read, &found);
         n_found += found.words[0] != '\0';
     }
+    if (n_known == 0)
+        s.status = CMD_FAILED;
     if (n_found == s.n_files)
         print_next(s.files, s.n_files, &found);
     return cmd_session_free(&s);

@@ -20,7 +20,7 @@ int cmd_layer(int argc, char **argv)
     wt_layer_tables tables = {0};
     wt_table *energy_density = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
-        goto done;
+        return cmd_sliding_free(&s);
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (cmd_sliding_open(&s)) {
@@ -42,6 +42,5 @@ int cmd_layer(int argc, char **argv)
         wt_table **const parts[] = {&tables.layer, &energy_density, &softening, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
-done:
     return cmd_sliding_free(&s);
 }

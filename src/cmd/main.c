@@ -52,7 +52,7 @@ static void print_help(FILE *out)
     fputs("\n  help        the same; `weartrack help SUBCOMMAND` for one of them\n\n"
           "options: --help, --version. Each subcommand has --help and a page "
           "weartrack-SUBCOMMAND(1).\n"
-          "Exit status: 0 good, 1 data or run-time error, 2 usage error.\n",
+          "Exit status: 0 whole, 1 nothing usable or a fault, 2 usage error, 3 answered in part.\n",
           out);
 }
 

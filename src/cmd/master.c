@@ -213,12 +213,10 @@ int cmd_master(int argc, char **argv)
     wt_samples samples = {0, NULL};
     wt_sweep sweep = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
-        !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set))
-        goto done;
-    if (common.common == WT_COMMON_NONE && cmd_given(&parts[COMMON], "common-law-margin")) {
-        (void)cmd_usage_error(&s, "--common-law-margin goes with --common-law");
-        goto done;
-    }
+        !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set) ||
+        (common.common == WT_COMMON_NONE && cmd_given(&parts[COMMON], "common-law-margin") &&
+         !cmd_usage_error(&s, "--common-law-margin goes with --common-law")))
+        return cmd_session_free(&s);
     job.reduction = own.reduction;
     if (!asks_for_few_terms(&parts[EXPORTED], &own))
         s.work.left_out |= WT_EXTRA_REDUCED;
@@ -236,7 +234,6 @@ int cmd_master(int argc, char **argv)
         master_of_samples(&s, &job, &common, &set, &samples);
     else
         master_of_one(&s, made, &job, &common, &saved, &own);
-done:
     wt_samples_clear(&samples);
     wt_sweep_clear(&sweep);
     wt_result_free(given);

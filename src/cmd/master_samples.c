@@ -119,8 +119,8 @@ static wt_status fit_all(cmd_session *s, wt_master_job *job, wt_file_set *set,
 }
 
 /* Those with a series side by side; where they have nothing in common that is said. */
-static void compare(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
-                    wt_compared *of, wt_materials_tables *tables)
+static void compare_samples(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
+                            wt_compared *of, wt_materials_tables *tables)
 {
     wt_error failure = WT_ERROR_INIT;
     wt_materials_job job = wt_materials_job_defaults();
@@ -181,7 +181,7 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *co
         made = fit_all(s, job, set, samples, fits);
     set->read.sample = chosen;
     if (made == WT_OK)
-        compare(s, samples, fits, of, &materials);
+        compare_samples(s, samples, fits, of, &materials);
     common->reference = job->fit.reference_temperature;
     if (made == WT_OK)
         made = find_common_law(s, common, samples, fits, &common_law);

@@ -41,11 +41,22 @@ void cmd_say(const char *format, ...)
     free(text);
 }
 
-bool cmd_fail(cmd_session *s)
+void cmd_partly(cmd_session *s)
+{
+    s->status = s->status == CMD_OK ? CMD_PARTLY : s->status;
+}
+
+void cmd_fail_one(cmd_session *s)
 {
     char line[2048];
     wt_error_format(&s->err, line, sizeof line);
     cmd_say("weartrack %s: %s\n", s->name, line);
+    cmd_partly(s);
+}
+
+bool cmd_fail(cmd_session *s)
+{
+    cmd_fail_one(s);
     s->status = CMD_FAILED;
     return false;
 }
@@ -130,7 +141,9 @@ void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes)
     if (n_remarks > 0 && (strict || !quiet))
         cmd_say("weartrack %s: %zu remark%s%s\n", s->name, n_remarks, n_remarks == 1 ? "" : "s",
                 strict ? ": exit status 1 (--strict)" : "");
-    if (n_losses > 0 || (strict && n_remarks > 0))
+    if (n_losses > 0)
+        cmd_partly(s);
+    if (strict && n_remarks > 0)
         s->status = CMD_FAILED;
 }
 
@@ -149,7 +162,10 @@ bool cmd_say_failures(cmd_session *s, const wt_table *failures)
         else
             cmd_say("  %s: %s\n", where, what);
     }
-    s->status = CMD_FAILED;
+    const char *answered = wt_table_key(failures, "status");
+    cmd_partly(s);
+    if (answered != NULL && atoi(answered) == CMD_FAILED)
+        s->status = CMD_FAILED;
     return true;
 }
 

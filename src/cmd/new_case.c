@@ -1,8 +1,10 @@
 /* weartrack new-case: a commented case file from the files that there are.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cmd/found.h"
 
@@ -14,7 +16,8 @@ typedef enum place { BULK, TRACK, DMA, ROUGHNESS, UNUSED } place;
 typedef struct entry {
     char *path;
     place place;
-    bool guessed;     /* no name says bulk or track */
+    const char *word; /* of its path that says bulk or track; NULL: none does */
+    bool of_folder;   /* that word is in the name of a folder */
     found_file found; /* its words are the problem of a file that could not be read */
 } entry;
 
@@ -27,35 +30,36 @@ typedef struct new_case {
 
 /* ---- what the files are ---------------------------------------------------------------------- */
 
-/* Whether one of the words is in the name, in small letters or capitals. */
-static bool has_word(const char *name, size_t length, const char *const *words)
+/* Which of the words is in the name, in small letters or capitals; NULL: none. */
+static const char *find_word(const char *name, size_t length, const char *const *words)
 {
     for (size_t i = 0; words[i] != NULL; i++)
         for (size_t k = 0, n = strlen(words[i]); k + n <= length; k++)
             if (strncasecmp(name + k, words[i], n) == 0)
-                return true;
-    return false;
+                return words[i];
+    return NULL;
 }
 
 /* By the name of the file, else by that of its folder, else by those of the folders above, as far
  * as they tell the files apart: those behind the first `common` characters. */
-static place group_of(const char *path, size_t common, bool *guessed)
+static void find_group(entry *e, size_t common)
 {
-    static const char *const bulk[] = {"bulk",   "unworn",    "virgin", "outside",
-                                       "beside", "reference", NULL};
-    static const char *const track[] = {"track", "worn", "wear", "scar", "groove", "inside", NULL};
-    const char *end = path + strlen(path);
+    static const char *const words[][7] = {
+        [BULK] = {"bulk", "unworn", "virgin", "outside", "beside", "reference", NULL},
+        [TRACK] = {"track", "worn", "wear", "scar", "groove", "inside", NULL}};
+    const char *const path = e->path, *end = path + strlen(path);
     for (int above = 0; end > path && (above < 2 || end > path + common); above++) {
         const char *slash = memrchr(path, '/', (size_t)(end - path));
         const char *name = slash != NULL ? slash + 1 : path;
-        if (has_word(name, (size_t)(end - name), bulk))
-            return BULK;
-        if (has_word(name, (size_t)(end - name), track))
-            return TRACK;
+        for (place where = BULK; where <= TRACK && e->word == NULL; where++) {
+            e->word = find_word(name, (size_t)(end - name), words[where]);
+            e->place = e->word != NULL ? where : BULK;
+        }
+        e->of_folder = above > 0;
+        if (e->word != NULL)
+            return;
         end = slash != NULL ? slash : path;
     }
-    *guessed = true;
-    return BULK;
 }
 
 /* What the names of force curves say of them; says where they say nothing. */
@@ -75,8 +79,8 @@ static void guess_groups(new_case *c)
     }
     for (size_t i = 0; i < c->n; i++)
         if (c->entries[i].place == BULK) {
-            c->entries[i].place = group_of(c->entries[i].path, common, &c->entries[i].guessed);
-            n_guessed += c->entries[i].guessed;
+            find_group(&c->entries[i], common);
+            n_guessed += c->entries[i].word == NULL;
             n++;
         }
     if (n_guessed > 0)
@@ -102,22 +106,21 @@ static void look_at_entry(new_case *c, entry *e)
     if (found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
         e->place = place_of(&e->found);
     } else {
-        cmd_fail(c->s);
+        cmd_fail_one(c->s);
         snprintf(e->found.words, sizeof e->found.words, "%s", c->s->err.message);
         e->place = UNUSED;
     }
     wt_table_free(facts);
 }
 
-/* What a pattern stands for; without a match it is said and the others go on. */
+/* What a pattern stands for. */
 static wt_status add_files(new_case *c, const char *pattern)
 {
     char **paths = NULL;
     size_t n = 0;
-    if (wt_glob(NULL, pattern, &paths, &n, &c->s->err) != WT_OK) {
-        cmd_fail(c->s);
-        return WT_OK;
-    }
+    const wt_status status = wt_glob(NULL, pattern, &paths, &n, &c->s->err);
+    if (status != WT_OK)
+        return status;
     entry *grown = realloc(c->entries, (c->n + n) * sizeof *grown);
     if (grown == NULL) {
         wt_strings_free(paths, n);
@@ -129,6 +132,51 @@ static wt_status add_files(new_case *c, const char *pattern)
         look_at_entry(c, &grown[c->n++]);
     }
     free(paths);
+    return WT_OK;
+}
+
+/* Files that are not hidden, and folders, which come in the order of their names. */
+static int is_shown(const struct dirent *item)
+{
+    return item->d_name[0] != '.';
+}
+
+/* Files of a folder and of the folders in it; links to folders are not followed, which may lead
+ * back up. */
+static wt_status add_folder(new_case *c, const char *folder)
+{
+    struct dirent **items = NULL;
+    struct stat info;
+    wt_status status = add_files(c, folder);
+    status = status == WT_E_NOT_FOUND ? WT_OK : status; /* folders only */
+    const int n = status == WT_OK ? scandir(folder, &items, is_shown, alphasort) : 0;
+    for (int i = 0; i < n; i++) {
+        char *inner = status == WT_OK ? wt_path_join(folder, items[i]->d_name) : NULL;
+        if (status == WT_OK && inner == NULL)
+            status = wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
+        else if (status == WT_OK && lstat(inner, &info) == 0 && S_ISDIR(info.st_mode))
+            status = add_folder(c, inner);
+        free(inner);
+        free(items[i]);
+    }
+    free(items);
+    return status;
+}
+
+/* What one argument stands for; without a file it is said and the others go on. */
+static wt_status add_argument(new_case *c, const char *pattern)
+{
+    struct stat info;
+    const size_t before = c->n;
+    wt_status status = stat(pattern, &info) == 0 && S_ISDIR(info.st_mode) ? add_folder(c, pattern)
+                                                                          : add_files(c, pattern);
+    if (status == WT_OK && c->n == before) {
+        status = wt_fail(&c->s->err, WT_E_NOT_FOUND, "no file found in the folder");
+        wt_error_file(&c->s->err, pattern);
+    }
+    if (status == WT_OK || status == WT_E_MEMORY)
+        return status;
+    cmd_fail_one(c->s);
     return WT_OK;
 }
 
@@ -174,6 +222,18 @@ static void put_path(FILE *out, const char *output, const char *path)
     free(whole);
 }
 
+/* Why a file of force curves stands where it stands. */
+static void put_reason(FILE *out, const entry *e)
+{
+    if (e->place > TRACK)
+        return;
+    if (e->word == NULL)
+        fputs("; bulk is a guess: no name says bulk or track", out);
+    else
+        fprintf(out, "; %s by \"%s\" in the name of the %s", e->place == BULK ? "bulk" : "track",
+                e->word, e->of_folder ? "folder" : "file");
+}
+
 static void put_files(FILE *out, const new_case *c, place where, const char *element)
 {
     const char *indent = where == BULK || where == TRACK ? "      " : "    ";
@@ -183,11 +243,11 @@ static void put_files(FILE *out, const new_case *c, place where, const char *ele
         if (e->place != where)
             continue;
         if (last == NULL || strcmp(last->found.words, e->found.words) != 0 ||
-            last->guessed != e->guessed) {
+            last->word != e->word || last->of_folder != e->of_folder) {
             fprintf(out, "%s<!-- ", indent);
             put_comment(out, e->found.words);
-            fprintf(out, "%s -->\n",
-                    e->guessed ? "; bulk is a guess: no name says bulk or track" : "");
+            put_reason(out, e);
+            fputs(" -->\n", out);
         }
         last = e;
         fprintf(out, "%s<%s", indent, element);
@@ -285,6 +345,11 @@ static void put_rest(FILE *out, const new_case *c)
         put_comment(out, e->path);
         fputs(": ", out);
         put_comment(out, e->found.words);
+        fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: see weartrack spot"
+              : e->found.kind == WT_KIND_NOISE ? "; noise of a lever: see weartrack thermal"
+              : e->found.is_result             ? "; a result of weartrack"
+                                               : "",
+              out);
         fputs(" -->\n", out);
     }
 }
@@ -325,11 +390,13 @@ int cmd_new_case(int argc, char **argv)
         .name = "new-case",
         .arguments = "[OPTION]... FILE...",
         .what =
-            "Writes a commented case file (weartrack-case(5)) for the files (folders and "
-            "patterns are allowed): force curves as bulk or track, by the names of their "
+            "Writes a commented case file (weartrack-case(5)) for the files (folders, with the "
+            "folders in them, and patterns): force curves as bulk or track, by the names of their "
             "folders; DMA sweeps; a power spectrum. What no file says stands there as " FILL_IN ".",
         .common = "output formats files-from",
-        .notes = "Exit status 1 if a file was not understood; the case names it in a comment.",
+        .notes =
+            "Exit status 3 if a file was not understood, 1 if none was; the case names it in a "
+            "comment.",
         .n_files = CMD_SOME};
     cmd_session s = cmd_session_defaults();
     new_case c = {.s = &s};
@@ -339,11 +406,13 @@ int cmd_new_case(int argc, char **argv)
         return cmd_session_free(&s);
     wt_status made = WT_OK;
     for (size_t i = 0; i < s.n_files && made == WT_OK; i++)
-        made = add_files(&c, s.files[i]);
+        made = add_argument(&c, s.files[i]);
     if (made == WT_OK && c.n == 0)
         made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
     if (made == WT_OK) {
         guess_groups(&c);
+        if (s.status == CMD_PARTLY && count_entries(&c, UNUSED) == c.n)
+            s.status = CMD_FAILED;
         made = write_case(&c);
         cmd_say_log(&s, s.log, false);
     }

@@ -24,7 +24,7 @@ int cmd_report(int argc, char **argv)
     cmd_part parts[] = {{own_params(), &s.common, NULL, 0},
                         {wt_report_params(), &report_options, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
-        goto done;
+        return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
     const wt_progress progress = cmd_progress_start(&s);
     cmd_catch_interruptions();
@@ -40,6 +40,5 @@ int cmd_report(int argc, char **argv)
         cmd_tables_remarks(&s, s.files[0], s.result);
     if (made == WT_OK && !s.common.quiet)
         cmd_say("report page: %s/index.html\n", s.common.output);
-done:
     return cmd_session_free(&s);
 }

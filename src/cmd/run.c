@@ -104,18 +104,19 @@ static wt_status prepare_run(run_call *r)
     return r->own.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
 }
 
-static wt_status compute_run(run_call *r, size_t *n_failed)
+static wt_status compute_run(run_call *r)
 {
     cmd_session *s = &r->s;
+    size_t n_failed = 0;
     r->run.progress = cmd_progress_start(s);
     r->run.no_provenance = !s->common.provenance;
     r->run.formats = s->common.formats;
     r->run.columns = s->common.columns;
     r->run.n_columns = s->common.n_columns;
-    wt_status status = wt_run(r->the_case, &r->run, s->log, &s->result, n_failed, &s->err);
+    wt_status status = wt_run(r->the_case, &r->run, s->log, &s->result, &n_failed, &s->err);
     cmd_progress_end(s);
     cmd_say_log(s, s->log, false);
-    if (s->result != NULL && *n_failed > 0)
+    if (s->result != NULL && n_failed > 0)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
@@ -139,7 +140,6 @@ static wt_status draw_page(run_call *r)
 
 static wt_status run_case(run_call *r, bool style_given)
 {
-    size_t n_failed = 0;
     wt_status status = wt_case_read(r->s.files[0], &r->the_case, &r->s.err);
     if (status == WT_OK)
         status = wt_plan(r->the_case, &r->plan, &r->s.err);
@@ -154,15 +154,13 @@ static wt_status run_case(run_call *r, bool style_given)
     if (status == WT_OK)
         status = cmd_try_output(r->result_name, &r->s.err);
     if (status == WT_OK)
-        status = compute_run(r, &n_failed);
+        status = compute_run(r);
     if (status != WT_OK)
         return status;
     print_answer(r->s.result);
     fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!r->s.common.quiet)
         cmd_say("result: %s\n", r->result_name);
-    if (n_failed > 0)
-        r->s.status = CMD_FAILED;
     return r->own.no_report ? WT_OK : draw_page(r);
 }
 
@@ -191,8 +189,8 @@ int cmd_run(int argc, char **argv)
                 "standard output, the result to an HDF5 file and the figures to a report folder "
                 "with one page.",
         .common = "formats columns provenance",
-        .notes = "--style replaces that of the case.\nExit status 1 if a file of the case failed; "
-                 "the rest is answered all the same.",
+        .notes = "--style replaces that of the case.\nExit status 3 if a file or a stage of the "
+                 "case failed and the rest is answered, 1 if nothing is.",
         .n_files = 1,
         .files = "one case file is needed"};
     run_call r = {.s = cmd_session_defaults(),

@@ -91,8 +91,11 @@ wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user)
     wt_status status = WT_OK;
     wt_table *failures = s->work.failures, *notes = NULL;
     if (cmd_say_failures(s, failures)) {
-        s->work.failures = NULL;
-        status = sink(user, failures, &s->err);
+        status = wt_failures_answered(
+            failures, s->status == CMD_FAILED ? WT_ANSWERED_NOTHING : WT_ANSWERED_PARTLY, &s->err);
+        s->work.failures = status == WT_OK ? NULL : failures;
+        if (status == WT_OK)
+            status = sink(user, failures, &s->err);
     }
     if (status == WT_OK && wt_parselog_count(s->log) > 0) {
         status = wt_notes_table(s->log, NULL, &notes, &s->err);

@@ -17,10 +17,12 @@ static size_t read_all(cmd_session *s, wt_table **headlines)
             cmd_tables_remarks(s, path, result);
         } else {
             wt_error_file(&s->err, path);
-            cmd_fail(s);
+            cmd_fail_one(s);
         }
         wt_result_free(result);
     }
+    if (n_read == 0)
+        s->status = CMD_FAILED;
     return n_read;
 }
 
@@ -32,7 +34,8 @@ int cmd_summary(int argc, char **argv)
         .what = "One row for each result (HDF5 or text stream) with its main numbers, their errors "
                 "or intervals, and verdicts. A column is there if one of the results has it.",
         .common = "output files-from",
-        .notes = "Exit status 1 if a file could not be read; it has no row.",
+        .notes =
+            "Exit status 3 if a file could not be read, which then has no row; 1 if none could.",
         .n_files = CMD_SOME,
         .files = "no result given"};
     export_options form = {WT_EXPORT_TSV};

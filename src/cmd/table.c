@@ -52,10 +52,10 @@ int cmd_table(int argc, char **argv)
     wt_table *made = NULL;
     const wt_table *table = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_is_text(&s))
-        goto done;
+        return cmd_session_free(&s);
     if (s.n_files < 1 || s.n_files > (own.list ? 1 : 2)) {
         cmd_usage_error(&s, "a result and the name of a table are needed");
-        goto done;
+        return cmd_session_free(&s);
     }
     wt_status read = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (read == WT_OK && !own.list)
@@ -71,7 +71,6 @@ int cmd_table(int argc, char **argv)
         cmd_tables_remarks(&s, s.files[0], s.result);
     else
         cmd_fail(&s);
-done:
     wt_table_free(made);
     return cmd_session_free(&s);
 }

@@ -42,7 +42,8 @@ wt_status findings_bind(const wt_result *result, finding_tables *tables, wt_erro
     return status;
 }
 
-static finding nothing(const char *name, const char *words, wt_quantity quantity, const char *unit)
+static finding empty_finding(const char *name, const char *words, wt_quantity quantity,
+                             const char *unit)
 {
     const double unknown = (double)NAN;
     return (finding){.name = name,
@@ -79,7 +80,7 @@ static void find_frequencies(const finding_tables *t, const char *group, double 
 finding finding_of_group(const finding_tables *t, size_t row)
 {
     const char *group = modulus_groups_text(&t->groups, row, MODULUS_GROUPS_GROUP);
-    finding f = nothing("modulus", "Modulus", WT_Q_MODULUS, "Pa");
+    finding f = empty_finding("modulus", "Modulus", WT_Q_MODULUS, "Pa");
     f.number.value = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
@@ -102,7 +103,7 @@ finding finding_of_group(const finding_tables *t, size_t row)
 finding finding_of_ratio(const finding_tables *t)
 {
     const table_view *c = &t->comparison;
-    finding f = nothing("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
+    finding f = empty_finding("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
     if (c->n_rows == 0)
         return f;
     double slowest = (double)NAN, fastest = (double)NAN;
@@ -239,7 +240,7 @@ finding finding_of_friction(const finding_tables *t, friction_key key)
 {
     const schema_field *field = &friction_schema.keys[key];
     const char *words = field->headline != NULL ? field->headline : field->label;
-    finding f = nothing(field->name, words, field->quantity, "1");
+    finding f = empty_finding(field->name, words, field->quantity, "1");
     for (size_t i = 0; i < COUNT_OF(of_friction); i++) {
         if (of_friction[i].key != key || t->friction.table == NULL)
             continue;
@@ -259,7 +260,7 @@ finding finding_of_friction(const finding_tables *t, friction_key key)
 finding finding_of_thickness(const finding_tables *t)
 {
     const schema_field *field = &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS];
-    finding f = nothing(field->name, field->headline, field->quantity, "m");
+    finding f = empty_finding(field->name, field->headline, field->quantity, "m");
     if (t->layer.table == NULL)
         return f;
     f.predicted = true;

@@ -118,7 +118,7 @@ const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment
 }
 
 /* What the file's own value becomes when another is given. */
-static double replaced(bool given, double own, double value)
+static double replaced_value(bool given, double own, double value)
 {
     return given && own > 0 ? value / own : 1;
 }
@@ -127,8 +127,8 @@ double deflection_factor(wt_quantity from, wt_quantity to, const wt_cantilever *
                          const wt_cantilever *used)
 {
     const double s = used->sensitivity, k = used->spring_constant;
-    const double new_s = replaced(used->sensitivity_given, file->sensitivity, s);
-    const double new_k = replaced(used->spring_constant_given, file->spring_constant, k);
+    const double new_s = replaced_value(used->sensitivity_given, file->sensitivity, s);
+    const double new_k = replaced_value(used->spring_constant_given, file->spring_constant, k);
     const bool volts = to == WT_Q_DEFLECTION_VOLTAGE, metres = to == WT_Q_DEFLECTION;
     switch (from) {
     case WT_Q_DEFLECTION_VOLTAGE:

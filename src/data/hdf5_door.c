@@ -46,12 +46,12 @@ static wt_status read_file(const door_call *door, FILE *answer, wt_error *err)
 
 /* ---- in front of it -------------------------------------------------------------------------- */
 
-static void enter(void *scope)
+static void enter_hdf5(void *scope)
 {
     hdf5_enter(scope);
 }
 
-static void leave(void *scope)
+static void leave_hdf5(void *scope)
 {
     hdf5_leave(scope);
 }
@@ -65,8 +65,8 @@ static door_call door_call_of(const hdf5_bytes *from, hdf5_reading *const *readi
                        .size = from->size,
                        .with = reading,
                        .file = from->bytes != NULL ? -1 : from->file,
-                       .enter = enter,
-                       .leave = leave,
+                       .enter = enter_hdf5,
+                       .leave = leave_hdf5,
                        .hold = scope};
 }
 

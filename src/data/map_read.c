@@ -34,13 +34,13 @@ static wt_status corrupt(wt_error *err, const char *place, const char *message)
 }
 
 /* A number that counts something of this file, or -1. */
-static double counted(double value, size_t most)
+static double count_or_none(double value, size_t most)
 {
     return value >= 0 && value <= (double)most && value == floor(value) ? value : -1;
 }
 
-static wt_status bind(const wt_result *result, const table_schema *schema, table_view *view,
-                      wt_error *err)
+static wt_status bind_table(const wt_result *result, const table_schema *schema, table_view *view,
+                            wt_error *err)
 {
     const wt_table *const table = wt_result_find(result, schema->name);
     if (table == NULL)
@@ -55,7 +55,7 @@ static wt_status bind(const wt_result *result, const table_schema *schema, table
 static wt_status take_channels(map_reader *r, wt_error *err)
 {
     table_view v;
-    const wt_status status = bind(r->result, &map_channels_schema, &v, err);
+    const wt_status status = bind_table(r->result, &map_channels_schema, &v, err);
     if (status != WT_OK)
         return status;
     if (v.n_rows == 0 || v.n_rows > WT_Q_COUNT)
@@ -80,19 +80,20 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
     const size_t most = size / sizeof(double) / r->n_channels;
     size_t n_segments = 0;
     for (size_t row = 0; row < r->curves.n_rows; row++) {
-        const double n = counted(map_curves_get(&r->curves, row, MAP_CURVES_SEGMENTS),
-                                 r->segments.n_rows - n_segments);
-        if (n < 0 || counted(map_curves_get(&r->curves, row, MAP_CURVES_CURVE), SIZE_MAX >> 12) < 0)
+        const double n = count_or_none(map_curves_get(&r->curves, row, MAP_CURVES_SEGMENTS),
+                                       r->segments.n_rows - n_segments);
+        if (n < 0 ||
+            count_or_none(map_curves_get(&r->curves, row, MAP_CURVES_CURVE), SIZE_MAX >> 12) < 0)
             return corrupt(err, map_curves_schema.name, "a curve without its segments");
         n_segments += (size_t)n;
     }
     if (n_segments != r->segments.n_rows)
         return corrupt(err, map_segments_schema.name, "segments without a curve");
     for (size_t row = 0; row < n_segments; row++) {
-        const double n =
-            counted(map_segments_get(&r->segments, row, MAP_SEGMENTS_SAMPLES), most - r->n_samples);
-        if (n < 0 ||
-            counted(map_segments_get(&r->segments, row, MAP_SEGMENTS_NUMBER), SIZE_MAX >> 12) < 0)
+        const double n = count_or_none(map_segments_get(&r->segments, row, MAP_SEGMENTS_SAMPLES),
+                                       most - r->n_samples);
+        if (n < 0 || count_or_none(map_segments_get(&r->segments, row, MAP_SEGMENTS_NUMBER),
+                                   SIZE_MAX >> 12) < 0)
             return corrupt(err, map_segments_schema.name, "more samples than the file has");
         r->n_samples += (size_t)n;
     }
@@ -115,9 +116,9 @@ wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reade
     if (status == WT_OK)
         status = take_channels(r, err);
     if (status == WT_OK)
-        status = bind(result, &map_curves_schema, &r->curves, err);
+        status = bind_table(result, &map_curves_schema, &r->curves, err);
     if (status == WT_OK)
-        status = bind(result, &map_segments_schema, &r->segments, err);
+        status = bind_table(result, &map_segments_schema, &r->segments, err);
     if (status == WT_OK)
         status = check_counts(r, from->size, err);
     if (status == WT_OK &&
@@ -210,7 +211,7 @@ static wt_segment_kind kind_of(const char *name)
 
 static long grid_place(double value)
 {
-    return (long)counted(value, INT32_MAX);
+    return (long)count_or_none(value, INT32_MAX);
 }
 
 static double positive_or_nan(double value)

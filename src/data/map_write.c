@@ -55,7 +55,7 @@ bool map_channel_counts(const double *values, size_t n)
 /* ---- arrays ---------------------------------------------------------------------------------- */
 
 /* Puts a block behind those that are there, or the beginning of one. */
-static bool append(hid_t dataset, size_t n_blocks, const double *block, size_t n)
+static bool append_block(hid_t dataset, size_t n_blocks, const double *block, size_t n)
 {
     const hsize_t at = (hsize_t)n_blocks * MAP_BLOCK, count = n, size = at + n;
     if (H5Dset_extent(dataset, &size) < 0)
@@ -117,14 +117,14 @@ static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
     c->dataset = make_dataset(w, c->quantity);
     bool good = c->dataset >= 0;
     for (size_t i = 0; good && i < w->n_blocks; i++)
-        good = append(c->dataset, i, c->block, MAP_BLOCK);
+        good = append_block(c->dataset, i, c->block, MAP_BLOCK);
     hdf5_leave(&scope);
     w->names.err = w->err;
     TABLE_ADD(map_channels, &w->names, wt_quantity_id(c->quantity), as->name, as->unit);
     return good ? w->names.status : store_failed(w->file, w->err);
 }
 
-static wt_status flush(wt_map_writer *w)
+static wt_status write_block(wt_map_writer *w)
 {
     hdf5_scope scope;
     bool good = true;
@@ -132,7 +132,7 @@ static wt_status flush(wt_map_writer *w)
         return WT_OK;
     hdf5_enter(&scope);
     for (size_t i = 0; good && i < w->n_channels; i++) {
-        good = append(w->channels[i].dataset, w->n_blocks, w->channels[i].block, w->n);
+        good = append_block(w->channels[i].dataset, w->n_blocks, w->channels[i].block, w->n);
         empty_block(w->channels[i].block);
     }
     hdf5_leave(&scope);
@@ -143,7 +143,7 @@ static wt_status flush(wt_map_writer *w)
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static const wt_channel *find(const wt_segment *segment, wt_quantity quantity)
+static const wt_channel *channel_of(const wt_segment *segment, wt_quantity quantity)
 {
     const wt_channel *const c = wt_segment_channel(segment, quantity);
     return c != NULL && map_channel_counts(c->values, segment->n_points) ? c : NULL;
@@ -164,7 +164,7 @@ static wt_status put_samples(wt_map_writer *w, const wt_segment *segment)
         w->n += n;
         i += n;
         if (w->n == MAP_BLOCK)
-            status = flush(w);
+            status = write_block(w);
     }
     return status;
 }
@@ -184,7 +184,7 @@ static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32
             status = add_channel(w, &segment->channels[c]);
     }
     for (size_t k = 0; k < w->n_channels; k++) {
-        const wt_channel *const c = find(segment, w->channels[k].quantity);
+        const wt_channel *const c = channel_of(segment, w->channels[k].quantity);
         if (c != NULL)
             *sum = map_checksum(*sum, c->values, segment->n_points);
     }
@@ -287,7 +287,7 @@ wt_status wt_map_end(wt_map_writer *w, wt_result *result, bool with_provenance, 
 {
     table_writer *const tables[] = {&w->curves, &w->segments, &w->names};
     w->err = err;
-    wt_status status = w->failed != WT_OK ? failed_before(w, err) : flush(w);
+    wt_status status = w->failed != WT_OK ? failed_before(w, err) : write_block(w);
     if (status == WT_OK && !close_arrays(w, true))
         status = store_failed(w->file, err);
     for (size_t i = 0; status == WT_OK && i < sizeof tables / sizeof *tables; i++) {

@@ -52,35 +52,28 @@ static bool collide(const char *a, const char *b)
 wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
 {
     wt_status status = WT_OK;
+    wt_table **tables = NULL;
     if (!table_name_is_valid(table->name) || collide(table->name, "case") ||
         collide(table->name, "provenance")) {
         status = wt_fail(err, WT_E_ARG, "not a name for a table");
         wt_error_expected(err, "a to z, digits and '_' in parts joined by '/', but not \"case\" "
                                "or \"provenance\"");
         wt_error_found(err, "\"%s\"", table->name);
-        goto done;
-    }
-    if (result->n >= RESULT_TABLES_MAX) {
+    } else if (result->n >= RESULT_TABLES_MAX) {
         status = wt_fail(err, WT_E_ARG, "more than %d tables", (int)RESULT_TABLES_MAX);
-        goto done;
     }
-    for (size_t i = 0; i < result->n; i++) {
-        if (collide(result->tables[i]->name, table->name)) {
+    for (size_t i = 0; status == WT_OK && i < result->n; i++)
+        if (collide(result->tables[i]->name, table->name))
             status = wt_fail(err, WT_E_ARG, "tables \"%s\" and \"%s\" collide",
                              result->tables[i]->name, table->name);
-            goto done;
-        }
-    }
-    wt_table **const tables = array_grow(result->tables, result->n, sizeof *tables);
-    if (tables == NULL) {
+    if (status == WT_OK && (tables = array_grow(result->tables, result->n, sizeof *tables)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
+    if (status == WT_OK) {
+        result->tables = tables;
+        result->tables[result->n++] = table;
+    } else {
+        wt_table_free(table);
     }
-    result->tables = tables;
-    result->tables[result->n++] = table;
-    table = NULL;
-done:
-    wt_table_free(table);
     return status;
 }
 

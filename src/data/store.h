@@ -8,15 +8,13 @@
 #include "data/table.h"
 
 /* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
- * curves has one of its own, so that a program that knows none does not lose the curves. The first
- * two had one digest of all tables, as text. */
-enum { STORE_FORMAT_TEXT = 1, STORE_FORMAT_TEXT_MAP, STORE_FORMAT, STORE_FORMAT_MAP };
+ * curves has one of its own, so that a program that knows none does not lose the curves. */
+enum { STORE_FORMAT = 3, STORE_FORMAT_MAP };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"
 #define STORE_CREATED_ATTRIBUTE "created"
 #define STORE_DIGESTS_ATTRIBUTE "table_sha256"
-#define STORE_TEXT_DIGEST_ATTRIBUTE "content_sha256" /* of the first two layouts */
 #define STORE_TABLES_ATTRIBUTE "table_order"
 #define STORE_TITLE_ATTRIBUTE "title"
 #define STORE_COLUMNS_ATTRIBUTE "column_order"
@@ -33,8 +31,7 @@ enum { STORE_FORMAT_TEXT = 1, STORE_FORMAT_TEXT_MAP, STORE_FORMAT, STORE_FORMAT_
  * otherwise be a wrong number. */
 enum { STORE_DIGEST_SIZE = 65 };
 typedef struct store_tail {
-    char text_digest[STORE_DIGEST_SIZE]; /* of the first two layouts: of all, instead; else "" */
-    uint8_t has_origin;                  /* the inputs, and a command */
+    uint8_t has_origin; /* the inputs, and a command */
     uint64_t n_tables, case_length, command_length;
 } store_tail;
 wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hdf5_reading */

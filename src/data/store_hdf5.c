@@ -34,7 +34,7 @@ static bool no_memory(reader *r)
 }
 
 /* A name that the data types refuse is the file's fault, not an argument's. */
-static bool taken(reader *r, wt_status status)
+static bool is_taken(reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -235,7 +235,7 @@ static bool read_estimate(reader *r, hid_t group, const char *key, double value,
            read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
            (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
     e.unit = unit;
-    good = good && taken(r, wt_table_set_estimate(table, key, e, r->err));
+    good = good && is_taken(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
@@ -253,7 +253,7 @@ static bool read_keys(reader *r, hid_t group, wt_table *table)
         good = read_number(r, group, keys[i], &value, &is_text);
         if (good && is_text) {
             char *const text = read_text(r, group, keys[i]);
-            good = text != NULL && taken(r, wt_table_set_key(table, keys[i], text, r->err));
+            good = text != NULL && is_taken(r, wt_table_set_key(table, keys[i], text, r->err));
             free(text);
         } else if (good) {
             good = read_estimate(r, group, keys[i], value, table);
@@ -276,9 +276,9 @@ static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows
     char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
     bool good = words != NULL;
     if (good && class == H5T_FLOAT)
-        good = taken(r, wt_table_add_column(table, name, units, words, r->err));
+        good = is_taken(r, wt_table_add_column(table, name, units, words, r->err));
     else if (good && class == H5T_STRING)
-        good = taken(r, wt_table_add_text_column(table, name, words, r->err));
+        good = is_taken(r, wt_table_add_text_column(table, name, words, r->err));
     else if (good)
         good = corrupt(r, name, "a column that is neither numbers nor text");
     free(units);
@@ -304,8 +304,8 @@ static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
         if (blocks[row] != before && blocks[row] != before + (row > 0))
             good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            good = taken(r, wt_table_new_block(table, r->err));
-        good = good && taken(r, wt_table_add_row(table, r->err));
+            good = is_taken(r, wt_table_new_block(table, r->err));
+        good = good && is_taken(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
     hdf5_close(dataset);
@@ -372,7 +372,7 @@ static wt_table *read_table(reader *r, const char *name)
 static bool pass_table(reader *r, const char *name)
 {
     wt_table *const table = read_table(r, name);
-    const bool good = table != NULL && taken(r, table_bytes_write(r->out, table, r->err));
+    const bool good = table != NULL && is_taken(r, table_bytes_write(r->out, table, r->err));
     wt_table_free(table);
     return good;
 }
@@ -406,20 +406,23 @@ static bool pass_case(reader *r, uint64_t *passed)
     return good;
 }
 
-static bool check_format(reader *r, int *format)
+static bool check_format(reader *r)
 {
+    int format = 0;
     size_t n = 0;
     const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
-        H5Aread(attribute, H5T_NATIVE_INT, format) < 0) {
+        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (*format < STORE_FORMAT_TEXT || *format > STORE_FORMAT_MAP) {
+    } else if (format < STORE_FORMAT || format > STORE_FORMAT_MAP) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_TEXT, STORE_FORMAT_MAP);
-        wt_error_found(r->err, "%d", *format);
-        wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
+        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
+        wt_error_found(r->err, "%d", format);
+        wt_error_advice(
+            r->err,
+            "make it again from its case, or use the weartrack that wrote it or a newer one");
     }
     hdf5_close(type);
     hdf5_close(attribute);
@@ -430,18 +433,15 @@ static bool check_format(reader *r, int *format)
 typedef struct store_words {
     char **tables, **digests;
     size_t n_tables, n_digests;
-    char *command, *text_digest; /* or NULL */
+    char *command; /* or NULL */
 } store_words;
 
 static bool read_store_words(reader *r, store_words *w)
 {
-    int format = 0;
-    bool good = check_format(r, &format) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE,
-                                                       RESULT_TABLES_MAX, &w->tables, &w->n_tables);
+    bool good = check_format(r) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX,
+                                              &w->tables, &w->n_tables);
     if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
         good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL;
-    if (good && format < STORE_FORMAT)
-        return (w->text_digest = read_text(r, r->file, STORE_TEXT_DIGEST_ATTRIBUTE)) != NULL;
     good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
                               &w->digests, &w->n_digests);
     const size_t n = w->n_tables + (w->command != NULL) +
@@ -463,8 +463,6 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     store_words w = {.tables = NULL};
     store_tail tail = {.n_tables = 0};
     bool good = read_store_words(r, &w);
-    if (w.text_digest != NULL)
-        wanted = NULL; /* the digest is of all */
     for (size_t i = 0; good && i < w.n_tables; i++)
         if (wanted == NULL || wanted(w.tables[i])) {
             good = pass_table(r, w.tables[i]);
@@ -478,14 +476,11 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     for (size_t i = 0; good && i < w.n_digests; i++)
         if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
             pass_digest(r, w.digests[i]);
-    if (w.text_digest != NULL)
-        (void)snprintf(tail.text_digest, sizeof tail.text_digest, "%s", w.text_digest);
     if (good)
         (void)fwrite(&tail, sizeof tail, 1, r->out);
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
     free(w.command);
-    free(w.text_digest);
     return r->status;
 }
 

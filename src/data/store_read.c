@@ -53,7 +53,7 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
     length -= sizeof *t;
     memcpy(t, bytes + length, sizeof *t);
     const size_t n = t->n_tables + t->has_origin + (t->case_length > 0);
-    const size_t digests = t->text_digest[0] == '\0' ? n * STORE_DIGEST_SIZE : 0;
+    const size_t digests = n * STORE_DIGEST_SIZE;
     if (t->n_tables > RESULT_TABLES_MAX || digests > length ||
         t->command_length > length - digests ||
         t->case_length > length - digests - t->command_length)
@@ -65,9 +65,8 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
     return true;
 }
 
-/* The tables; the list of inputs belongs to the provenance. Prints them as text, too, unless `text`
- * is NULL. */
-static wt_status take_tables(const store_parts *p, FILE *text, wt_result *result, wt_error *err)
+/* The tables; the list of inputs belongs to the provenance. */
+static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *err)
 {
     const char *at = p->tables, *digest = p->digests;
     wt_status status = WT_OK;
@@ -75,9 +74,7 @@ static wt_status take_tables(const store_parts *p, FILE *text, wt_result *result
         const char *const from = at;
         wt_table *table = NULL;
         status = table_bytes_read(&at, p->case_file, &table, err);
-        if (status == WT_OK && text != NULL)
-            status = wt_stream_write(text, table, NULL, err);
-        else if (status == WT_OK)
+        if (status == WT_OK)
             status = check_digest(from, at, digest, table->name, err);
         digest += STORE_DIGEST_SIZE;
         if (status == WT_OK && i < p->tail.n_tables) {
@@ -90,27 +87,8 @@ static wt_status take_tables(const store_parts *p, FILE *text, wt_result *result
     }
     if (status == WT_E_ARG)
         status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
-    if (status == WT_OK && text == NULL && p->tail.case_length > 0)
+    if (status == WT_OK && p->tail.case_length > 0)
         status = check_digest(p->case_file, p->command, digest, STORE_CASE_DATASET, err);
-    return status;
-}
-
-/* Of the first two layouts, whose digest is of the tables as text and the case file. */
-static wt_status take_by_text(const store_parts *p, wt_result *result, wt_error *err)
-{
-    char *bytes = NULL;
-    size_t length = 0;
-    FILE *const text = open_memstream(&bytes, &length);
-    if (text == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = take_tables(p, text, result, err);
-    (void)fwrite(p->case_file, 1, p->tail.case_length, text);
-    if (fclose(text) != 0)
-        status = WT_E_MEMORY;
-    if (status == WT_OK)
-        status = check_digest(bytes, bytes + length, p->tail.text_digest,
-                              STORE_TEXT_DIGEST_ATTRIBUTE, err);
-    free(bytes);
     return status;
 }
 
@@ -119,8 +97,7 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
     store_parts p;
     if (!part_answer(bytes, length, &p))
         return corrupt(err, "", "the content is not whole");
-    wt_status status = p.tail.text_digest[0] == '\0' ? take_tables(&p, NULL, result, err)
-                                                     : take_by_text(&p, result, err);
+    wt_status status = take_tables(&p, result, err);
     if (status == WT_OK && p.tail.has_origin)
         status = take_command(p.command, p.tail.command_length, wt_result_provenance(result));
     if (status == WT_OK)

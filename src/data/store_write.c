@@ -42,7 +42,7 @@ bool store_put_text(const store_file *w, hid_t object, const char *name, const c
 }
 
 /* Texts of one width as an array, new, with that width; NULL when out of memory. */
-static char *pack(const char *const *texts, size_t n, size_t *width)
+static char *pack_texts(const char *const *texts, size_t n, size_t *width)
 {
     *width = 1;
     for (size_t i = 0; i < n; i++) {
@@ -68,7 +68,7 @@ bool store_put_words(hid_t object, const char *name, const char *const *words, s
     size_t width = 0;
     if (n == 0)
         return true;
-    char *const packed = pack(words, n, &width);
+    char *const packed = pack_texts(words, n, &width);
     const hid_t type = text_type(width);
     const hid_t space = H5Screate_simple(1, &size, NULL);
     const bool good = packed != NULL && type >= 0 && space >= 0 &&
@@ -167,7 +167,7 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
         for (size_t row = 0; row < table->n_rows; row++)
             words[row] = wt_table_text(table, row, i);
         size_t width = 0;
-        char *const packed = pack(words, table->n_rows, &width);
+        char *const packed = pack_texts(words, table->n_rows, &width);
         const hid_t type = text_type(width);
         good = packed != NULL && type >= 0 &&
                put_dataset(w, group, column->name, type, type, packed, table->n_rows, "",

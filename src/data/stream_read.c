@@ -87,7 +87,7 @@ static wt_status corrupt(const reader *r, size_t column, const char *message, co
 }
 
 /* A name that the table refuses is the file's fault, not an argument's. */
-static wt_status refused(const reader *r, size_t column, wt_status status, wt_error *err)
+static wt_status fail_name(const reader *r, size_t column, wt_status status, wt_error *err)
 {
     if (status == WT_E_ARG) {
         status = WT_E_CORRUPT;
@@ -178,11 +178,11 @@ static wt_status read_key(reader *r, wt_error *err)
         return corrupt(r, 0, "the key is there twice", "each key once", key, err);
     if (status == WT_OK)
         status = wt_table_set_key(r->table, key, text, err);
-    return status == WT_OK ? WT_OK : refused(r, 0, status, err);
+    return status == WT_OK ? WT_OK : fail_name(r, 0, status, err);
 }
 
 /* Ends the cell at the next tab and returns what follows it, NULL after the last cell. */
-static char *split(char *cell)
+static char *end_cell(char *cell)
 {
     char *const tab = strchr(cell, '\t');
     if (tab == NULL)
@@ -211,7 +211,7 @@ static wt_status read_header(reader *r, wt_error *err)
     char *next = NULL;
     for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
         column++;
-        next = split(cell);
+        next = end_cell(cell);
         const size_t length = strlen(cell);
         char *const bracket = strchr(cell, '[');
         if (bracket == NULL || cell[length - 1] != ']')
@@ -224,7 +224,7 @@ static wt_status read_header(reader *r, wt_error *err)
         else
             status = wt_table_add_column(r->table, cell, unit, long_name_of(r, cell), err);
         if (status != WT_OK)
-            status = refused(r, column, status, err);
+            status = fail_name(r, column, status, err);
     }
     return status;
 }
@@ -236,7 +236,7 @@ static wt_status read_row(reader *r, wt_error *err)
     size_t n_cells = 0;
     char *next = NULL;
     for (char *cell = r->line; status == WT_OK && cell != NULL; cell = next) {
-        next = split(cell);
+        next = end_cell(cell);
         const size_t column = n_cells++;
         if (column >= table->n_columns)
             continue;

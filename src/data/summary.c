@@ -11,7 +11,7 @@
 /* ---- headlines of one result ----------------------------------------------------------------- */
 
 /* A row of the table "keys"; the words are those of a text, or what the number is. */
-static void put(table_writer *t, const char *name, wt_estimate e, const char *words)
+static void put_key(table_writer *t, const char *name, wt_estimate e, const char *words)
 {
     table_row(t);
     keys_put_text(t, KEYS_KEY, name);
@@ -27,12 +27,22 @@ static void put_number(table_writer *t, const char *stem, const char *suffix, do
 {
     char name[2 * SCHEMA_NAME_SIZE];
     (void)snprintf(name, sizeof name, "%s%s", stem, suffix);
-    put(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
+    put_key(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
 }
 
 static void put_text(table_writer *t, const char *name, const char *words)
 {
-    put(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+    put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+}
+
+/* Of a verdict the word alone: what stands behind its colon are numbers of columns of their own. */
+static void put_word(table_writer *t, const char *name, const char *verdict)
+{
+    char word[256];
+    const char *colon = strstr(verdict, ": ");
+    (void)snprintf(word, sizeof word, "%.*s",
+                   colon != NULL ? (int)(colon - verdict) : (int)strlen(verdict), verdict);
+    put_text(t, name, word);
 }
 
 static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
@@ -62,9 +72,9 @@ static void put_keys(table_writer *t, const finding_tables *found, const table_v
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
             continue;
         if (key->kind == SCHEMA_TEXT)
-            put_text(t, key->name, view_key_text(view, schema, i));
+            put_word(t, key->name, view_key_text(view, schema, i));
         else
-            put(t, key->name, view_key(view, schema, i), key->headline);
+            put_key(t, key->name, view_key(view, schema, i), key->headline);
         if (finding_of_key(found, key, &f))
             put_finding(t, key->name, &f);
     }
@@ -91,28 +101,39 @@ static void put_ratio(table_writer *t, const finding_tables *found)
     const finding f = finding_of_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
+    if (f.verdict != NULL)
+        put_word(t, "verdict", f.verdict);
     put_number(t, f.name, "", f.number.value, f.number.unit);
     put_finding(t, f.name, &f);
     put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
 }
 
-/* The first sentence of the answer to the first question. */
-static void put_verdict(table_writer *t, const table_view *view)
+/* A key that is a number without an error. */
+static double plain_key(const char *words)
 {
-    if (view->table == NULL)
-        return;
-    if (answer_words(view, ANSWER_KEY_CASE_TITLE) != NULL)
-        put_text(t, "case_title", answer_words(view, ANSWER_KEY_CASE_TITLE));
-    for (size_t row = 0; row < view->n_rows; row++) {
-        const char *words = answer_text(view, row, ANSWER_ANSWER), *end = strstr(words, ". ");
-        char sentence[512];
-        if (strcmp(answer_text(view, row, ANSWER_KIND), "layer") != 0)
-            continue;
-        (void)snprintf(sentence, sizeof sentence, "%.*s",
-                       end != NULL ? (int)(end - words) : (int)strlen(words), words);
-        put_text(t, "verdict", sentence);
-        return;
-    }
+    double value = (double)NAN;
+    return words != NULL && wt_number_parse(words, strlen(words), '.', &value) ? value
+                                                                               : (double)NAN;
+}
+
+/* How much of what was asked for the result has. */
+static wt_answered answered_by(const table_view *failures, const table_view *notes)
+{
+    bool lost = failures->n_rows > 0;
+    for (size_t row = 0; row < notes->n_rows; row++)
+        lost = lost || strcmp(notes_text(notes, row, NOTES_SEVERITY), "loss") == 0;
+    if (plain_key(failures_words(failures, FAILURES_KEY_STATUS)) == WT_ANSWERED_NOTHING)
+        return WT_ANSWERED_NOTHING;
+    return lost ? WT_ANSWERED_PARTLY : WT_ANSWERED_WHOLE;
+}
+
+/* How far one spectrum is from the isotherms: the number behind the word. */
+static void put_misfit(table_writer *t, const table_view *shifts)
+{
+    static const char *ends[2] = {"_low", "_high"};
+    put_ends(t, "superposition_misfit", ends,
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
 }
 
 /* The tables that have headlines beside those of the findings; behind the first ones all are keys.
@@ -147,11 +168,14 @@ wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_
     for (size_t row = 0; row < views[NOTES].n_rows; row++)
         n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
     table_writer t = table_begin(&keys_schema, err);
-    put_verdict(&t, &views[ANSWER]);
+    put_number(&t, "status", "", answered_by(&views[FAILURES], &views[NOTES]), "1");
+    if (views[ANSWER].table != NULL && answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
+        put_text(&t, "case_title", answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
     put_ratio(&t, &found);
     put_groups(&t, &found);
     for (size_t i = WITH_KEYS; i < N_TABLES; i++)
         put_keys(&t, &found, &views[i]);
+    put_misfit(&t, &views[WITH_KEYS]);
     put_number(&t, "remarks", "", n_remarks, "1");
     put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);
@@ -175,7 +199,7 @@ typedef struct columns {
 } columns;
 
 /* Puts the headlines of a result into the list, a new one behind that which it follows there. */
-static wt_status merge(columns *list, const table_view *headlines, wt_error *err)
+static wt_status merge_headlines(columns *list, const table_view *headlines, wt_error *err)
 {
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
@@ -258,7 +282,7 @@ wt_status wt_summary(const char *const *files, const wt_table *const *headlines,
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
         if (status == WT_OK)
-            status = merge(&list, &views[i], err);
+            status = merge_headlines(&list, &views[i], err);
     }
     if (status == WT_OK)
         status = add_columns(table, &list, err);

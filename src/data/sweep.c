@@ -140,7 +140,7 @@ static int by_number(double a, double b) /* not known last */
 }
 
 /* By temperature; equal ones by where they came from, steps in their number. */
-static int compare(const void *a, const void *b)
+static int by_temperature(const void *a, const void *b)
 {
     const wt_isotherm *const p = a, *const q = b;
     const int order = by_number(p->temperature, q->temperature);
@@ -236,7 +236,7 @@ void wt_sweep_sort(wt_sweep *sweep)
         sort_points(&p, r->n);
     }
     if (sweep->n_isotherms > 1)
-        qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, compare);
+        qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, by_temperature);
     if (sweep->n_ramps > 1)
         qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramps);
     if (sweep->n_strain_sweeps > 1)

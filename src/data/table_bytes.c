@@ -127,7 +127,7 @@ static bool no_memory(byte_reader *r)
 }
 
 /* A name that the table refuses is the file's fault, not an argument's. */
-static bool taken(byte_reader *r, wt_status status)
+static bool is_taken(byte_reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -182,8 +182,8 @@ static bool take_keys(byte_reader *r)
                take_numbers(r, number, is_estimate ? 3 : 0) && take_text(r, &text) &&
                (wt_table_key(r->table, name) == NULL || corrupt(r, "a key is there twice"));
         const wt_estimate e = {number[0], number[1], number[2], text};
-        good = good && taken(r, is_estimate ? wt_table_set_estimate(r->table, name, e, r->err)
-                                            : wt_table_set_key(r->table, name, text, r->err));
+        good = good && is_taken(r, is_estimate ? wt_table_set_estimate(r->table, name, e, r->err)
+                                               : wt_table_set_key(r->table, name, text, r->err));
     }
     return good;
 }
@@ -197,7 +197,8 @@ static bool take_columns(byte_reader *r)
     for (size_t i = 0; good && i < n; i++) {
         good = take_text(r, &name) && take_count(r, 1, &is_text) && take_text(r, &unit) &&
                take_text(r, &words);
-        good = good && taken(r, is_text ? wt_table_add_text_column(r->table, name, words, r->err)
+        good =
+            good && is_taken(r, is_text ? wt_table_add_text_column(r->table, name, words, r->err)
                                         : wt_table_add_column(r->table, name, unit, words, r->err));
     }
     return good;
@@ -211,13 +212,13 @@ static bool take_rows(byte_reader *r)
     for (size_t block = 0; good && block < n_blocks; block++) {
         const size_t first = next;
         good = take_count(r, n - 1, &next) &&
-               (block == 0 ? next == 0 : next > first || corrupt(r, "blocks without an order"));
+               ((block == 0 ? next == 0 : next > first) || corrupt(r, "blocks without an order"));
         while (good && r->table->n_rows < next)
-            good = taken(r, wt_table_add_row(r->table, r->err));
-        good = good && taken(r, wt_table_new_block(r->table, r->err));
+            good = is_taken(r, wt_table_add_row(r->table, r->err));
+        good = good && is_taken(r, wt_table_new_block(r->table, r->err));
     }
     while (good && r->table->n_rows < n)
-        good = taken(r, wt_table_add_row(r->table, r->err));
+        good = is_taken(r, wt_table_add_row(r->table, r->err));
     return good;
 }
 

@@ -113,64 +113,75 @@ static table_key *find_key(const wt_table *table, const char *name)
     return NULL;
 }
 
+static wt_status check_name(const char *name, wt_error *err)
+{
+    if (table_word_is_valid(name) && !is_reserved(name))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "not a name for a key");
+    wt_error_expected(err, "letters, digits and '_', no word that the file formats use");
+    wt_error_found(err, "\"%s\"", name);
+    return WT_E_ARG;
+}
+
+/* Fills the key from its text; an estimate has one spelling, wherever it came from. */
+static wt_status make_key(const char *name, table_key *key, wt_error *err)
+{
+    key->is_estimate = parse_estimate(key->text, &key->parsed);
+    if (key->is_estimate) {
+        char *const canonical = estimate_text(&key->parsed);
+        free(key->text);
+        key->text = canonical;
+        if (canonical == NULL || !parse_estimate(canonical, &key->parsed))
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    key->name = strdup(name);
+    key->unit = strdup(key->is_estimate ? key->parsed.unit : "");
+    if (key->name == NULL || key->unit == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    key->parsed.unit = key->unit;
+    return WT_OK;
+}
+
+/* The key of that name, or a new empty one. */
+static wt_status find_place(wt_table *table, const char *name, table_key **place, wt_error *err)
+{
+    *place = find_key(table, name);
+    if (*place != NULL)
+        return WT_OK;
+    if (table->n_keys >= TABLE_KEYS_MAX)
+        return wt_fail(err, WT_E_ARG, "more than %d keys", (int)TABLE_KEYS_MAX);
+    table_key *const keys = array_grow(table->keys, table->n_keys, sizeof *keys);
+    if (keys == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    table->keys = keys;
+    *place = &keys[table->n_keys++];
+    **place = (table_key){0};
+    return WT_OK;
+}
+
 /* Takes `text`, also on failure. */
 static wt_status set_key(wt_table *table, const char *name, char *text, wt_error *err)
 {
-    wt_status status = WT_OK;
     table_key key = {.text = text};
-    if (!table_word_is_valid(name) || is_reserved(name)) {
-        status = wt_fail(err, WT_E_ARG, "not a name for a key");
-        wt_error_expected(err, "letters, digits and '_', no word that the file formats use");
-        wt_error_found(err, "\"%s\"", name);
-        goto done;
-    }
-    key.is_estimate = parse_estimate(key.text, &key.parsed);
-    if (key.is_estimate) {
-        /* One spelling for one estimate, wherever it came from. */
-        char *const canonical = estimate_text(&key.parsed);
-        free(key.text);
-        key.text = canonical;
-        if (canonical == NULL || !parse_estimate(key.text, &key.parsed)) {
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-            goto done;
-        }
-    }
-    for (size_t i = 0; i < table->n_keys; i++) {
+    wt_status status = check_name(name, err);
+    if (status == WT_OK)
+        status = make_key(name, &key, err);
+    for (size_t i = 0; status == WT_OK && i < table->n_keys; i++) {
         const table_key *const other = &table->keys[i];
         if ((other->is_estimate && is_part_of(name, other->name)) ||
-            (key.is_estimate && is_part_of(other->name, name))) {
+            (key.is_estimate && is_part_of(other->name, name)))
             status = wt_fail(err, WT_E_ARG, "keys \"%s\" and \"%s\" of table \"%s\" collide", name,
                              other->name, table->name);
-            goto done;
-        }
     }
-    key.name = strdup(name);
-    key.unit = strdup(key.is_estimate ? key.parsed.unit : "");
-    if (key.name == NULL || key.unit == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
+    table_key *place = NULL;
+    if (status == WT_OK)
+        status = find_place(table, name, &place, err);
+    if (status == WT_OK) {
+        key_free(place);
+        *place = key;
+    } else {
+        key_free(&key);
     }
-    key.parsed.unit = key.unit;
-    table_key *place = find_key(table, name);
-    if (place == NULL) {
-        if (table->n_keys >= TABLE_KEYS_MAX) {
-            status = wt_fail(err, WT_E_ARG, "more than %d keys", (int)TABLE_KEYS_MAX);
-            goto done;
-        }
-        table_key *const keys = array_grow(table->keys, table->n_keys, sizeof *keys);
-        if (keys == NULL) {
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-            goto done;
-        }
-        table->keys = keys;
-        place = &table->keys[table->n_keys++];
-        *place = (table_key){0};
-    }
-    key_free(place);
-    *place = key;
-    key = (table_key){0};
-done:
-    key_free(&key);
     return status;
 }
 

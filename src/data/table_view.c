@@ -5,17 +5,17 @@
 #include <math.h>
 #include <string.h>
 
-static void advise(const table_schema *schema, wt_error *err)
+static void advise_producer(const table_schema *schema, wt_error *err)
 {
     wt_error_advice(err, "give the output of `weartrack %s`", schema->made_by);
 }
 
-static wt_status missing(const wt_table *table, const table_schema *schema, const char *what,
-                         const char *name, wt_error *err)
+static wt_status fail_missing(const wt_table *table, const table_schema *schema, const char *what,
+                              const char *name, wt_error *err)
 {
     (void)wt_fail(err, WT_E_MISSING, "table \"%s\" has no %s \"%s\"", wt_table_name(table), what,
                   name);
-    advise(schema, err);
+    advise_producer(schema, err);
     return WT_E_MISSING;
 }
 
@@ -29,7 +29,7 @@ static wt_status check_column(const wt_table *table, const table_schema *schema,
     (void)wt_fail(err, WT_E_UNIT, "column \"%s\" of table \"%s\"", c->name, wt_table_name(table));
     wt_error_expected(err, "%s%s", c->kind == SCHEMA_TEXT ? "text" : "numbers in ", si);
     wt_error_found(err, "%s%s", is_text ? "text" : "numbers in ", unit);
-    advise(schema, err);
+    advise_producer(schema, err);
     return WT_E_UNIT;
 }
 
@@ -45,13 +45,13 @@ wt_status table_bind(const wt_table *table, const table_schema *schema, const ch
         if (view->column[i] >= 0)
             status = check_column(table, schema, (size_t)view->column[i], c, err);
         else if (!c->optional)
-            status = missing(table, schema, "column", c->name, err);
+            status = fail_missing(table, schema, "column", c->name, err);
         if (status != WT_OK)
             return status;
     }
     for (size_t i = 0; i < schema->n_keys; i++)
         if (!schema->keys[i].optional && wt_table_key(table, schema->keys[i].name) == NULL)
-            return missing(table, schema, "key", schema->keys[i].name, err);
+            return fail_missing(table, schema, "key", schema->keys[i].name, err);
     return WT_OK;
 }
 

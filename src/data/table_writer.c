@@ -57,7 +57,7 @@ table_writer table_continue(wt_table *table, const table_schema *schema, const c
 }
 
 /* A mistake of the program, not of its user. */
-static void fail(table_writer *w, const char *name, const char *what)
+static void fail_column(table_writer *w, const char *name, const char *what)
 {
     w->status =
         wt_fail(w->err, WT_E_INTERNAL, "table \"%s\": \"%s\" %s", w->schema->name, name, what);
@@ -69,7 +69,7 @@ static void check_row(table_writer *w)
         return;
     for (size_t i = 0; w->status == WT_OK && i < w->schema->n_columns; i++)
         if (!((w->row | w->left_out) & SCHEMA_BIT(i)) && !w->schema->columns[i].sparse)
-            fail(w, w->schema->columns[i].name, "was not put in a row");
+            fail_column(w, w->schema->columns[i].name, "was not put in a row");
 }
 
 void table_row(table_writer *w)
@@ -91,7 +91,7 @@ wt_status table_end(table_writer *w, wt_table **table)
     check_row(w);
     for (size_t i = 0; !w->continued && w->status == WT_OK && i < w->schema->n_keys; i++)
         if (!(w->keys & SCHEMA_BIT(i)) && !w->schema->keys[i].optional)
-            fail(w, w->schema->keys[i].name, "was not set");
+            fail_column(w, w->schema->keys[i].name, "was not set");
     if (!w->continued && w->status != WT_OK) {
         wt_table_free(w->table);
         w->table = NULL;
@@ -110,11 +110,11 @@ static bool takes_cell(table_writer *w, const table_schema *of, unsigned column,
         return false;
     if (w->schema != of || column >= w->schema->n_columns || (w->left_out & SCHEMA_BIT(column)) ||
         (w->schema->columns[column].kind == SCHEMA_TEXT) != text) {
-        fail(w, of->name, "has no such column");
+        fail_column(w, of->name, "has no such column");
         return false;
     }
     if (w->row & SCHEMA_BIT(column)) {
-        fail(w, of->columns[column].name, "was put twice in a row");
+        fail_column(w, of->columns[column].name, "was put twice in a row");
         return false;
     }
     w->row |= SCHEMA_BIT(column);
@@ -139,7 +139,7 @@ static bool takes_key(table_writer *w, const table_schema *of, unsigned key,
     if (w->status != WT_OK)
         return false;
     if (w->schema != of || key >= w->schema->n_keys) {
-        fail(w, of->name, "has no such key");
+        fail_column(w, of->name, "has no such key");
         return false;
     }
     w->keys |= SCHEMA_BIT(key);

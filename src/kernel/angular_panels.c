@@ -36,7 +36,7 @@ static void logs_at(const wt_material *material, double x, double e[2])
     e[1] = log(e[1]);
 }
 
-static double change(const double *a, const double *b)
+static double largest_change(const double *a, const double *b)
 {
     const double storage = fabs(b[0] - a[0]), loss = fabs(b[1] - a[1]);
     return 2 * fmax(isfinite(storage) ? storage : 0, isfinite(loss) ? loss : 0);
@@ -136,7 +136,7 @@ static void lay_edges(const wt_material *material, const gauss_rule *rule, doubl
             next = fmin(next, log(breaks[k]));
         logs_at(material, next, next_e);
         largest = larger_log(largest, next_e);
-        const size_t n = count_parts(material, rule, x, next, change(e, next_e));
+        const size_t n = count_parts(material, rule, x, next, largest_change(e, next_e));
         add_edges(list, x, next, n, largest);
         x = next;
         e[0] = next_e[0];
@@ -147,7 +147,7 @@ static void lay_edges(const wt_material *material, const gauss_rule *rule, doubl
 /* ---- sums ------------------------------------------------------------------------------------ */
 
 /* F at the nodes of panel p. */
-static void evaluate(angular_panels *a, size_t p)
+static void evaluate_panel(angular_panels *a, size_t p)
 {
     const double half = 0.5 * (a->edge[p + 1] - a->edge[p]);
     double *omega = a->omega + p * PANEL_NODES;
@@ -262,7 +262,7 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     lay_edges(material, rule, first, log(high), &list);
     start_sums(&a);
     for (size_t p = 0; p < a.n; p++)
-        evaluate(&a, p);
+        evaluate_panel(&a, p);
     sum_panels(&a);
     *panels = a;
     return WT_OK;

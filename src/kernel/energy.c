@@ -146,7 +146,7 @@ static double lesser(double a, double b)
 }
 
 /* Largest |exp(-2 t) (a + b t + c t^2)| for 0 <= t <= width. */
-static double largest(double a, double b, double c, double width)
+static double largest_remainder(double a, double b, double c, double width)
 {
     static const double inverse_square = 0.13533528323661269; /* exp(-2) */
     return fabs(a) + fabs(b) * lesser(width, 0.5 / M_E) +
@@ -156,13 +156,13 @@ static double largest(double a, double b, double c, double width)
 /* exp(2 x) times the largest |g'| / q^2 and |g''| / q^3 from x to x + width. */
 static double largest_slope(double s, double x, double width)
 {
-    return largest(slope_bracket(s, x), -8 * (2 * x - 1 - s), -8, width);
+    return largest_remainder(slope_bracket(s, x), -8 * (2 * x - 1 - s), -8, width);
 }
 
 static double largest_bend(double s, double x, double width)
 {
-    return largest(8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s), 8 * (4 * x - 2 * (2 + s)), 16,
-                   width);
+    return largest_remainder(8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s),
+                             8 * (4 * x - 2 * (2 + s)), 16, width);
 }
 
 /* A way so short that its ends cancel is integrated by Gauss-Legendre, exact to 1e-16 there. */

@@ -62,13 +62,13 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     const size_t room = (scratch.plan.capacity + 1) * FRICTION_MAX_NODES;
     for (size_t i = 0; status == WT_OK && i < 2; i++)
         status = source_alloc(&pair[i], room, err);
-    if (status != WT_OK)
-        goto done;
 
-    const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
+    const panel_plan *plan =
+        status == WT_OK ? friction_plan(workspace, &scratch, at.speed, NULL, 0) : NULL;
     size_t now = 0;
     double error = (double)INFINITY;
-    for (size_t k = 0; k < FRICTION_STEPS && error > workspace->options.tolerance; k += 2) {
+    for (size_t k = 0; plan != NULL && k < FRICTION_STEPS && error > workspace->options.tolerance;
+         k += 2) {
         now = 1 - now;
         scratch.trail.n = 0; /* what is compared must not begin with the same rules */
         wt_energy_source *s = &pair[now];
@@ -85,12 +85,12 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, &pass).hysteresis;
     }
-    status = energy_check(&pair[now], err);
-    if (status != WT_OK)
-        goto done;
-    *source = pair[now];
-    pair[now] = (wt_energy_source){0};
-done:
+    if (status == WT_OK)
+        status = energy_check(&pair[now], err);
+    if (status == WT_OK) {
+        *source = pair[now];
+        pair[now] = (wt_energy_source){0};
+    }
     wt_energy_source_clear(&pair[0]);
     wt_energy_source_clear(&pair[1]);
     workspace->scratch[0].nodes += scratch.nodes;

@@ -23,6 +23,44 @@ static wt_status check_wavenumbers(const wt_roughness *roughness, const double *
     return WT_OK;
 }
 
+/* Running sums to each wavenumber, by panels that are cut there; cuts[n] is room. */
+static void fill_nodes(const wt_friction_workspace *workspace, friction_load at, double sign,
+                       friction_scratch *scratch, const double *wavenumber, size_t n, double *cuts,
+                       wt_friction_node *nodes)
+{
+    const wt_roughness *roughness = workspace->roughness;
+    for (size_t i = 0; i < n; i++)
+        cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
+    const panel_plan *plan = friction_plan(workspace, scratch, at.speed, cuts, n);
+    friction_pass pass;
+    const friction_effort effort = {.share = FRICTION_SHARE, .all_along = true};
+    friction_evaluate(workspace, scratch, plan, effort, at, false, NULL, &pass);
+
+    const double relative = friction_relative_error(workspace, &pass).variance;
+    const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
+    const size_t first = plan->levels - pass.level;
+    double variance = 0, difference = 0, hysteresis = 0;
+    size_t part = 0; /* the next one; part p ends at end[p] */
+    for (size_t i = 0; i < n; i++) {
+        while (part < pass.parts) {
+            const double end =
+                part == 0 ? plan->core[pass.level].t_high : plan->panels[first + part - 1].t_high;
+            if (end > cuts[i] + slack * (cuts[i] > slack))
+                break;
+            variance += scratch->panel_g[part];
+            hysteresis += scratch->panel_mu[part];
+            difference += scratch->error_g[part];
+            part++;
+        }
+        nodes[i] = (wt_friction_node){
+            .wavenumber = wavenumber[i],
+            .stress_variance = variance,
+            .area_ratio = contact_area(variance),
+            .hysteresis = sign * hysteresis,
+            .numerical_error = contact_area_error(variance, difference + relative * variance)};
+    }
+}
+
 wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure, double velocity,
                               const double *wavenumber, size_t n, wt_friction_node *nodes,
                               wt_error *err)
@@ -37,44 +75,16 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
         return status;
 
     const friction_load at = friction_load_at(workspace, pressure, velocity);
-    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     friction_scratch scratch;
     pool memory = {0};
     double *cuts = pool_alloc(&memory, n, sizeof *cuts);
     status = friction_scratch_init(&scratch, workspace, n, &memory, err);
-    if (status != WT_OK)
-        goto done;
-    for (size_t i = 0; i < n; i++)
-        cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
-    const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
-    friction_pass pass;
-    const friction_effort effort = {.share = FRICTION_SHARE, .all_along = true};
-    friction_evaluate(workspace, &scratch, plan, effort, at, false, NULL, &pass);
-
-    const double relative = friction_relative_error(workspace, &pass).variance;
-    const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
-    const size_t first = plan->levels - pass.level;
-    double variance = 0, difference = 0, hysteresis = 0;
-    size_t part = 0; /* the next one; part p ends at end[p] */
-    for (size_t i = 0; i < n; i++) {
-        while (part < pass.parts) {
-            const double end =
-                part == 0 ? plan->core[pass.level].t_high : plan->panels[first + part - 1].t_high;
-            if (end > cuts[i] + slack * (cuts[i] > slack))
-                break;
-            variance += scratch.panel_g[part];
-            hysteresis += scratch.panel_mu[part];
-            difference += scratch.error_g[part];
-            part++;
-        }
-        nodes[i] = (wt_friction_node){
-            .wavenumber = wavenumber[i],
-            .stress_variance = variance,
-            .area_ratio = contact_area(variance),
-            .hysteresis = sign * hysteresis,
-            .numerical_error = contact_area_error(variance, difference + relative * variance)};
-    }
-done:
+    if (status == WT_OK)
+        fill_nodes(workspace, at,
+                   velocity < 0   ? -1
+                   : velocity > 0 ? 1
+                                  : 0,
+                   &scratch, wavenumber, n, cuts, nodes);
     workspace->scratch[0].nodes += scratch.nodes;
     pool_free(&memory);
     return status;

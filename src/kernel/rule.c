@@ -98,8 +98,8 @@ double rule_running(const gauss_rule *rule, const double *f, double *running)
 
 /* Without a store in between. */
 WIDE_REGISTERS
-static void tops(const double *restrict top, size_t n, const double *restrict f,
-                 const double *restrict g, double *restrict of_f, double *restrict of_g)
+static void top_sums(const double *restrict top, size_t n, const double *restrict f,
+                     const double *restrict g, double *restrict of_f, double *restrict of_g)
 {
     wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
     for (size_t i = 0; i < n; i++) {
@@ -119,7 +119,7 @@ static void tops(const double *restrict top, size_t n, const double *restrict f,
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
                rule_top *of_g)
 {
-    tops(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
+    top_sums(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
 }
 
 double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest)
@@ -160,21 +160,20 @@ static gauss_rule *make_rule(size_t n)
     gauss_rule *made =
         calloc(1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
-    if (made == NULL || table == NULL) {
+    if (made != NULL && table != NULL) {
+        made->n = n;
+        made->room = room;
+        made->node = made->numbers;
+        made->weight = made->node + n;
+        made->running = made->weight + n;
+        made->top = made->running + n * room;
+        for (size_t i = 0; i < n; i++)
+            gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
+        fill_running(made);
+    } else {
         free(made);
         made = NULL;
-        goto done;
     }
-    made->n = n;
-    made->room = room;
-    made->node = made->numbers;
-    made->weight = made->node + n;
-    made->running = made->weight + n;
-    made->top = made->running + n * room;
-    for (size_t i = 0; i < n; i++)
-        gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
-    fill_running(made);
-done:
     gsl_integration_glfixed_table_free(table);
     return made;
 }

@@ -118,7 +118,7 @@ typedef struct meeting {
     double strain;
 } meeting;
 
-static double above(double t, void *user)
+static double strain_above(double t, void *user)
 {
     const meeting *m = user;
     const wt_roughness *r = m->s->roughness;
@@ -136,10 +136,11 @@ static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
     double from = 0;
     for (size_t k = 0; k < s->n; k++) {
         meeting m = {.s = s, .strain = exp(s->log_strain[k])};
-        if (!(above(length, &m) > 0))
+        if (!(strain_above(length, &m) > 0))
             break;
-        const bool met = above(from, &m) < 0; /* else as early as numbers can tell */
-        const wt_status status = met ? root_find(above, &m, from, length, 0, &from, err) : WT_OK;
+        const bool met = strain_above(from, &m) < 0; /* else as early as numbers can tell */
+        const wt_status status =
+            met ? root_find(strain_above, &m, from, length, 0, &from, err) : WT_OK;
         if (status != WT_OK)
             return status;
         const double q = fmin(r->q0 + r->q0 * expm1(from), r->q1);

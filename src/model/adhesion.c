@@ -4,12 +4,15 @@
  *
  *   delta = delta0 - s sqrt(a),   F = F0 - 2 E* s a^(3/2),
  *
- * is the least energy for any convex tip. The pyramid's a is that of the circle with its mean
- * distances; its edge is longer, and the work of adhesion carries that error.
+ * is the least energy for any convex tip. A place on this branch is given by delta0, of which the
+ * contact table has F0, dF0/ddelta0 = 2 E* a and its derivative. The pyramid's a is that of the
+ * circle with its mean distances; its edge is longer, and the work of adhesion carries that error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "model/adhesion.h"
+
+#include "base/wide.h"
 #include "model/root.h"
 #include "model/tip.h"
 
@@ -19,134 +22,278 @@
 /* Range of atomic forces [m], an interatomic distance, in Tabor's parameter (J. Colloid Interface
  * Sci. 58 (1977) 2): it names the regime, which goes over some decades. */
 static const double force_range = 0.3e-9;
-/* The steps in which the end of the branch is looked for, before it is found by halves: the branch
- * has one end, which no step jumps over twice. 3000 of them are 40 decades. */
-static const double radius_step = 0.97;
-enum { MAX_STEPS = 3000 };
 /* Between them a work of adhesion is looked for [J/m^2]: surfaces have 1e-3 to 1, and welded ones
  * are no contact; beyond there is none. */
 static const double least_work = 1e-9, most_work = 1e3;
 /* Halves and false positions to the last digit of a double need some 60 and 10. */
-enum { MAX_ROUNDS = 200 };
+/* Of a place: after it the error is of the order of its square. */
+static const double close_step = 1e-7;
+enum {
+    MAX_ROUNDS = 200,
+    MAX_STEPS = 600,   /* by 4: more than a double has */
+    CORNER_NODES = 32, /* where the end of the branch is looked for beside a corner */
+    NODES = 64,        /* of the branch, from which a place on it is guessed, to 1e-7 */
+    BLOCK = ADHESION_BLOCK,
+};
 
 bool adhesion_applies(const wt_tip *tip)
 {
     return tip->shape != WT_TIP_PUNCH && !(tip->sample_thickness > 0.0);
 }
 
-adhesive_contact adhesion_at(const adhesion *law, double a)
+/* Contact without adhesion at so many bare depths: a place of the branch follows from it. */
+typedef struct bare_contacts {
+    double g[BLOCK], slope[BLOCK], curvature[BLOCK];
+} bare_contacts;
+
+static void bare_at(const adhesion *law, const double *bare, size_t n, bare_contacts *to)
 {
-    const contact_radius_values v = contact_at_radius(law->tip, a);
-    const double e = law->reduced, s = sqrt(2.0 * M_PI * law->work / e), root = sqrt(a);
-    const double pull = s * a * root, q = s / (2.0 * root);
-    adhesive_contact c = {.depth = v.depth - s * root, .force = e * (v.g - 2.0 * pull)};
-    c.stiffness = 2.0 * e * a * (isinf(v.slope) ? 1.0 : (v.slope - 3.0 * q) / (v.slope - q));
-    c.by_modulus = v.g - pull - c.stiffness * s * root / (2.0 * e);
-    c.by_work = (0.5 * c.stiffness * s * root - e * pull) / law->work;
-    return c;
+    contact_table_values(law->table, bare, n, to->g, to->slope, to->curvature);
 }
 
-/* Rises where the branch is stable against the lever: dF/da + k ddelta/da, over k if k > 1. */
-static double restoring_slope(const adhesion *law, double k, double a)
+static double pull_of(const adhesion *law)
 {
-    const double slope = contact_at_radius(law->tip, a).slope;
-    const double q = sqrt(2.0 * M_PI * law->work / law->reduced) / (2.0 * sqrt(a));
-    const double sample = 2.0 * law->reduced * a * (slope - 3.0 * q), lever = slope - q;
-    return isinf(k) || isinf(slope) ? lever : sample + k * lever;
+    return sqrt(2.0 * M_PI * law->work / law->reduced);
 }
+
+WIDE_REGISTERS void adhesion_along(const adhesion *law, const double *bare, size_t n,
+                                   adhesive_contacts *to)
+{
+    bare_contacts v;
+    const double e = law->reduced, pull = pull_of(law);
+    bare_at(law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
+                     q = 0.25 * pull * v.curvature[i] / root,
+                     stiffness = 2.0 * e * a * (1.0 - 3.0 * q) / (1.0 - q);
+        to->radius[i] = a;
+        to->depth[i] = bare[i] - fall;
+        to->force[i] = e * (v.g[i] - 2.0 * fall * a);
+        to->stiffness[i] = stiffness;
+        to->by_modulus[i] = v.g[i] - fall * a - stiffness * fall / (2.0 * e);
+        to->by_work[i] = (0.5 * stiffness - e * a) * fall / law->work;
+    }
+}
+
+adhesive_contact adhesion_at(const adhesion *law, double bare)
+{
+    adhesive_contacts c;
+    adhesion_along(law, &bare, 1, &c);
+    return (adhesive_contact){c.radius[0],    c.depth[0],      c.force[0],
+                              c.stiffness[0], c.by_modulus[0], c.by_work[0]};
+}
+
+/* ---- the end of the branch ------------------------------------------------------------------- */
 
 typedef struct release_search {
     const adhesion *law;
     double k;
 } release_search;
 
-static bool comes_off(double a, void *user)
+/* Rises where the branch is stable against the lever: dF + k ddelta along it, over the change of
+ * the bare depth, and over k if that is infinite. */
+static double restoring(double bare, void *user)
 {
     const release_search *s = user;
-    return !(restoring_slope(s->law, s->k, a) > 0.0);
+    bare_contacts v;
+    bare_at(s->law, &bare, 1, &v);
+    const double a = 0.5 * v.slope[0], q = 0.25 * pull_of(s->law) * v.curvature[0] / sqrt(a);
+    return isinf(s->k) ? 1.0 - q : 2.0 * s->law->reduced * a * (1.0 - 3.0 * q) + s->k * (1.0 - q);
 }
 
+static bool holds(release_search *s, double bare)
+{
+    return restoring(bare, s) > 0.0;
+}
+
+static double end_between(release_search *s, double low, double high)
+{
+    double end = high;
+    return root_find(restoring, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
+}
+
+/* Where there is one end, from any place. */
+static double end_from(release_search *s, double bare)
+{
+    const bool inside = holds(s, bare);
+    double next = bare;
+    for (int i = 0; i < MAX_STEPS && holds(s, next) == inside; i++) {
+        bare = next;
+        next *= inside ? 0.25 : 4.0;
+    }
+    return inside ? end_between(s, next, bare) : end_between(s, bare, next);
+}
+
+/* The radius over the square root of the slope of the profile rises with the radius below a corner
+ * at radius b, and from 2b on, and faster than the end asks for, so that there is one end. Between
+ * the two it falls right behind the corner, which holds for a stretch. */
 double adhesion_release(const adhesion *law, double k)
 {
     if (!(law->work > 0.0))
         return 0.0;
-    /* From where adhesion no longer matters, past the corner, which is stable for a stretch. */
-    const double far = 100.0 * sqrt(2.0 * M_PI * law->work / law->reduced);
-    double a = 1e-9;
-    if (law->tip->shape == WT_TIP_BLUNTED_PYRAMID)
-        a = fmax(a, 2.0 * law->tip->transition_radius);
-    while (contact_at_radius(law->tip, a).slope * sqrt(a) < far)
-        a *= 2.0;
-    double high = a;
-    for (int i = 0; i < MAX_STEPS && restoring_slope(law, k, a) > 0.0; i++) {
-        high = a;
-        a *= radius_step;
-    }
-    double low = a;
-    /* The sign changes in a root, or by a jump at the corner of the tip. */
-    const double corner = law->tip->shape == WT_TIP_CONE ? 0.0 : law->tip->transition_radius;
-    if (corner >= low && corner < high && !(restoring_slope(law, k, corner) > 0.0) &&
-        restoring_slope(law, k, corner * (1.0 + 1e-12)) > 0.0)
-        return corner;
     release_search search = {law, k};
-    root_halve(comes_off, &search, &low, &high, 2.0 * DBL_EPSILON, MAX_ROUNDS);
-    return 0.5 * (low + high);
-}
-
-/* Where the base of the lever is; infinite for a radius that the tip does not have. */
-static double base_at(const adhesion *law, double k, double a)
-{
-    const adhesive_contact c = adhesion_at(law, a);
-    return isinf(c.depth) ? c.depth : c.depth + c.force / k;
-}
-
-double adhesion_radius(const adhesion *law, double k, double position, double release, double start)
-{
-    double low = release, high = fmax(start, fmax(2.0 * low, 1e-12));
-    if (release > 0.0 && position <= base_at(law, k, release))
-        return release;
-    for (; base_at(law, k, high) < position; high *= 2.0)
-        low = high;
-    double a = start > low && start < high ? start : high;
-    for (int i = 0; i < MAX_ROUNDS; i++) {
-        const double excess = base_at(law, k, a) - position;
-        if (excess > 0.0)
-            high = a;
-        else
-            low = a;
-        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring_slope(law, k, a);
-        if (!(next > low && next < high))
-            next = 0.5 * (low + high);
-        if (fabs(next - a) <= 4.0 * DBL_EPSILON * a || !(high - low > 2.0 * DBL_EPSILON * high))
-            return next;
-        a = next;
+    const wt_tip *tip = contact_table_tip(law->table);
+    const double corner = contact_switch_depth(tip);
+    if (!(corner > 0.0) || isinf(corner))
+        return end_from(&search, 1e-9);
+    double top = corner;
+    for (bare_contacts v = {.slope = {0.0}}; v.slope[0] < 4.0 * tip->transition_radius;
+         bare_at(law, &top, 1, &v))
+        top *= 2.0;
+    if (!holds(&search, top))
+        return end_from(&search, top);
+    for (int i = CORNER_NODES - 1; i > 0; i--) {
+        const double share = (double)i / CORNER_NODES, above = (double)(i + 1) / CORNER_NODES;
+        const double bare = corner + share * share * (top - corner);
+        if (!holds(&search, bare))
+            return end_between(&search, bare, corner + above * above * (top - corner));
     }
-    return a;
+    return holds(&search, corner) ? end_from(&search, corner) : corner; /* below it the cap */
 }
+
+/* ---- in balance with a lever ----------------------------------------------------------------- */
+
+/* Positions of the base at places of the branch, and how they rise with these. */
+WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double *bare, size_t n,
+                                    double *base, double *rise)
+{
+    bare_contacts v;
+    const double pull = pull_of(law), soft = law->reduced / k;
+    bare_at(law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
+                     q = 0.25 * pull * v.curvature[i] / root;
+        base[i] = bare[i] - fall + soft * (v.g[i] - 2.0 * fall * a);
+        rise[i] = 1.0 - q + 2.0 * soft * a * (1.0 - 3.0 * q);
+    }
+}
+
+static double base_at(const adhesion *law, double k, double bare)
+{
+    double base, rise;
+    bases_at(law, k, &bare, 1, &base, &rise);
+    return base;
+}
+
+/* A block of positions, and between which places theirs are. */
+typedef struct balance_block {
+    double position[BLOCK], bare[BLOCK], low[BLOCK], high[BLOCK];
+} balance_block;
+
+/* One of Newton's steps, or a half where it leads out; returns the largest share of a bare depth.
+ */
+WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
+{
+    double base[BLOCK], rise[BLOCK], largest = 0.0;
+    bases_at(law, k, b->bare, BLOCK, base, rise);
+    for (size_t i = 0; i < BLOCK; i++) {
+        const double bare = b->bare[i], excess = base[i] - b->position[i],
+                     next = bare - excess / rise[i];
+        b->low[i] = excess > 0.0 ? b->low[i] : bare;
+        b->high[i] = excess > 0.0 ? bare : b->high[i];
+        const bool inside = (next >= b->low[i]) & (next <= b->high[i]);
+        b->bare[i] = inside ? next : 0.5 * (b->low[i] + b->high[i]);
+        const double share = fabs(b->bare[i] - bare) / b->bare[i];
+        largest = share > largest ? share : largest;
+    }
+    return largest;
+}
+
+typedef struct branch {
+    double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
+} branch;
+
+/* From its end to beyond a position. At its end the position is a square. */
+static void nodes_to(const adhesion *law, double k, double release, double farthest, branch *to)
+{
+    double top = release > 0.0 ? 2.0 * release : 1e-6 * farthest;
+    while (base_at(law, k, top) < farthest)
+        top *= 2.0;
+    for (size_t j = 0; j <= NODES; j++) {
+        const double share = (double)j / NODES;
+        to->bare[j] = release + share * share * (top - release);
+    }
+    for (size_t j = 0; j <= NODES; j += BLOCK)
+        bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
+                 to->rise + j);
+}
+
+/* Between two nodes, by the cubic with their slopes; not at the end, where the slope is infinite.
+ */
+static double guess(const branch *nodes, size_t at, double position)
+{
+    const double low = nodes->bare[at], high = nodes->bare[at + 1],
+                 span = nodes->base[at + 1] - nodes->base[at],
+                 t = (position - nodes->base[at]) / span, u = 1.0 - t;
+    const double line = low + (high - low) * t;
+    if (at == 0)
+        return line;
+    const double bend = u * t *
+                        (u * (span / nodes->rise[at] - (high - low)) -
+                         t * (span / nodes->rise[at + 1] - (high - low)));
+    return line + bend > low && line + bend < high ? line + bend : line;
+}
+
+void adhesion_balance(const adhesion *law, double k, double release, const double *position,
+                      size_t n, double *bare)
+{
+    double farthest = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        farthest = position[i] > farthest ? position[i] : farthest;
+    const double held = release > 0.0 ? base_at(law, k, release) : 0.0;
+    branch nodes;
+    if (farthest > held)
+        nodes_to(law, k, release, farthest, &nodes);
+    size_t at = 0;
+    for (size_t i = 0; i < n; i += BLOCK) {
+        balance_block b;
+        for (size_t j = 0; j < BLOCK; j++) {
+            const double z = position[i + j < n ? i + j : n - 1];
+            b.position[j] = z;
+            b.bare[j] = b.low[j] = b.high[j] = release;
+            if (!(z > held))
+                continue;
+            while (at > 0 && z < nodes.base[at])
+                at--;
+            while (at + 2 <= NODES && !(z < nodes.base[at + 1]))
+                at++;
+            b.low[j] = nodes.bare[at];
+            b.high[j] = nodes.bare[at + 1];
+            b.bare[j] = guess(&nodes, at, z);
+        }
+        for (int round = 0; round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
+        }
+        for (size_t j = 0; j < BLOCK && i + j < n; j++)
+            bare[i + j] = b.bare[j];
+    }
+}
+
+/* ---- work of adhesion ------------------------------------------------------------------------ */
 
 /* ln of the force at which it comes off. */
-static double log_pull_off(const wt_tip *tip, double reduced, double k, double log_work)
+static double log_pull_off(const wt_contact_table *table, double reduced, double k, double log_work)
 {
-    const adhesion law = {tip, reduced, exp(log_work)};
+    const adhesion law = {table, reduced, exp(log_work)};
     return log(fmax(-adhesion_at(&law, adhesion_release(&law, k)).force, DBL_MIN));
 }
 
 /* By the false position of Illinois: in logarithms it is close to a line. */
-double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off)
+double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off)
 {
+    const wt_tip *tip = contact_table_tip(table);
     if (tip->sample_thickness > 0.0)
         return (double)NAN;
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double wanted = log(pull_off), close = 1e-12;
     double low = log(least_work), high = log(most_work);
-    double below = log_pull_off(tip, reduced, k, low) - wanted;
-    double above = log_pull_off(tip, reduced, k, high) - wanted;
+    double below = log_pull_off(table, reduced, k, low) - wanted;
+    double above = log_pull_off(table, reduced, k, high) - wanted;
     if (!(below < 0.0) || !(above > 0.0))
         return (double)NAN;
     for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
         const double middle = high - above * (high - low) / (above - below);
-        const double off = log_pull_off(tip, reduced, k, middle) - wanted;
+        const double off = log_pull_off(table, reduced, k, middle) - wanted;
         const int now = off > 0.0 ? 1 : -1;
         if (fabs(off) < close)
             return exp(middle);
@@ -166,9 +313,9 @@ double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_of
 
 double adhesion_tabor(const adhesion *law)
 {
-    if (law->tip->shape == WT_TIP_CONE || law->tip->shape == WT_TIP_PUNCH ||
-        !(law->tip->radius > 0.0))
+    const wt_tip *tip = contact_table_tip(law->table);
+    if (tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_PUNCH || !(tip->radius > 0.0))
         return (double)NAN;
     const double x = law->work / law->reduced;
-    return cbrt(law->tip->radius * x * x / (force_range * force_range * force_range));
+    return cbrt(tip->radius * x * x / (force_range * force_range * force_range));
 }

@@ -126,35 +126,6 @@ static contact_point_values faces_contact(const wt_tip *tip, double delta)
     return (contact_point_values){faces_force(tip, mcot, s), 2.0 * b * h, 2.0 * growth};
 }
 
-/* No part of a sphere is wider than its radius. */
-static contact_radius_values sphere_at_radius(double radius, double a)
-{
-    const double share = a / radius, t = atanh(share), never = (double)INFINITY;
-    if (!(share < 1.0))
-        return (contact_radius_values){never, never, never};
-    return (contact_radius_values){a * t, sphere_force(radius, t),
-                                   t + share / ((1.0 - share) * (1.0 + share))};
-}
-
-contact_radius_values contact_at_radius(const wt_tip *tip, double a)
-{
-    if (tip->shape == WT_TIP_SPHERE)
-        return sphere_at_radius(tip->radius, a);
-    const bool cone = tip->shape == WT_TIP_CONE;
-    const double b = cone ? 0.0 : tip->transition_radius;
-    if (tip->shape == WT_TIP_PARABOLOID || a <= b)
-        return (contact_radius_values){a * a / tip->radius, 4.0 / 3.0 * a * a * a / tip->radius,
-                                       2.0 * a / tip->radius};
-    const double mcot = tip_facet_factor(cone ? 0 : tip->sides) / tan(tip->half_angle);
-    if (b == 0.0)
-        return (contact_radius_values){0.5 * M_PI * mcot * a, 0.5 * M_PI * mcot * a * a,
-                                       0.5 * M_PI * mcot};
-    const double cap = b * b / tip->radius, h = a / b, s = sqrt((h - 1.0) * (h + 1.0)), hs = h + s;
-    const double rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs);
-    return (contact_radius_values){cap * h / hs + mcot * b * h * atan(s), faces_force(tip, mcot, s),
-                                   rise / (b * s)};
-}
-
 contact_point_values contact_values(const wt_tip *tip, double delta)
 {
     switch (tip->shape) {

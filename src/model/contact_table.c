@@ -132,27 +132,27 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-static inline void half_space(const wt_contact_table *table, double d, double *g, double *slope)
+static inline contact_point_values half_space(const wt_contact_table *table, double d)
 {
     const double at = table->switch_depth;
     uint64_t number;
-    if (!(d > 0.0)) {
-        *g = *slope = isnan(d) ? d : 0.0; /* out of contact */
-    } else if (d <= at) {
-        const double a = sqrt(table->tip.radius * d);
-        *g = 4.0 / 3.0 * a * d;
-        *slope = 2.0 * a;
-    } else if ((number = piece_number(d - at) - table->first) < table->n) {
-        const piece *p = &table->pieces[number];
-        const double *c = p->c, t = (d - at - p->start) * p->inverse_width;
-        *g = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-        *slope = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) *
-                 p->inverse_width;
-    } else {
-        const contact_point_values v = contact_values(&table->tip, d);
-        *g = v.g;
-        *slope = v.slope;
+    if (!(d > 0.0)) { /* out of contact */
+        const double none = isnan(d) ? d : 0.0;
+        return (contact_point_values){none, none, none};
     }
+    if (d <= at) {
+        const double a = sqrt(table->tip.radius * d);
+        return (contact_point_values){4.0 / 3.0 * a * d, 2.0 * a, a / d};
+    }
+    if ((number = piece_number(d - at) - table->first) >= table->n)
+        return contact_values(&table->tip, d);
+    const piece *p = &table->pieces[number];
+    const double *c = p->c, t = (d - at - p->start) * p->inverse_width;
+    return (contact_point_values){
+        c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5])))),
+        (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) * p->inverse_width,
+        (2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]))) * p->inverse_width *
+            p->inverse_width};
 }
 
 /* Four numbers of each of four pieces, from number k on: column by column. */
@@ -175,12 +175,16 @@ WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number
     to[3] = __builtin_shufflevector(odd, odd2, 2, 3, 6, 7);
 }
 
-/* Four at once, if pieces hold all of them; slope NULL: not asked for. */
-WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, double *g,
-                         double *slope)
+/* Where values go: each [n]; slope and curvature NULL: not asked for. */
+typedef struct values_at {
+    double *g, *slope, *curvature;
+} values_at;
+
+/* Four at once from i on, if pieces hold all of them. */
+WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, size_t i, values_at to)
 {
     wide d, c[2 * WIDE]; /* as in a piece */
-    wide_load(&d, delta);
+    wide_load(&d, delta + i);
     d -= table->switch_depth;
     const wide_bits number = ((wide_bits)d >> SHIFT) - (int64_t)table->first;
     const wide_bits out = (d <= 0.0) | (number < 0) | (number >= (int64_t)table->n);
@@ -190,55 +194,55 @@ WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, dou
     columns_of(table, &number, WIDE, c + WIDE);
     const wide t = (d - c[6]) * c[7];
     const wide value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-    wide_store(g, &value);
-    if (slope != NULL) {
+    wide_store(to.g + i, &value);
+    if (to.slope != NULL) {
         const wide rise =
             (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) * c[7];
-        wide_store(slope, &rise);
+        wide_store(to.slope + i, &rise);
+    }
+    if (to.curvature != NULL) {
+        const wide bend =
+            (2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]))) * c[7] * c[7];
+        wide_store(to.curvature + i, &bend);
     }
     return true;
 }
 
 WIDE_REGISTERS static void half_spaces(const wt_contact_table *table, const double *delta, size_t n,
-                                       double *g, double *slope)
+                                       values_at to)
 {
     for (size_t i = 0; i < n; i += WIDE) {
         const size_t end = i + WIDE < n ? i + WIDE : n;
-        if (i + WIDE <= n && in_pieces(table, delta + i, g + i, slope != NULL ? slope + i : NULL))
+        if (i + WIDE <= n && in_pieces(table, delta, i, to))
             continue;
         for (size_t j = i; j < end; j++) {
-            double rise;
-            half_space(table, delta[j], &g[j], slope != NULL ? &slope[j] : &rise);
+            const contact_point_values v = half_space(table, delta[j]);
+            to.g[j] = v.g;
+            if (to.slope != NULL)
+                to.slope[j] = v.slope;
+            if (to.curvature != NULL)
+                to.curvature[j] = v.curvature;
         }
     }
 }
 
-static double curvature_at(const wt_contact_table *table, double d)
+void contact_table_values(const wt_contact_table *table, const double *delta, size_t n, double *g,
+                          double *slope, double *curvature)
 {
-    const uint64_t number = piece_number(d - table->switch_depth) - table->first;
-    if (d <= table->switch_depth || number >= table->n)
-        return contact_values(&table->tip, d).curvature;
-    const piece *p = &table->pieces[number];
-    const double *c = p->c;
-    const double t = (d - table->switch_depth - p->start) * p->inverse_width;
-    return (2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]))) * p->inverse_width *
-           p->inverse_width;
+    half_spaces(table, delta, n, (values_at){g, slope, curvature});
 }
 
 void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
                            double *slope)
 {
     if (!(table->tip.sample_thickness > 0.0)) {
-        half_spaces(table, delta, n, g, slope);
+        half_spaces(table, delta, n, (values_at){g, slope, NULL});
         return;
     }
     for (size_t i = 0; i < n; i++) {
-        contact_point_values v = {0.0, 0.0, 0.0};
-        half_space(table, delta[i], &v.g, &v.slope);
-        if (delta[i] > 0.0) {
-            v.curvature = slope != NULL ? curvature_at(table, delta[i]) : 0.0;
+        contact_point_values v = half_space(table, delta[i]);
+        if (delta[i] > 0.0)
             v = thin_sample_values(&table->tip, v);
-        }
         g[i] = v.g;
         if (slope != NULL)
             slope[i] = v.slope;

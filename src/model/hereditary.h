@@ -45,8 +45,9 @@ static inline double hereditary_force(const hereditary *m, double faded, double 
 
 /* Forces of a tip at n times and positions of its base, which rises from contact, the first one, to
  * one maximum and falls again; compliance of the lever, 0: the base is the depth. WT_E_MEMORY. */
-wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance, const double *time,
-                          const double *base, size_t n, double *force, wt_error *err) WT_NODISCARD;
+wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double compliance,
+                          const double *time, const double *base, size_t n, double *force,
+                          wt_error *err) WT_NODISCARD;
 
 /* |E*| of a series. */
 double hereditary_modulus(const wt_prony *series, double angular_frequency);

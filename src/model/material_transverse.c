@@ -162,8 +162,8 @@ static const double *transverse_breaks(const wt_material *material, size_t *n)
  * double, and far below what a modulus is known to. */
 static const double slack = 1e-12;
 
-static wt_status refuse(const transverse_moduli *m, double omega, const char *what,
-                        const char *expected, wt_error *err)
+static wt_status fail_moduli(const transverse_moduli *m, double omega, const char *what,
+                             const char *expected, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "the transversely isotropic material is %s at %.3g rad/s", what,
             omega);
@@ -190,14 +190,14 @@ static wt_status check_at(const transverse_data *d, double omega, bool *passive,
     if (!isfinite(creal(sum)) || !isfinite(cimag(sum)))
         return WT_OK; /* nothing is left of it: a liquid at rest */
     if (share * creal(axial) > (1 + slack) * rest * creal(plane))
-        return refuse(&m, omega, "unstable", "2 nu_zp^2 Re(1/Ez) <= (1 - nu_p) Re(1/Ep)", err);
+        return fail_moduli(&m, omega, "unstable", "2 nu_zp^2 Re(1/Ez) <= (1 - nu_p) Re(1/Ep)", err);
     if (8 * DBL_EPSILON * scale > slack * cabs(sum))
-        return refuse(&m, omega, "incompressible and too stiff in shear, so singular",
-                      "a modulus of shear of the size of the others, or smaller Poisson ratios",
-                      err);
+        return fail_moduli(
+            &m, omega, "incompressible and too stiff in shear, so singular",
+            "a modulus of shear of the size of the others, or smaller Poisson ratios", err);
     *passive = share * -cimag(axial) <= (1 + slack) * rest * -cimag(plane);
     if (cimag(transverse_compliance(&m)) > 0)
-        return refuse(&m, omega, "a source of energy", "a loss above 0 at the surface", err);
+        return fail_moduli(&m, omega, "a source of energy", "a loss above 0 at the surface", err);
     return WT_OK;
 }
 

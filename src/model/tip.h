@@ -30,13 +30,6 @@ typedef struct contact_point_values {
 } contact_point_values;
 contact_point_values contact_values(const wt_tip *tip, double delta);
 
-/* The same contact, at a contact radius a > 0. Not for a punch, whose radius is always its own. */
-typedef struct contact_radius_values {
-    double depth, g;
-    double slope; /* ddelta/da; infinite right at a corner of the profile */
-} contact_radius_values;
-contact_radius_values contact_at_radius(const wt_tip *tip, double a);
-
 /* Of a contact radius over the thickness of a sample on a rigid base: up to it the force is known.
  */
 #define THIN_SAMPLE_REACH 1.0
@@ -52,6 +45,10 @@ bool contact_law_holds(const wt_tip *tip, double depth);
 
 /* The tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);
+/* contact_values at n depths [n each], 0 out of contact; the curvature to 1e-8. A thin sample's is
+ * that of a half-space. */
+void contact_table_values(const wt_contact_table *table, const double *delta, size_t n, double *g,
+                          double *slope, double *curvature);
 
 /* A pyramid or cone with a cap from the words of wt_tip_describe; false of other tips and words. */
 bool tip_from_description(const char *words, wt_tip *tip);

@@ -36,7 +36,7 @@ static void add_word(char list[LIST], const char *word, size_t after)
     snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
 }
 
-static void advise(wt_error *err, size_t shape)
+static void advise_shape(wt_error *err, size_t shape)
 {
     char examples[LIST] = "";
     for (size_t i = 0; i < N_SHAPES; i++)
@@ -51,7 +51,7 @@ static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const
     wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
     wt_error_expected(err, "%s", expected);
     wt_error_found(err, "\"%.*s\"", (int)found_length, found);
-    advise(err, shape);
+    advise_shape(err, shape);
     return status;
 }
 
@@ -132,7 +132,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         if (missing & 1u << key) {
             status =
                 wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, tip_dimensions[key].name);
-            advise(err, shape);
+            advise_shape(err, shape);
             return status;
         }
     }
@@ -219,8 +219,8 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
 }
 
 /* What stands behind a word, up to a comma or the end, as a quantity; false if it is none. */
-static bool described(const char *words, const char *word, const char *unit, wt_quantity quantity,
-                      double *value)
+static bool quantity_behind(const char *words, const char *word, const char *unit,
+                            wt_quantity quantity, double *value)
 {
     char text[48];
     const char *at = strstr(words, word);
@@ -239,10 +239,10 @@ bool tip_from_description(const char *words, wt_tip *tip)
     double sides = 0;
     const bool cone = strncmp(words, "blunted cone, ", 14) == 0;
     *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID};
-    if (!(cone || described(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
-        !described(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
-        !described(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
-        !described(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
+    if (!(cone || quantity_behind(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
+        !quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
+        !quantity_behind(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
+        !quantity_behind(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
         return false;
     tip->sides = (unsigned)sides;
     return wt_tip_check(tip, NULL) == WT_OK;

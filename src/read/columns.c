@@ -15,7 +15,7 @@ typedef struct given_column {
     wt_quantity quantity;
 } given_column;
 
-static wt_status complain(const char *text, const char *message, wt_error *err)
+static wt_status fail_column(const char *text, const char *message, wt_error *err)
 {
     wt_fail(err, WT_E_ARG, "%s", message);
     wt_error_expected(err, "NAME=QUANTITY or NAME=QUANTITY:UNIT");
@@ -31,18 +31,18 @@ static wt_status parse_column(const char *text, given_column *column, wt_error *
     double factor, offset;
     const char *equal = strrchr(text, '=');
     if (equal == NULL || equal == text || equal[1] == '\0')
-        return complain(text, "a column is not given as NAME=QUANTITY:UNIT", err);
+        return fail_column(text, "a column is not given as NAME=QUANTITY:UNIT", err);
     const char *unit = strchr(equal, ':');
     const size_t n = unit != NULL ? (size_t)(unit - equal) - 1 : strlen(equal + 1);
     snprintf(id, sizeof id, "%.*s", (int)(n < sizeof id ? n : sizeof id - 1), equal + 1);
     *column = (given_column){.name = {text, (size_t)(equal - text)}};
     if (!wt_quantity_find(id, &column->quantity) || column->quantity == WT_Q_NONE)
-        return complain(text, "a column is given for a quantity that there is not", err);
+        return fail_column(text, "a column is given for a quantity that there is not", err);
     if (unit == NULL)
         return WT_OK;
     column->unit = (text_span){unit + 1, strlen(unit + 1)};
     if (wt_unit_to_si(column->unit.text, column->quantity, &factor, &offset, NULL) != WT_OK)
-        return complain(text, "the unit of a column does not fit its quantity", err);
+        return fail_column(text, "the unit of a column does not fit its quantity", err);
     return WT_OK;
 }
 

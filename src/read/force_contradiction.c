@@ -18,7 +18,7 @@ static const double share_least = 0.9;
 
 /* Slope of y over x and the share of the variance of y that it explains; samples that are missing
  * in either are left out. */
-static double slope(const double *x, const double *y, size_t n, double *share)
+static double fitted_slope(const double *x, const double *y, size_t n, double *share)
 {
     double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, m = 0;
     for (size_t i = 0; i < n; i++)
@@ -37,7 +37,7 @@ static double slope(const double *x, const double *y, size_t n, double *share)
     return sxy / sxx;
 }
 
-static bool usable(const force_signal *signal)
+static bool is_usable(const force_signal *signal)
 {
     return signal != NULL && signal->problem == NULL;
 }
@@ -49,7 +49,7 @@ wt_status contradiction_constant(wt_force_source *source, const force_facts *fac
     const double k = own > 0 ? own : source->options.spring_constant;
     const size_t n = facts->n_points;
     double share = 0;
-    if (source->constant_checked || !usable(force) || !usable(bend) ||
+    if (source->constant_checked || !is_usable(force) || !is_usable(bend) ||
         force->channel == bend->channel || !(k > 0) || n < SAMPLES_MIN)
         return WT_OK;
     double *values = calloc(2 * n, sizeof *values);
@@ -58,7 +58,7 @@ wt_status contradiction_constant(wt_force_source *source, const force_facts *fac
     wt_status status = source->stream->decode(source, bend, bend->to_si, n, values, err);
     if (status == WT_OK)
         status = source->stream->decode(source, force, force->to_si, n, values + n, err);
-    const double seen = status == WT_OK ? slope(values, values + n, n, &share) : 0;
+    const double seen = status == WT_OK ? fitted_slope(values, values + n, n, &share) : 0;
     free(values);
     if (share < share_least)
         return status;

@@ -152,8 +152,8 @@ static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_op
 }
 
 /* Fails with the options that would help. */
-static wt_status uncalibrated(const force_signal *signal, const wt_cantilever *used,
-                              const char *place, wt_error *err)
+static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilever *used,
+                                   const char *place, wt_error *err)
 {
     const bool no_constant = isnan(used->spring_constant);
     const bool no_sensitivity =
@@ -193,7 +193,7 @@ static wt_status cannot_make(const wt_force_source *source, const force_facts *f
         return WT_OK;
     }
     wt_error missing = WT_ERROR_INIT;
-    wt_status status = uncalibrated(signal, used, facts->place, &missing);
+    wt_status status = fail_uncalibrated(signal, used, facts->place, &missing);
     if (source->options.want == WT_Q_ALL) {
         wt_parselog_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
                         wt_quantity_id(wanted), missing.message, missing.advice);
@@ -406,7 +406,7 @@ void force_describe_calibration(const force_facts *facts, const wt_read_options 
     if (signal != NULL && (signal_made_of(facts, options, WT_Q_FORCE) == NULL ||
                            (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
                             signal_made_of(facts, options, WT_Q_DEFLECTION) == NULL))) {
-        uncalibrated(signal, &used, NULL, &missing);
+        fail_uncalibrated(signal, &used, NULL, &missing);
         facts_add(list, "missing", "", missing.advice, "%s", missing.message);
     }
 }

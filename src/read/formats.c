@@ -24,7 +24,7 @@ static const file_reader *const binary[] = {
 
 /* ---- making a set ------------------------------------------------------------------------- */
 
-static wt_status add(wt_formats *f, const file_reader *reader, wt_error *err)
+static wt_status add_reader(wt_formats *f, const file_reader *reader, wt_error *err)
 {
     file_reader *grown = array_grow(f->readers, f->n, sizeof *grown);
     if (grown == NULL)
@@ -61,7 +61,7 @@ wt_status formats_add_text(wt_formats *f, text_description *d, wt_parselog *log,
         description_free(same->description);
         f->readers[same - f->readers] = reader;
     } else if (status == WT_OK) {
-        status = add(f, &reader, err);
+        status = add_reader(f, &reader, err);
     }
     if (status != WT_OK)
         description_free(d);
@@ -127,7 +127,7 @@ static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
             continue;
         if (running)
             reader.description = formats_find_reader(f, reader.runs)->description;
-        status = add(f, &reader, err);
+        status = add_reader(f, &reader, err);
     }
     return status;
 }

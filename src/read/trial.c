@@ -98,7 +98,7 @@ static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_o
     if (status != WT_OK)
         return status;
     if (file.n_tables == 0)
-        status = text_nothing(&file, "table whose names are understood", err);
+        status = text_fail_empty(&file, "table whose names are understood", err);
     report_tables(report, &file);
     if (status == WT_OK)
         status = try_kinds(reader, &file, content, &options, log, err);

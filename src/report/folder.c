@@ -64,7 +64,7 @@ static bool has_mark(const char *folder)
     return strstr(head, REPORT_MARK) != NULL;
 }
 
-static wt_status refuse(wt_error *err, const char *path, const char *found)
+static wt_status fail_not_replaceable(wt_error *err, const char *path, const char *found)
 {
     wt_status status = wt_fail(err, WT_E_IO, "will not be replaced: it is not a weartrack report");
     wt_error_file(err, path);
@@ -91,7 +91,7 @@ static wt_status check_empty(const char *path, wt_error *err)
     for (const struct dirent *entry; status == WT_OK && (entry = readdir(folder)) != NULL;) {
         (void)snprintf(found, sizeof found, "other files in it: %s", entry->d_name);
         if (!is_litter(entry->d_name))
-            status = refuse(err, path, found);
+            status = fail_not_replaceable(err, path, found);
     }
     closedir(folder);
     return status;
@@ -105,7 +105,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
     if (!S_ISDIR(info.st_mode))
-        return refuse(err, path, "a file of that name");
+        return fail_not_replaceable(err, path, "a file of that name");
     if (!has_mark(path))
         return check_empty(path, err);
     wt_status status = WT_OK;
@@ -114,7 +114,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (plots == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (lstat(plots, &info) == 0 && !S_ISDIR(info.st_mode))
-        status = refuse(err, path, "plots, which is no folder");
+        status = fail_not_replaceable(err, path, "plots, which is no folder");
     free(plots);
     for (size_t i = 0; status == WT_OK && file_of_report(i, name) != NULL; i++) {
         char *file = wt_path_join(path, file_of_report(i, name));
@@ -184,28 +184,23 @@ static wt_status make_temporary(report_folder *folder, wt_error *err)
 
 wt_status folder_open(const char *path, report_folder **out, wt_error *err)
 {
-    wt_status status = WT_OK;
     report_folder *folder = calloc(1, sizeof *folder);
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
-    if ((status = find_place(path, &folder->place, err)) != WT_OK ||
-        (status = check_replaceable(folder->place, err)) != WT_OK ||
-        (status = make_temporary(folder, err)) != WT_OK)
-        goto fail;
-    folder->plots = wt_path_join(folder->made, "plots");
-    if (folder->plots == NULL) {
+    wt_status status = find_place(path, &folder->place, err);
+    if (status == WT_OK)
+        status = check_replaceable(folder->place, err);
+    if (status == WT_OK)
+        status = make_temporary(folder, err);
+    if (status == WT_OK && (folder->plots = wt_path_join(folder->made, "plots")) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (mkdir(folder->plots, 0777) != 0) {
+    if (status == WT_OK && mkdir(folder->plots, 0777) != 0)
         status = io_error(err, "cannot be made", folder->plots);
-        goto fail;
-    }
-    *out = folder;
-    return WT_OK;
-fail:
-    folder_discard(folder);
+    if (status == WT_OK)
+        *out = folder;
+    else
+        folder_discard(folder);
     return status;
 }
 

@@ -129,43 +129,45 @@ _Noreturn static void become_gnuplot(const start *s)
     _exit(127);
 }
 
+/* What the child says that it could not become gnuplot for, or 0; closes its end of the pipe. */
+static int why_not_started(int told[2], pid_t child)
+{
+    int code = 0;
+    ssize_t got = 0;
+    close(told[1]);
+    told[1] = -1;
+    do
+        got = read(told[0], &code, sizeof code);
+    while (got < 0 && errno == EINTR);
+    if (got > 0)
+        (void)waitpid(child, NULL, 0);
+    return got > 0 ? code : 0;
+}
+
 /* Gives the process, and the end of the pipe that its words come from. */
 static wt_status start_gnuplot(const gnuplot_call *call, pid_t *child, int *words, wt_error *err)
 {
     wt_status status = WT_OK;
-    int said[2] = {-1, -1}, told[2] = {-1, -1}, code = 0;
+    int said[2] = {-1, -1}, told[2] = {-1, -1};
     char **list = environment(), *path = program_path(call->program);
     if (list == NULL || path == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    if (pipe2(said, O_CLOEXEC) != 0 || pipe2(told, O_CLOEXEC) != 0) {
+    } else if (pipe2(said, O_CLOEXEC) != 0 || pipe2(told, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of gnuplot: %s", strerror(errno));
-        goto done;
+    } else {
+        const start s = {path, call, list, said[1], told[1], getpid()};
+        *child = fork();
+        if (*child == 0)
+            become_gnuplot(&s);
+        const int code = *child < 0 ? errno : why_not_started(told, *child);
+        if (code != 0)
+            status = cannot_start(call->program, code, err);
     }
-    const start s = {path, call, list, said[1], told[1], getpid()};
-    *child = fork();
-    if (*child == 0)
-        become_gnuplot(&s);
-    if (*child < 0) {
-        status = cannot_start(call->program, errno, err);
-        goto done;
+    if (status == WT_OK) {
+        *words = said[0];
+        said[0] = -1;
+        (void)fcntl(*words, F_SETFL, O_NONBLOCK);
     }
-    close(told[1]);
-    told[1] = -1;
-    ssize_t got = 0;
-    do
-        got = read(told[0], &code, sizeof code);
-    while (got < 0 && errno == EINTR);
-    if (got > 0) {
-        (void)waitpid(*child, NULL, 0);
-        status = cannot_start(call->program, code, err);
-        goto done;
-    }
-    *words = said[0];
-    said[0] = -1;
-    (void)fcntl(*words, F_SETFL, O_NONBLOCK);
-done:
     for (int i = 0; i < 2; i++) {
         if (said[i] >= 0)
             close(said[i]);

@@ -147,21 +147,20 @@ wt_status page_write(page_writer *page, wt_error *err)
     page_answer(page);
     page_numbers(page);
     wt_status status = page_figures(page, err);
-    if (status != WT_OK)
-        goto done;
-    page_results(page);
-    page_indentation(page);
-    page_inputs(page);
-    page_cost(page);
-    page_record(page);
-    body = page->out;
-    page->out = (growing_text){.failed = body.failed || page->contents.failed};
-    page_head(page, &page->out, page_title(page));
-    text_bytes(&page->out, text_string(&body), body.length);
-    text_add(&page->out, "</main>\n</body>\n</html>\n");
-    if (page->out.failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-done:
+    if (status == WT_OK) {
+        page_results(page);
+        page_indentation(page);
+        page_inputs(page);
+        page_cost(page);
+        page_record(page);
+        body = page->out;
+        page->out = (growing_text){.failed = body.failed || page->contents.failed};
+        page_head(page, &page->out, page_title(page));
+        text_bytes(&page->out, text_string(&body), body.length);
+        text_add(&page->out, "</main>\n</body>\n</html>\n");
+        if (page->out.failed)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
     text_free(&body);
     text_free(&page->contents);
     return status;

@@ -220,9 +220,6 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
                           wt_error *err)
 {
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
-    wt_status status = param_check(wt_report_params(), &chosen, err);
-    if (status != WT_OK)
-        return status;
     size_t n = wt_figure_count();
     report r = {.gnuplot = {.program = chosen.gnuplot,
                             .limit = chosen.gnuplot_time,
@@ -232,15 +229,17 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
                 .lock = PTHREAD_MUTEX_INITIALIZER,
                 .figures = calloc(n, sizeof *r.figures),
                 .errors = calloc(n, sizeof *r.errors)};
-    if (r.figures == NULL || r.errors == NULL) {
+    wt_status status = param_check(wt_report_params(), &chosen, err);
+    if (status == WT_OK && (r.figures == NULL || r.errors == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    if ((status = bound_make(result, &r.tables, err)) != WT_OK ||
-        (status = file_style(chosen.style, &r.style, err)) != WT_OK ||
-        (status = folder_open(folder, &r.folder, err)) != WT_OK)
-        goto done;
-    r.gnuplot.folder = folder_plots(r.folder);
+    if (status == WT_OK)
+        status = bound_make(result, &r.tables, err);
+    if (status == WT_OK)
+        status = file_style(chosen.style, &r.style, err);
+    if (status == WT_OK)
+        status = folder_open(folder, &r.folder, err);
+    if (status == WT_OK)
+        r.gnuplot.folder = folder_plots(r.folder);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         status = write_figure(&r, i, err);
     if (status == WT_OK)
@@ -249,13 +248,12 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
         status = make_page(&r, result, chosen.with_provenance, err);
-    if (status != WT_OK)
-        goto done;
-    status = folder_commit(r.folder, err);
-    r.folder = NULL;
-    if (status == WT_OK)
-        (void)tell_progress(&r, n + 1); // it is there: too late to cancel
-done:
+    if (status == WT_OK) {
+        status = folder_commit(r.folder, err);
+        r.folder = NULL;
+        if (status == WT_OK)
+            (void)tell_progress(&r, n + 1); // it is there: too late to cancel
+    }
     folder_discard(r.folder);
     for (size_t i = 0; r.figures != NULL && i < n; i++) {
         drawing_clear(&r.figures[i].drawing);

@@ -35,7 +35,7 @@ mkfifo pipe
 refused 1 'named pipe' info pipe
 refused 1 'named pipe' convert pipe
 mkdir folder; mkfifo folder/pipe; cp "$fixtures/case/dma.txt" folder
-refused 1 'named pipe' master folder/pipe folder/dma.txt
+refused 3 'named pipe' master folder/pipe folder/dma.txt
 timeout 20 "$weartrack" convert -q --no-provenance folder/dma.txt > direct
 cat folder/dma.txt > pipe &
 [ "$(timeout 20 "$weartrack" convert -q --no-provenance - < pipe | grep -c "^[0-9]")" = "$(grep -c "^[0-9]" direct)" ] || fail "a pipe as standard input"

@@ -21,6 +21,16 @@ double truth_vertical(double temperature);
 /* Normal deviates that are the same on every machine (up to the mathematical library). */
 double truth_normal(uint64_t *state);
 
+/* A tip pressed into `factor` times the rubber by a lever whose base goes from contact at an even
+ * rate by `travel`, and back. */
+typedef struct truth_press {
+    const wt_tip *tip;
+    double spring_constant, travel, rate, factor;
+} truth_press;
+enum { TRUTH_STEPS = 400 }; /* each way */
+/* Forces [N] at the ends of the steps. */
+void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 * TRUTH_STEPS + 1]);
+
 /* Each writes its files into a folder; 0, or -1 with a text on stderr. Variant 0 is the bundled
  * case; another one has the same truth and other errors of measurement. */
 int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant);

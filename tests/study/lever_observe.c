@@ -163,7 +163,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         }
         if (!run_indent(s, zone, &c, paths, made[zone], t))
             return;
-        read_budget(s, zone, made[zone], t);
+        if (s->lever > 0 || s->sensitivity > 0 || s->angle > 0) /* else there is none */
+            read_budget(s, zone, made[zone], t);
     }
     const char *const arguments[] = {"compare", made[0],           made[1], "-o",
                                      compared,  "--no-provenance", NULL};

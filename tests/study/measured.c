@@ -108,7 +108,7 @@ int main(int argc, char **argv)
         else
             print_error(errors);
         putchar('\n');
-        broken += status != 0 && status != 1;
+        broken += status != 0 && status != 1 && status != 3;
         unlink(made);
         unlink(errors);
     }

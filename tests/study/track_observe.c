@@ -11,6 +11,7 @@
 enum { CURVES_MAX = 128, CURVES = 4 /* in a cell */ };
 static const double curve_scatter = 0.04, bulk_modulus = 8e6, middle_rate = 0.6;
 static const double warmer = 10, warmer_error = 1, warm_slope = -.012, warm_slope_error = .002;
+static const double unsaid = 17, wlf_c1 = 6.5, wlf_c2 = 110; /* K, of 20 degC */
 static const double lever[2] = {.3, .36}; /* [N/m] of separate levers, as they were calibrated */
 static const double sensitivity_gain[2] = {1.3, 1.2};
 static const char *const zones[2] = {"bulk", "track"};
@@ -49,7 +50,9 @@ static void draw_offsets(const track_scene *s, random_source *random, double *of
         spring[zone] = s->lever_error[zone] * random_normal(random);
         offset[zone] = spring[from] + sensitivity_gain[zone] * sensitivity[from];
     }
-    if (s->warmth != NOT_WARMER)
+    if (s->warmth == WARMER_UNSAID)
+        offset[1] -= s->rate_slope * M_LN10 * wlf_c1 * unsaid / (wlf_c2 + unsaid);
+    else if (s->warmth != NOT_WARMER)
         offset[1] += (warmer + warmer_error * random_normal(random)) *
                      (warm_slope + warm_slope_error * random_normal(random));
 }
@@ -120,17 +123,18 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
             k, k * s->lever_error[zone], spots_words(s));
     fputs("# file[text]\tcurve[1]\tspot[text]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
           "contact_point[m]\tnoise[N]\tpiezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\t"
-          "sensitivity_gain[1]\n",
+          "sensitivity_gain[1]\tequivalent_frequency[rad/s]\n",
           file);
     for (int i = 0; i < drawn->n[zone]; i++) {
         const curve *c = &drawn->curves[zone][i];
         char where[32];
         snprintf(where, sizeof where, s->maps ? "%s-%d.jpk" : "%s-%d", zones[zone], c->spot);
         fprintf(file,
-                "%s-%d.jpk\t%d\t%s\taccepted\taccepted\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n",
+                "%s-%d.jpk\t%d\t%s\taccepted\taccepted\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t"
+                "%.9g\n",
                 zones[zone], c->spot, i, where, bulk_modulus * exp(c->y), c->contact_point,
                 c->noise, 1e-6 * c->rate, 1e-6 * c->rate, 60 / (c->rate / 0.1),
-                sensitivity_gain[zone]);
+                sensitivity_gain[zone], 2 * c->rate / 0.1 / 60);
     }
     fputs("##\n", file);
     const int bad = ferror(file);
@@ -157,6 +161,60 @@ static bool run(words *w, const char *output, trial *t)
     return trial_run(t, w->word);
 }
 
+/* The rubber as a DMA tells it: moduli that rise with the rate as those of the curves, and a law.
+ */
+static int write_rubber(const track_scene *s, const char *path)
+{
+    static const char *const numbers[] = {"log_a",
+                                          "log_a_low",
+                                          "log_a_high",
+                                          "log_a_closed_form",
+                                          "law_log_a",
+                                          "law_log_a_low",
+                                          "law_log_a_high",
+                                          "log_b",
+                                          "log_b_standard_error",
+                                          "log_b_physical",
+                                          "log_b_material",
+                                          "overlap",
+                                          "noise_factor",
+                                          "outliers"};
+    const int shifts = 7; /* the first of them are the shift itself */
+    const int plain = sizeof numbers / sizeof numbers[0];
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    const double fall = pow(10, -s->rate_slope), one = 1e6;
+    const int first = -8, last = 4;
+    fprintf(file,
+            "## table: prony\n## title: Prony series\n"
+            "## equilibrium_modulus: %.9g standard_error=0 numerical_error=0 unit=Pa\n"
+            "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
+            "## deformation: tension\n# relaxation_time[s]\tmodulus[Pa]\n",
+            one * pow(fall, last + 1) / (1 - fall)); /* all that relaxes later */
+    for (int i = first; i <= last; i++)
+        fprintf(file, "1e%d\t%.9g\n", i, one * pow(fall, i));
+    fprintf(file,
+            "##\n## table: shift_factors\n## title: Shift factors\n## law: WLF\n"
+            "## wlf_c1: %.9g standard_error=0 numerical_error=0 unit=1\n"
+            "## wlf_c2: %.9g standard_error=0 numerical_error=0 unit=K\n"
+            "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
+            "## vertical: none\n## deformation: tension\n## superposition: holds\n"
+            "# temperature[K]\tdetermined[1]\tnote[text]\tlog_a_standard_error[1]",
+            wlf_c1, wlf_c2);
+    for (int i = 0; i < plain; i++)
+        fprintf(file, "\t%s[1]", numbers[i]);
+    for (int i = -3; i <= 6; i++) {
+        fprintf(file, "\n%.9g\t1\t-\t0", 293.15 + 10 * i);
+        for (int k = 0; k < plain; k++)
+            fprintf(file, "\t%.9g", k < shifts ? -wlf_c1 * 10 * i / (wlf_c2 + 10 * i) : 0);
+    }
+    fputs("\n", file);
+    fputs("##\n", file);
+    const int bad = ferror(file);
+    return fclose(file) != 0 || bad ? -1 : 0;
+}
+
 static bool run_compare(const track_scene *s, const char *const *files, const char *made, trial *t)
 {
     words w = {.word = {"compare", files[0], files[1]}, .n = 3};
@@ -164,7 +222,12 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     snprintf(sensitivity, sizeof sensitivity, "%g", s->sensitivity_error);
     if (s->sensitivity_error > 0)
         say(&w, "--sensitivity-error", sensitivity);
-    if (s->warmth != NOT_WARMER) {
+    if (s->warmth == WARMER_UNSAID) {
+        const char *rubber = trial_file(t, "rubber.tsv");
+        if (write_rubber(s, rubber) != 0)
+            trial_broke(t, "the rubber cannot be written");
+        say(&w, "--master", rubber);
+    } else if (s->warmth != NOT_WARMER) {
         say(&w, "--indentation-temperature", "20degC");
         say(&w, "--track-temperature", "30degC +- 1K");
     }
@@ -259,7 +322,7 @@ static void compare_ratio(const char *path, const track_scene *s, trial *t)
     } else {
         t->draw->verdict = read_verdict(found);
         /* with a ratio for each rate, that of all is none */
-        if (s->ratio_slope == 0)
+        if (s->ratio_slope == 0 && s->warmth != WARMER_UNSAID)
             trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
         if (s->through_friction)
             compare_friction(s, found, t);

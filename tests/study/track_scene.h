@@ -4,8 +4,9 @@
 
 #include "facts.h"
 
-/* What the command is told of it: nothing, the slope of ln E against temperature, or the DMA. */
-typedef enum warmth { NOT_WARMER, WARMER, WARMER_SLOPE_KNOWN } warmth;
+/* What the command is told of it: the temperatures, the slope of ln E against temperature beside
+ * them, or no temperature but the DMA. */
+typedef enum warmth { NOT_WARMER, WARMER, WARMER_SLOPE_KNOWN, WARMER_UNSAID } warmth;
 
 /* ln E = zone (ln(ratio) + ratio_slope ln(rate/0.6 um/s)) + rate_slope ln(rate/0.6 um/s) + spot
  *        + curve + levers. */
@@ -26,7 +27,8 @@ typedef struct track_scene {
     double lever_error[2];          /* relative, of the spring constants */
     double sensitivity_error;       /* relative; stated */
     bool levers_separate;
-    warmth warmth; /* the track 10 +- 1 K warmer, d ln E/dT -.012 +- .002 */
+    warmth warmth; /* the track 10 +- 1 K warmer, d ln E/dT -.012 +- .002; unsaid 17 K, by the law
+                      that takes the rate slope to another temperature */
     bool through_friction;
 } track_scene;
 

@@ -91,6 +91,9 @@ const track_scene track_scenes[] = {
          .lever_error = {.1, .1}, .sensitivity_error = .05, STATED, NOT_GIVEN),
     PAIR("T11.unknown", "track 10 K warmer, slope not known", UNKNOWN, UNKNOWN, FOUR, COMMON_RATES,
          .warmth = WARMER, SILENT),
+    /* No interval is promised: nobody knows that it is warmer. */
+    PAIR("T11.unsaid", "track 17 K warmer, no temperature said, the DMA given", PERHAPS, NOT_YES,
+         FOUR, COMMON_RATES, .warmth = WARMER_UNSAID, SILENT),
     PAIR("T12", "4 + 4 spots, heavy tails", PERHAPS, NOT_YES, FOUR, COMMON_RATES,
          .heavy_tails = true, STATED, NOT_GIVEN),
     PAIR("T13", "one map in each zone", UNKNOWN, UNKNOWN, SPOTS(1, 1, .06, .06), .rate_slope = .06,

@@ -36,12 +36,13 @@ void trial_broke(trial *t, const char *words)
         snprintf(t->draw->words, sizeof t->draw->words, "%s", words);
 }
 
-/* 1 is an error of data that is explained; others are misuse of the command, or a crash. */
+/* 1 is an error of data that is explained, 3 one of a part of them; others are misuse of the
+ * command, or a crash. */
 static void note_failure(trial *t, int status, const char *errors)
 {
     char line[sizeof t->draw->words];
     FILE *words = fopen(errors, "r");
-    if (status != 1)
+    if (status != 1 && status != 3)
         t->draw->outcome = OUTCOME_BROKEN;
     else if (t->draw->outcome == OUTCOME_GOOD)
         t->draw->outcome = OUTCOME_REFUSED;

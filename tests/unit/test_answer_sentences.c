@@ -82,16 +82,27 @@ static const char *chance(double p)
     return words[which];
 }
 
+/* As many decimals as two digits of half the interval have, three digits at least. */
+static int digits_of(double value, double low, double high)
+{
+    char half[16], whole[16];
+    snprintf(half, sizeof half, "%.5e", (high - low) / 2);
+    snprintf(whole, sizeof whole, "%.5e", value);
+    const int digits = 2 + atoi(strchr(whole, 'e') + 1) - atoi(strchr(half, 'e') + 1);
+    return digits > 3 ? digits : 3;
+}
+
 static void check_layer(void)
 {
+    const double low = at("comparison", 0, "ratio_low"), high = at("comparison", 0, "ratio_high");
+    const int digits = digits_of(at("comparison", 0, "ratio"), low, high);
     const char *differs = wt_table_key(table("comparison"), "differs"),
                *settled = wt_table_key(table("comparison"), "settled_by");
     says("layer",
-         "%c%s. E_track/E_bulk = %#.3g, 95 %% interval %#.3g to %#.3g (%.0f spots in the bulk and "
+         "%c%s. E_track/E_bulk = %#.*g, 95 %% interval %#.*g to %#.*g (%.0f spots in the bulk and "
          "%.0f in the track; p %s by Welch, %s by Mann and Whitney).%s%s%s",
-         differs[0] - 'a' + 'A', differs + 1, at("comparison", 0, "ratio"),
-         at("comparison", 0, "ratio_low"), at("comparison", 0, "ratio_high"),
-         at("comparison", 0, "spots_bulk"), at("comparison", 0, "spots_track"),
+         differs[0] - 'a' + 'A', differs + 1, digits, at("comparison", 0, "ratio"), digits, low,
+         digits, high, at("comparison", 0, "spots_bulk"), at("comparison", 0, "spots_track"),
          chance(at("comparison", 0, "welch_p")), chance(at("comparison", 0, "mann_whitney_p")),
          settled != NULL ? " What would settle it: " : "", settled != NULL ? settled : "",
          settled != NULL ? "." : "");
@@ -102,10 +113,9 @@ static void check_difference(void)
     static const char *const names[] = {"Bulk", "Wear track"};
     const double ratio = at("comparison", 0, "ratio");
     says("difference",
-         "The modulus of the wear track is %#.3g times that of the bulk (%+.0f %%) at ", ratio,
-         100 * (at("modulus_groups", 1, "geometric_mean") /
-                    at("modulus_groups", 0, "geometric_mean") -
-                1));
+         "The modulus of the wear track is %#.*g times that of the bulk (%+.0f %%) at ",
+         digits_of(ratio, at("comparison", 0, "ratio_low"), at("comparison", 0, "ratio_high")),
+         ratio, 100 * (ratio - 1));
     says("difference", "; effect size (Hedges' g of ln E) %.2g.",
          at("comparison", 0, "effect_size"));
     for (size_t g = 0; g < 2; g++) {
@@ -137,8 +147,8 @@ static void check_difference(void)
         }
     const wt_estimate k = key("indentation/bulk", "spring_constant");
     says("difference",
-         "At equal frequency the indentation modulus of the bulk is %.3g to %.3g times |E*| of the "
-         "DMA, of which the spring constant leaves %.2g %% uncertain.",
+         "At equal frequency the indentation modulus of the bulk is %#.3g to %#.3g times |E*| "
+         "of the DMA, of which the spring constant leaves %.2g %% uncertain.",
          low, high, 100 * k.standard_error / k.value);
 }
 

@@ -5,6 +5,7 @@
 #include "flow/answer/words.h"
 #include "weartrack/fit.h"
 
+#include <math.h>
 #include <string.h>
 
 static void test_values(void **state)
@@ -19,6 +20,7 @@ static void test_values(void **state)
         {0.10049, "1", "0.100"},
         {1.23456, "1", "1.23"},
         {-0.0456, "1", "-0.0456"},
+        {123.4, "1", "123"},
         {(double)NAN, "m", "not known"},
         {(double)INFINITY, "m", "without limit"},
         {1234, "s", "1230 s"},
@@ -59,6 +61,16 @@ static void test_errors(void **state)
     }
 }
 
+/* Further apart than the factor, to either side. */
+static void test_other_rubber(void **state)
+{
+    (void)state;
+    const double factor = ANSWER_DMA_FACTOR;
+    assert_false(is_other_rubber(1 / factor, factor));
+    assert_true(is_other_rubber(1, nextafter(factor, 10)));
+    assert_true(is_other_rubber(nextafter(1 / factor, 0), 1));
+}
+
 static void test_rejected(void **state)
 {
     (void)state;
@@ -93,6 +105,7 @@ static void test_rejected(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_errors),
+                                       cmocka_unit_test(test_other_rubber),
                                        cmocka_unit_test(test_rejected)};
     return cmocka_run_group_tests_name("words of the answer", tests, NULL, NULL);
 }

@@ -184,6 +184,53 @@ static void check_round_trip(double value)
     assert_memory_equal(&again, &value, sizeof value);
 }
 
+/* As the C library has it. */
+static void check_shortest(double value)
+{
+    char text[32], expected[32];
+    (void)wt_number_format(value, text);
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(expected, sizeof expected, "%.*e", digits - 1, value);
+        if (!(strtod(expected, NULL) < value || strtod(expected, NULL) > value))
+            break;
+    }
+    char mantissa[32] = "", got[32] = "";
+    size_t n = 0, m = 0;
+    for (const char *c = expected; *c != '\0' && *c != 'e'; c++)
+        if (*c >= '0' && *c <= '9')
+            mantissa[n++] = *c;
+    while (n > 1 && mantissa[n - 1] == '0')
+        mantissa[--n] = '\0';
+    for (const char *c = text; *c != '\0' && *c != 'e'; c++)
+        if ((*c >= '1' && *c <= '9') || (*c == '0' && m > 0))
+            got[m++] = *c;
+    while (m > 1 && got[m - 1] == '0')
+        got[--m] = '\0';
+    assert_string_equal(got, mantissa);
+    check_round_trip(value);
+}
+
+static void shortest_numbers(void **state)
+{
+    (void)state;
+    uint64_t seed = 77;
+    for (int i = 0; i < 100000; i++) {
+        const double share = (double)(next_random(&seed) >> 11) * 0x1p-53,
+                     size = pow(10, (double)(next_random(&seed) % 81) - 40);
+        check_shortest((share + 0x1p-53) * size);
+        check_shortest(-size * (double)(next_random(&seed) % 100000 + 1) / 7);
+        check_shortest((double)(next_random(&seed) % 1000000 + 1) * size);
+    }
+    for (int i = -120; i < 120; i++) { /* powers, and their neighbours */
+        check_shortest(ldexp(1, i));
+        check_shortest(nextafter(ldexp(1, i), 0));
+        check_shortest(nextafter(ldexp(1, i), 1e300));
+        check_shortest(pow(10, i / 4.0));
+        check_shortest(nextafter(pow(10, i / 4), 0));
+        check_shortest(nextafter(pow(10, i / 4), 1e300));
+    }
+}
+
 static void round_trips(void)
 {
     uint64_t seed = 0x9E3779B97F4A7C15;
@@ -289,6 +336,7 @@ int main(void)
         cmocka_unit_test(parse_log),
         cmocka_unit_test(numbers),
         cmocka_unit_test(formatted_numbers),
+        cmocka_unit_test(shortest_numbers),
         cmocka_unit_test(foreign_locale),
         cmocka_unit_test(paths),
     };

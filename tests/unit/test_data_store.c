@@ -151,28 +151,19 @@ static void block_without_rows(void **state)
     wt_result_free(result);
 }
 
-/* Of the first layout, whose digest is of text; one changed byte of a value is noticed. */
+/* Of the first layout, which had one digest of all tables, as text: refused, with a way out. */
 static void first_layout(void **state)
 {
     (void)state;
     size_t size = 0;
     wt_result *read = NULL;
     wt_error err = WT_ERROR_INIT;
-    unsigned char *const bytes = read_bytes(WT_SOURCE_DIR "/fixtures/fuzz/hdf5/result.h5", &size);
-    assert_int_equal(wt_store_read_memory(bytes, size, "old", &read, &err), WT_OK);
-    assert_true(wt_result_n_tables(read) > 0);
-    const wt_table *const t = wt_result_table(read, 0);
-    double value = (double)NAN;
-    for (size_t i = 0; isnan(value) && i < wt_table_n_columns(t); i++)
-        if (wt_table_column_kind(t, i) == WT_COLUMN_NUMBER)
-            value = wt_table_number(t, 0, i);
-    unsigned char *const place = memmem(bytes, size, &value, sizeof value);
-    assert_non_null(place);
-    place[1] ^= 1;
-    wt_result_free(read);
-    read = NULL;
-    assert_int_equal(wt_store_read_memory(bytes, size, "old", &read, &err), WT_E_CORRUPT);
-    assert_non_null(strstr(err.message, "digest"));
+    unsigned char *const bytes = read_bytes(WT_SOURCE_DIR "/fixtures/fuzz/hdf5/layout_1.h5", &size);
+    assert_int_equal(wt_store_read_memory(bytes, size, "old", &read, &err), WT_E_UNSUPPORTED);
+    assert_null(read);
+    assert_string_equal(err.expected, "layout 3 or 4");
+    assert_string_equal(err.found, "1");
+    assert_non_null(strstr(err.advice, "newer"));
     free(bytes);
 }
 
@@ -432,6 +423,29 @@ static void outside_links(void **state)
     wt_result_free(result);
 }
 
+/* Blocks begin with 0, also in a table of one row. */
+static void odd_block(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("block.h5", path);
+    wt_table *const t = wt_table_new("one", "");
+    wt_result *const result = wt_result_new();
+    const uint64_t five = 5;
+    assert_true(t != NULL && result != NULL);
+    assert_int_equal(wt_table_add_column(t, "x", "1", "", NULL), WT_OK);
+    assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+    wt_table_put(t, 0, 1);
+    assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),
+                block = H5Dopen2(file, "one/block", H5P_DEFAULT);
+    assert_true(H5Dwrite(block, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &five) >= 0);
+    assert_true(H5Dclose(block) >= 0 && H5Fclose(file) >= 0);
+    check_refused(path, WT_E_CORRUPT);
+    wt_result_free(result);
+}
+
 /* Replaces the column "modulus" of the one table by something else. */
 static void replace_column(const char *path, const wt_result *result, hid_t type, hsize_t n,
                            bool chunked)
@@ -542,10 +556,10 @@ int main(void)
         cmocka_unit_test(length_is_right),    cmocka_unit_test(empty_result),
         cmocka_unit_test(as_others_see_it),   cmocka_unit_test(not_a_store),
         cmocka_unit_test(cut_files),          cmocka_unit_test(flipped_values),
-        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_columns),
-        cmocka_unit_test(cannot_write),       cmocka_unit_test(names_that_collide),
-        cmocka_unit_test(block_without_rows), cmocka_unit_test(first_layout),
-        cmocka_unit_test(headlines),
+        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_block),
+        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
+        cmocka_unit_test(names_that_collide), cmocka_unit_test(block_without_rows),
+        cmocka_unit_test(first_layout),       cmocka_unit_test(headlines),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -148,6 +148,37 @@ static void sweep_order(void **state)
     wt_sweep_sort(&sweep);
 }
 
+/* Of every kind of sweep those of one sample stay, in their order. */
+static void one_sample(void **state)
+{
+    (void)state;
+    static const char *const samples[] = {"A", "B", "A", "B"};
+    wt_sweep sweep = {0};
+    for (int i = 0; i < 4; i++) {
+        wt_isotherm *isotherm = wt_sweep_add(&sweep, 2, 0);
+        wt_ramp *ramp = wt_sweep_add_ramp(&sweep, 2, 0);
+        wt_strain_sweep *strains = wt_sweep_add_strain_sweep(&sweep, 2);
+        assert_true(isotherm != NULL && ramp != NULL && strains != NULL);
+        isotherm->temperature = 300 + i;
+        ramp->angular_frequency = 1 + i;
+        strains->angular_frequency = 10 + i;
+        isotherm->sample = strdup(samples[i]);
+        ramp->sample = strdup(samples[i]);
+        strains->sample = strdup(samples[i]);
+    }
+    assert_int_equal(wt_sweep_keep_sample(&sweep, "B"), WT_OK);
+    assert_int_equal(sweep.n_isotherms, 2);
+    assert_int_equal(sweep.n_ramps, 2);
+    assert_int_equal(sweep.n_strain_sweeps, 2);
+    for (int i = 0; i < 2; i++) {
+        assert_true(sweep.isotherms[i].temperature == 301 + 2 * i);
+        assert_true(sweep.ramps[i].angular_frequency == 2 + 2 * i);
+        assert_true(sweep.strain_sweeps[i].angular_frequency == 11 + 2 * i);
+    }
+    assert_int_equal(wt_sweep_keep_sample(&sweep, "C"), WT_E_NOT_FOUND);
+    wt_sweep_clear(&sweep);
+}
+
 static void small_types(void **state)
 {
     (void)state;
@@ -373,6 +404,7 @@ int main(void)
         cmocka_unit_test(deflection_and_force),
         cmocka_unit_test(sweep_order),
         cmocka_unit_test(sweep_copies),
+        cmocka_unit_test(one_sample),
         cmocka_unit_test(small_types),
         cmocka_unit_test(table_columns),
         cmocka_unit_test(table_keys),

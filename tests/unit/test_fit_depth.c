@@ -245,6 +245,34 @@ static void loss(void **state)
     assert_true(isnan(c.change.value) && c.n == 0 && c.n_lossy == CURVES);
 }
 
+/* What the memory leaves open of the modulus of a layer and of the ground is what it leaves open of
+ * the modulus at the full depth: by as much its intervals are wider, in squares of their width. */
+static void loss_of_layers(void **state)
+{
+    (void)state;
+    static const scene scenes[] = {{0.5, 40e-9, 1, 100e-12, 0, 0}, {2.5, 60e-9, 1, 100e-12, 0, 0}};
+    size_t told = 0;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        scene lossy = scenes[i];
+        lossy.loss_error = 0.03;
+        const wt_curve_depth d[2] = {depth_of(&scenes[i], CURVES, CURVES),
+                                     depth_of(&lossy, CURVES, CURVES)};
+        if (isnan(d[0].thickness.value) || isnan(d[1].thickness.value))
+            continue;
+        const size_t last = WT_DEPTHS - 1;
+        double more[3] = {0};
+        for (size_t k = 0; k < 2; k++) {
+            const wt_interval of[3] = {d[k].modulus[last], d[k].layer_modulus, d[k].ground_modulus};
+            for (size_t j = 0; j < 3; j++)
+                more[j] += (k == 1 ? 1 : -1) * pow(log(of[j].high / of[j].value), 2);
+        }
+        assert_near(more[1], more[0], 0.1); /* Student's t has other degrees of freedom */
+        assert_near(more[2], more[0], 0.1);
+        told++;
+    }
+    assert_true(told > 0);
+}
+
 /* What is said of a change agrees with its interval, and what would settle it with what hides it.
  */
 static void words_of_a_change(void **state)
@@ -313,11 +341,17 @@ static void words_of_no_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quick_form),    cmocka_unit_test(no_change),
-        cmocka_unit_test(layers),        cmocka_unit_test(wrong_tip),
-        cmocka_unit_test(too_little),    cmocka_unit_test(words_of_a_change),
-        cmocka_unit_test(little_change), cmocka_unit_test(bent_baselines),
-        cmocka_unit_test(loss),          cmocka_unit_test(words_of_no_answer),
+        cmocka_unit_test(quick_form),
+        cmocka_unit_test(no_change),
+        cmocka_unit_test(layers),
+        cmocka_unit_test(wrong_tip),
+        cmocka_unit_test(too_little),
+        cmocka_unit_test(words_of_a_change),
+        cmocka_unit_test(little_change),
+        cmocka_unit_test(bent_baselines),
+        cmocka_unit_test(loss),
+        cmocka_unit_test(loss_of_layers),
+        cmocka_unit_test(words_of_no_answer),
     };
     workspace = wt_indent_workspace_new();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

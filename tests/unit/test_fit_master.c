@@ -459,6 +459,17 @@ static void the_spectrum_and_its_band(void **state)
 
 /* ---- verdicts -------------------------------------------------------------------------------- */
 
+/* A bound in words is not below the number, nor more than the last digit above it. */
+static void check_bound(const wt_master *m)
+{
+    static const char before[] = "misfit below ";
+    const char *words = strstr(m->because, before);
+    assert_non_null(words);
+    const double bound = strtod(words + strlen(before), NULL), number = 100 * m->misfit_high;
+    assert_true(number > 0.15); /* what "at least 0.1 %" would not hide */
+    assert_true(bound >= number && bound < number + 0.1 + 1e-9);
+}
+
 static void superposition_is_judged(void **state)
 {
     (void)state;
@@ -467,6 +478,7 @@ static void superposition_is_judged(void **state)
     assert_int_equal(m.superposition, WT_SUPERPOSITION_HOLDS);
     assert_true(m.lack_of_fit_p > 1e-3 && m.misfit_high < 0.01);
     assert_near_abs(m.loss_factor, 0, 4 * m.loss_factor_error);
+    check_bound(&m);
     wt_master_clear(&m);
 
     s.material.law[1].wlf.c1 = 2.5; /* a second process goes another way */

@@ -5,6 +5,7 @@
 #include "weartrack/fit.h"
 
 #include "dma_data.h"
+#include "fit/ramp/smooth.h"
 
 #define TIDY WT_SHARED_DIR "/data/dma/tidy/"
 #define REFERENCE WT_SHARED_DIR "/data/dma-scans/tg-from-isotherms.csv"
@@ -229,11 +230,36 @@ static void reference_parabolas(void **unused)
     assert_int_equal(checked, 152);
 }
 
+/* Through points of a parabola about 3 with half-width 5: its values, its slopes in units of x, and
+ * on which side of a limit they are. */
+static void slopes(void **state)
+{
+    (void)state;
+    enum { POINTS = 21 };
+    double x[POINTS], y[POINTS];
+    smooth s;
+    for (int i = 0; i < POINTS; i++) {
+        x[i] = -2 + 0.5 * i;
+        y[i] = 0.4 * x[i] * x[i] - x[i] + 7 + 1e-6 * (i % 2 == 0 ? 1 : -1);
+    }
+    assert_int_equal(smooth_new(x, y, POINTS, true, &s, NULL), WT_OK);
+    for (double at = -2; at <= 8; at += 1.25) {
+        const double slope = 0.8 * at - 1;
+        assert_near_abs(smooth_mean(&s, at, SMOOTH_VALUE), 0.4 * at * at - at + 7, 1e-5);
+        assert_near_abs(smooth_mean(&s, at, SMOOTH_SLOPE), slope, 1e-5);
+        assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope + 1e-4) > 0.999);
+        assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope - 1e-4) < 0.001);
+    }
+    smooth_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(peaks_hold_the_truth),
                                        cmocka_unit_test(values_hold_the_truth),
-                                       cmocka_unit_test(no_peak), cmocka_unit_test(parabola),
-                                       cmocka_unit_test(reference_parabolas)};
+                                       cmocka_unit_test(no_peak),
+                                       cmocka_unit_test(parabola),
+                                       cmocka_unit_test(reference_parabolas),
+                                       cmocka_unit_test(slopes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,11 @@
 /* Dwells: a power law by a hereditary integral summed step by step, files by an independent writer,
  * what is left out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "near.h"
 
 #include "dma_data.h"
+#include "fit/dwell/relaxation.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 
@@ -85,7 +87,6 @@ enum { N = 600, CURVES = 6, FREE = 300 };
 static const double radius = 5e-6, depth = 400e-9, load_time = 0.2, hold = 4, exponent = 0.12,
                     modulus = 1e6, lever = 5000;
 static double height[CURVES][2][N], force[CURVES][2][N], stiffness[CURVES];
-static wt_formats *formats;
 
 static double force_at(double t)
 {
@@ -428,24 +429,48 @@ static void test_genuine(void **state)
     wt_dwell_tables_clear(&t);
 }
 
-static int open_formats(void **state)
+/* An adhesive way out: the neck holds until 4 um above the contact point, four times the depth, and
+ * the force behind it is that of the baseline. What is free begins behind the neck. */
+static void test_free_of_the_neck(void **state)
 {
     (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
+    enum { IN = 600, HELD = 600, OUT = 700 };
+    static double time[IN + HELD + OUT], position[IN + HELD + OUT], forces[IN + HELD + OUT];
+    uint64_t seed = 1;
+    for (int i = 0; i < IN + HELD + OUT; i++) {
+        const double in = i < IN          ? (double)(2 * i - IN) / IN
+                          : i < IN + HELD ? 1
+                                          : 1 - 7.0 * (i - IN - HELD + 1) / OUT; /* [um] */
+        const bool neck = i >= IN + HELD && in < 0 && in > -4;
+        time[i] = 1e-3 * i;
+        position[i] = 1e-6 * in;
+        forces[i] = 1e-9 * (in > 0 ? in : neck ? in : 0) + 1e-13 * dma_normal(&seed);
+    }
+    const wt_dwell_history h = {.time = time,
+                                .position = position,
+                                .force = forces,
+                                .n_approach = IN,
+                                .n_dwell = HELD,
+                                .n_retract = OUT,
+                                .spring_constant = 1,
+                                .poisson_ratio = 0.5,
+                                .modulus = 1e6};
+    pool memory = {0};
+    dwell_nodes nodes;
+    assert_string_equal(dwell_nodes_make(&h, 1e-3, &memory, &nodes), "");
+    assert_true(nodes.n > nodes.first_free);
+    for (size_t i = nodes.first_free; i < nodes.n; i++) {
+        assert_true(nodes.position[i] < -4e-6);
+        assert_near_abs(nodes.force[i], 0, 1e-12);
+    }
+    pool_free(&memory);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none), cmocka_unit_test(test_relaxation),
-        cmocka_unit_test(test_lines), cmocka_unit_test(test_modulation),
-        cmocka_unit_test(test_genuine)};
+        cmocka_unit_test(test_none),    cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_lines),   cmocka_unit_test(test_modulation),
+        cmocka_unit_test(test_genuine), cmocka_unit_test(test_free_of_the_neck)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -188,7 +188,7 @@ static const expectation measured[] = {
     {&indentation_schema, "misfit_error", "00"},
     {&indentation_schema, "modulus", "kk"},
     {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
-    {&indentation_schema, "spectrum_factor", "nn"},      /* the curves have no memory */
+    {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */
     {&indentation_schema, "contact_point", "kk"},
     {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
     {&shift_factors_schema, "wlf_c1", "kk"},

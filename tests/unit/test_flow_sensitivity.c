@@ -1,6 +1,7 @@
 /* Deflection sensitivity of files by independent writers: volts, calibrated files, forces alone,
  * both ways with friction, several files, a soft surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "near.h"
 
 #include "dma_data.h"
@@ -15,7 +16,6 @@
 enum { N = 400, MOST_CURVES = 12, MOST_FILES = 4 };
 static const double free_travel = 200e-9, press = 100e-9, spring = 0.3;
 
-static wt_formats *formats;
 static double height[MOST_CURVES][2][N], signal[MOST_CURVES][2][N];
 
 /* A curve whose way in is of sensitivity s (1 + friction), the way out of s (1 - friction). The
@@ -551,19 +551,6 @@ static void test_genuine(void **state)
     assert_near(key(s.sensitivity, "sensitivity").value, 30.2e-9, 0.02);
     wt_sensitivity_tables_clear(&t);
     wt_sensitivity_tables_clear(&s);
-}
-
-static int open_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 int main(void)

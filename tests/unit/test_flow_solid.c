@@ -18,7 +18,8 @@ typedef struct solid {
     double g[MOST], k[MOST], tau[MOST];
     double level[MOST], shear[MOST], bulk[MOST]; /* instantaneous; bulk infinite */
     bool shifts;
-    double t0, c1, c2, sign; /* log10 of what multiplies time is sign C1 (T - T0)/(C2 + T - T0) */
+    double density, expansion; /* 0: not there */
+    double t0, c1, c2, sign;   /* log10 of what multiplies time is sign C1 (T - T0)/(C2 + T - T0) */
 } solid;
 
 /* ---- the programs ---------------------------------------------------------------------------- */
@@ -62,8 +63,8 @@ static double number(const char *text)
 /* Keyword lines begin with one star, comments with two; data lines follow their keyword. */
 static void read_abaqus(char *text, solid *s)
 {
-    enum { NOTHING, ELASTIC, NEO, PRONY, TRS } in = NOTHING;
-    bool named = false;
+    enum { NOTHING, ELASTIC, NEO, PRONY, TRS, DENSITY, EXPANSION } in = NOTHING;
+    bool named = false, long_term = false;
     s->sign = 1;
     for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
         char *field[FIELDS];
@@ -76,16 +77,23 @@ static void read_abaqus(char *text, solid *s)
                 named = n == 2 && strncmp(field[1], "NAME=", 5) == 0;
                 in = NOTHING;
             } else if (strcmp(field[0], "*ELASTIC") == 0) {
-                assert_string_equal(field[1], "MODULI=INSTANTANEOUS");
+                long_term = strcmp(field[1], "MODULI=LONG TERM") == 0;
+                assert_true(long_term || strcmp(field[1], "MODULI=INSTANTANEOUS") == 0);
                 in = ELASTIC;
             } else if (strcmp(field[0], "*HYPERELASTIC") == 0) {
                 assert_int_equal(n, 3);
                 assert_string_equal(field[1], "NEO HOOKE");
-                assert_string_equal(field[2], "MODULI=INSTANTANEOUS");
+                long_term = strcmp(field[2], "MODULI=LONG TERM") == 0;
+                assert_true(long_term || strcmp(field[2], "MODULI=INSTANTANEOUS") == 0);
                 in = NEO;
             } else if (strcmp(field[0], "*VISCOELASTIC") == 0) {
-                assert_string_equal(field[1], "TIME=PRONY");
+                /* of vibrations the elasticity must be that in the end */
+                assert_string_equal(field[1], long_term ? "FREQUENCY=PRONY" : "TIME=PRONY");
                 in = PRONY;
+            } else if (strcmp(field[0], "*DENSITY") == 0) {
+                in = DENSITY;
+            } else if (strcmp(field[0], "*EXPANSION") == 0) {
+                in = EXPANSION;
             } else if (strcmp(field[0], "*TRS") == 0) {
                 assert_string_equal(field[1], "DEFINITION=WLF");
                 in = TRS;
@@ -95,6 +103,11 @@ static void read_abaqus(char *text, solid *s)
             continue;
         }
         assert_true(named && n >= 2 && n <= 3);
+        if (in == DENSITY || in == EXPANSION) {
+            assert_true(n == 2 && field[1][0] == '\0');
+            *(in == DENSITY ? &s->density : &s->expansion) = number(field[0]);
+            continue;
+        }
         const double a = number(field[0]), b = number(field[1]);
         if (in == ELASTIC || in == NEO) {
             s->level[s->n_levels] = n == 3 ? number(field[2]) : 0;
@@ -120,6 +133,13 @@ static void read_abaqus(char *text, solid *s)
             s->c2 = number(field[2]);
             s->shifts = true;
         }
+    }
+    double rest = 1; /* of the modulus at once */
+    for (size_t i = 0; i < s->n; i++)
+        rest -= s->g[i];
+    for (size_t i = 0; long_term && i < s->n_levels; i++) {
+        s->shear[i] /= rest;
+        s->bulk[i] /= rest;
     }
 }
 
@@ -462,10 +482,10 @@ static void check(wt_solid_program program, const wt_solid_options *o, const wt_
     readers[program](text, &s);
     free(text);
     assert_int_equal(s.n, wt_table_n_rows(p));
-    assert_int_equal(s.shifts, law->kind != WT_LAW_NONE);
+    assert_int_equal(s.shifts, law->kind != WT_LAW_NONE && o->domain == WT_SOLID_TIME);
     size_t tried = 0;
     for (size_t row = 0; row <= isotherms; row++) {
-        if (law->kind == WT_LAW_NONE && row < isotherms)
+        if (!s.shifts && row < isotherms)
             continue;
         const double t = row < isotherms ? cell(tables.shift_factors, row, "temperature")
                                          : key(p, "reference_temperature");
@@ -523,6 +543,89 @@ static void of_shear(void **state)
     assert_int_equal(wt_table_set_key(tables.prony_reduced, "deformation", "tension", NULL), WT_OK);
 }
 
+/* Abaqus for vibrations: the same series beside the modulus in the end, and no shifts. */
+static void of_frequency(void **state)
+{
+    (void)state;
+    const wt_shift_law law = fitted_law();
+    for (int i = 0; i < 2; i++) {
+        wt_solid_options o = wt_solid_options_defaults();
+        o.domain = WT_SOLID_FREQUENCY;
+        o.poisson_ratio = i == 0 ? 0.45 : 0.5;
+        check(WT_SOLID_ABAQUS, &o, &law);
+    }
+}
+
+static void holds_text(const char *text, const char *words)
+{
+    if (strstr(text, words) == NULL)
+        fail_msg("no \"%s\" in:\n%s", words, text);
+}
+
+/* 1120 kg/m3 are 1.12e-9 t/mm3 and 1.12e-6 kg/mm3. */
+static void what_else_a_material_has(void **state)
+{
+    (void)state;
+    static const double factor[] = {1, 1e-12, 1e-9};
+    wt_solid_options o = wt_solid_options_defaults();
+    char *text = NULL;
+    o.density = 1120;
+    o.expansion = 2.1e-4;
+    o.name = "TREAD_7";
+    o.poisson_ratio = 0.45;
+    for (int units = 0; units < 3; units++) {
+        solid s = {0};
+        o.units = (wt_solid_units)units;
+        write(WT_SOLID_ABAQUS, &o, &text);
+        holds_text(text, "*MATERIAL, NAME=TREAD_7\n");
+        read_abaqus(text, &s);
+        assert_near(s.density, 1120 * factor[units], 1e-10);
+        assert_near(s.expansion, 2.1e-4, 1e-10);
+        free(text);
+    }
+    o.units = WT_SOLID_MM_T_S;
+    write(WT_SOLID_ANSYS, &o, &text);
+    holds_text(text, "\nTREAD_7=1 ");
+    holds_text(text, "\nMP,DENS,TREAD_7,1.12e-09\nMP,ALPX,TREAD_7,0.00021\n");
+    holds_text(text, "\nMPDATA,EX,TREAD_7,1,");
+    holds_text(text, "\nTB,PRONY,TREAD_7,1,");
+    holds_text(text, "\nTB,SHIFT,TREAD_7,1,3,WLF\n");
+    assert_null(strstr(text, "RUBBER"));
+    free(text);
+    write(WT_SOLID_CODE_ASTER, &o, &text);
+    holds_text(text, "\nTREAD_7 = DEFI_MATERIAU(\n    ELAS=_F(E=");
+    holds_text(text, ", RHO=1.12e-09, ALPHA=0.00021),\n");
+    free(text);
+    write(WT_SOLID_TABLE, &o, &text);
+    holds_text(text, "# density 1.12e-09\n# thermal_expansion 0.00021\n");
+    free(text);
+}
+
+/* The storage modulus where the measurement ends, and what of the modulus at once is beyond it. */
+static void the_fast_end_is_told(void **state)
+{
+    (void)state;
+    const wt_table *p = tables.prony_reduced;
+    const wt_solid_options o = wt_solid_options_defaults();
+    double at_end = key(p, "equilibrium_modulus"), all = at_end, told = 0, beyond = 0;
+    for (size_t i = 0; i < wt_table_n_rows(p); i++) {
+        const double x = key(p, "frequency_max") * cell(p, i, "relaxation_time");
+        at_end += cell(p, i, "modulus") * x * x / (1 + x * x);
+        all += cell(p, i, "modulus");
+    }
+    char *text = NULL;
+    write(WT_SOLID_ABAQUS, &o, &text);
+    const char *words = strstr(text, "highest frequency measured the storage modulus is ");
+    assert_non_null(words);
+    assert_int_equal(
+        sscanf(words, "highest frequency measured the storage modulus is %lf,\n** and %lf %% of",
+               &told, &beyond),
+        2);
+    assert_near(told, at_end, 1e-5);
+    assert_near(beyond, 100 * (1 - at_end / all), 0.06);
+    free(text);
+}
+
 static void in_another_locale(void **state)
 {
     (void)state;
@@ -558,34 +661,51 @@ static void other_laws(void **state)
     assert_int_equal(wt_table_set_key(shifts, "law", "WLF", NULL), WT_OK);
 }
 
-/* Of a law of two parts the card is that at the reference, and the file says so. */
+/* Of a law of two parts the card is that at the reference, and the file tells the other. */
+static void check_joined(double from_reference, bool below)
+{
+    wt_table *shifts = tables.shift_factors;
+    const double reference = key(tables.prony_reduced, "reference_temperature");
+    const wt_estimate joint = {reference + from_reference, 0, 0, "K"};
+    const wt_shift_law law = {.kind = WT_LAW_JOINED,
+                              .wlf = {reference, key(shifts, "wlf_c1"), key(shifts, "wlf_c2")},
+                              .activation_energy = 120e3,
+                              .joint = joint.value};
+    wt_solid_options o = wt_solid_options_defaults();
+    char *text = NULL, side[8];
+    solid s = {0};
+    double at, offset, c1, c2;
+    o.temperature = WT_SOLID_KELVIN;
+    assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
+    write(WT_SOLID_ABAQUS, &o, &text);
+    const char *words = strstr(text, "** Only ");
+    assert_non_null(words);
+    assert_int_equal(
+        sscanf(words,
+               "** Only %7s Tj = %lf. On the other side it is log10 aT = %lf - C1 (T - "
+               "Tj)/(C2 + T - Tj) ** with C1 = %lf and C2 = %lf",
+               side, &at, &offset, &c1, &c2),
+        5);
+    assert_string_equal(side, below ? "below" : "above");
+    assert_near(at, joint.value, 1e-5);
+    for (int i = 0; i < 3; i++) {
+        const double away = (below ? 1 : -1) * 15.0 * i;
+        assert_near_abs(offset - c1 * away / (c2 + away),
+                        wt_shift_law_log_a(&law, joint.value + away), 1e-9);
+    }
+    read_abaqus(text, &s);
+    assert_near(s.c1, below ? 120e3 / (8.31446261815324 * log(10) * reference) : law.wlf.c1, 1e-10);
+    assert_near(s.c2, below ? reference : law.wlf.c2, 1e-10);
+    free(text);
+}
+
 static void a_joined_law(void **state)
 {
     (void)state;
     wt_table *shifts = tables.shift_factors;
-    const double reference = key(tables.prony_reduced, "reference_temperature");
-    const wt_solid_options o = {.temperature = WT_SOLID_KELVIN, .poisson_ratio = 0.5};
-    wt_estimate joint = {reference - 12.5, 0, 0, "K"};
-    char *text = NULL, words[64];
-    solid s = {0};
     assert_int_equal(wt_table_set_key(shifts, "law", "joined", NULL), WT_OK);
-    assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
-    write(WT_SOLID_ABAQUS, &o, &text);
-    snprintf(words, sizeof words, "Only above %.6g:", joint.value);
-    assert_non_null(strstr(text, words));
-    read_abaqus(text, &s);
-    assert_near(s.c1, key(shifts, "wlf_c1"), 1e-10);
-    free(text);
-    joint.value = reference + 12.5;
-    s = (solid){0};
-    assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
-    write(WT_SOLID_ABAQUS, &o, &text);
-    snprintf(words, sizeof words, "Only below %.6g:", joint.value);
-    assert_non_null(strstr(text, words));
-    read_abaqus(text, &s);
-    assert_near(s.c1, 120e3 / (8.31446261815324 * log(10) * reference), 1e-10);
-    assert_near(s.c2, reference, 1e-10);
-    free(text);
+    check_joined(-12.5, false);
+    check_joined(12.5, true);
     assert_int_equal(wt_table_set_key(shifts, "law", "WLF", NULL), WT_OK);
 }
 
@@ -600,6 +720,19 @@ static void refused(void **state)
                                     tables.shift_factors, &o, &err),
                      WT_E_RANGE);
     assert_string_equal(err.place, "poisson-ratio");
+    static const char *const names[] = {"",    "7a",  "a b",
+                                        "a-b", "a,b", "a23456789012345678901234567890123"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        o.name = names[i];
+        assert_int_equal(wt_solid_check(WT_SOLID_ANSYS, &o, &err), WT_E_ARG);
+        assert_string_equal(err.place, "export-name");
+    }
+    o.name = "NR_CB_50x";
+    assert_int_equal(wt_solid_check(WT_SOLID_ANSYS, &o, NULL), WT_OK);
+    o.poisson_ratio = 0.49;
+    assert_int_equal(wt_solid_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_E_ARG);
+    o.name = "NR_CB_50";
+    assert_int_equal(wt_solid_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_OK);
     o.poisson_ratio = 0.6;
     assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
                      WT_E_RANGE);
@@ -624,6 +757,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relaxation_is_that_of_the_fit),
         cmocka_unit_test(of_shear),
+        cmocka_unit_test(of_frequency),
+        cmocka_unit_test(what_else_a_material_has),
+        cmocka_unit_test(the_fast_end_is_told),
         cmocka_unit_test(in_another_locale),
         cmocka_unit_test(other_laws),
         cmocka_unit_test(a_joined_law),

@@ -89,6 +89,47 @@ static void test_hole(void **state)
     }
 }
 
+/* What the lever did is in metres too, and no height: it must be asked for by name. */
+static void test_images_of_the_lever(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"DeflectionRetrace", "AmplitudeRetrace", "HeightRetrace"};
+    static double z[N * N];
+    uint64_t seed = 6;
+    const surface s = random_surface(&seed);
+    wt_job common = wt_job_defaults();
+    common.formats = formats;
+    make_heights(&s, &whole, &seed, z);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        FILE *out = fopen(before, "wb");
+        assert_non_null(out);
+        const int length =
+            fprintf(out,
+                    "Gwyddion Simple Field 1.0\nXRes = %d\nYRes = %d\nXReal = %g\nYReal = %g\n"
+                    "XYUnits = m\nZUnits = m\nTitle = %s\n",
+                    N, N, WIDTH, WIDTH, names[i]);
+        for (int k = length % 4; k < 4; k++)
+            (void)fputc(0, out);
+        for (size_t k = 0; k < (size_t)N * N; k++) {
+            const float one = (float)z[k];
+            assert_int_equal(fwrite(&one, sizeof one, 1, out), 1);
+        }
+        assert_int_equal(fclose(out), 0);
+        const bool is_height = i == 2;
+        wt_spot_job job = job_of(DEPTH);
+        wt_spot_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_spot_make(&job, before, &common, &tables, &err),
+                         is_height ? WT_OK : WT_E_NOT_FOUND);
+        assert_true(is_height || strstr(err.message, "no image of heights") != NULL);
+        wt_spot_tables_clear(&tables);
+        job.image = "Retrace";
+        assert_int_equal(wt_spot_make(&job, before, &common, &tables, &err), WT_OK);
+        assert_string_equal(wt_table_key(tables.spot, "image"), names[i]);
+        wt_spot_tables_clear(&tables);
+    }
+}
+
 static void test_cannot_say(void **state)
 {
     (void)state;
@@ -362,11 +403,17 @@ static void test_no_imprint(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_columns), cmocka_unit_test(test_roughness),
-        cmocka_unit_test(test_tilt),    cmocka_unit_test(test_cannot_say),
-        cmocka_unit_test(test_map),     cmocka_unit_test(test_no_imprint),
-        cmocka_unit_test(test_beside),  cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_far_off), cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_roughness),
+        cmocka_unit_test(test_tilt),
+        cmocka_unit_test(test_cannot_say),
+        cmocka_unit_test(test_map),
+        cmocka_unit_test(test_no_imprint),
+        cmocka_unit_test(test_beside),
+        cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_far_off),
+        cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_images_of_the_lever),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

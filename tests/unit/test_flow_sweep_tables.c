@@ -1,6 +1,7 @@
 /* The tables of temperature and strain sweeps: every column against the law that the sweeps were
  * written from.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "truth.h"
 
 #include "weartrack/flow.h"
@@ -8,20 +9,6 @@
 enum { FILES = 2, POINTS = 51, STRAINS = 29 };
 static const double at_hertz[FILES] = {10, 1}; /* the faster one first */
 static char paths[FILES][40];
-static wt_formats *formats;
-
-static int begin(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
-}
 
 static FILE *next_file(size_t i)
 {
@@ -286,8 +273,45 @@ static void test_strain(void **state)
     wt_payne_tables_clear(&tables);
 }
 
+/* The range of the strains is that of the points that a sweep is left with. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    enum { FIRST = 3, LAST = STRAINS - 2 };
+    const char *patterns[FILES];
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_payne_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    double percent[STRAINS];
+    for (size_t i = 0; i < FILES; i++) {
+        FILE *out = next_file(i);
+        for (size_t k = 0; k < STRAINS; k++) {
+            percent[k] = half * pow(10, -2.5 + 5.0 * (double)k / (STRAINS - 1));
+            const bool good = k >= FIRST && k <= LAST;
+            fprintf(out, "%g,25,%.15g,%.15g,%.15g\n", at_hertz[i],
+                    good ? kraus_storage(percent[k]) : 0, kraus_loss(percent[k]), percent[k]);
+        }
+        fclose(out);
+    }
+    const wt_file_set set = all_files(patterns);
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_payne_make(&job, &work, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    remove_files();
+    for (size_t i = 0; i < FILES; i++) {
+        assert_near(cell(tables.payne, i, "points"), LAST - FIRST + 1, 0);
+        assert_near(cell(tables.payne, i, "strain_min"), percent[FIRST] / 100, 1e-9);
+        assert_near(cell(tables.payne, i, "strain_max"), percent[LAST] / 100, 1e-9);
+    }
+    wt_payne_tables_clear(&tables);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ramps), cmocka_unit_test(test_strain)};
-    return cmocka_run_group_tests_name("tables of sweeps", tests, begin, end);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ramps), cmocka_unit_test(test_strain),
+                                       cmocka_unit_test(test_left_out)};
+    return cmocka_run_group_tests_name("tables of sweeps", tests, open_formats, free_formats);
 }

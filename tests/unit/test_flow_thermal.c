@@ -1,6 +1,7 @@
 /* Spring constants of files with a known truth: a table in metres, one in volts, a thermal tune by
  * an independent writer, a genuine one; corrections, errors, what is missing.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "near.h"
 
 #include "weartrack/flow.h"
@@ -12,8 +13,6 @@
 #include <unistd.h>
 
 #define NOISE WT_SOURCE_DIR "/fixtures/formats/table-noise/"
-
-static wt_formats *formats;
 
 static wt_status make(const wt_thermal_job *options, const char *path, double sensitivity,
                       wt_parselog *log, wt_table **table, wt_error *err)
@@ -320,19 +319,6 @@ static void test_departing(void **state)
     wt_table_free(t);
     for (size_t i = 0; i < N; i++)
         (void)remove(links[i]);
-}
-
-static int open_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 int main(void)

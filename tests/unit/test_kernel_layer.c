@@ -447,6 +447,22 @@ static void old_layer_has_an_error(void **state)
     rig_free(&r);
 }
 
+/* All power at one wavenumber, and wear that is just faster than the formation: no layer, but one
+ * of log(1.001 / 1.0005) / kappa if the formation is higher by its error. */
+static void an_error_may_be_a_layer(void **state)
+{
+    (void)state;
+    rig r = rig_mild();
+    const double formation = 400 / 2e10, higher = log(1.001 / 1.0005) / 2e6;
+    r.source.numerical_error = 1e-3;
+    r.parameters.specific_wear_rate =
+        1.0005 * formation / (r.parameters.pressure * r.parameters.velocity);
+    const wt_layer_point p = point_at(&r, 1e3);
+    assert_true(p.thickness.value == 0);
+    assert_near(p.thickness.numerical_error, higher, 1e-6);
+    rig_free(&r);
+}
+
 /* Thickness never falls on the way up from 0, never rises on the way down, and both ends meet. */
 static void monotone_and_same_end(void **state)
 {
@@ -709,6 +725,7 @@ int main(void)
         cmocka_unit_test(three_ways_agree),
         cmocka_unit_test(restart_changes_nothing),
         cmocka_unit_test(old_layer_has_an_error),
+        cmocka_unit_test(an_error_may_be_a_layer),
         cmocka_unit_test(monotone_and_same_end),
         cmocka_unit_test(what_moves_the_balance),
         cmocka_unit_test(regimes),

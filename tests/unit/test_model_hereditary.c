@@ -83,6 +83,7 @@ static double force_at(const wt_tip *tip, const wt_prony *series, const char *mo
     static double time[2 * STEPS + 1], depth[2 * STEPS + 1], force[2 * STEPS + 1];
     const double in = fmin(t, top);
     hereditary law = {0};
+    wt_contact_table *table = NULL;
     const int steps_out = isnan(number_in(motion, "delta_max_m", end)) ? 1 : steps;
     size_t n = (size_t)steps + 1;
     for (int i = 0; i <= steps; i++)
@@ -94,7 +95,9 @@ static double force_at(const wt_tip *tip, const wt_prony *series, const char *mo
     assert_int_equal(hereditary_reserve(&law, series->n, NULL), WT_OK);
     hereditary_begin(&law, series, 1, t / steps / steps, t);
     assert_int_equal(law.n, series->n);
-    assert_int_equal(hereditary_loop(&law, tip, 0, time, depth, n, force, NULL), WT_OK);
+    assert_int_equal(wt_contact_table_new(tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    assert_int_equal(hereditary_loop(&law, table, 0, time, depth, n, force, NULL), WT_OK);
+    wt_contact_table_free(table);
     hereditary_clear(&law);
     return force[n - 1];
 }

@@ -9,6 +9,7 @@
 #define NOTE                                                                                       \
     "SpringConstant: 0.5\rInvOLS: 5e-08\rTriggerChannel:Force\rTriggerPoint: 2e-09\r"              \
     "ImagingMode:Contact\rXLVDT:-3e-06\rYLVDT: 4e-06\r"
+#define PARTS "SpringConstant: 0.5\rInvOLS: 5e-08\rIndexes: 0,4,6\rDirection: NaN,1,-1,\r"
 #define PARTED NOTE "Indexes: 0,4,6\rDirection: NaN,1,-1,\r"
 static const double raw[N] = {1e-7, 2e-7, 3e-7, 4e-7, 5e-7, 3.5e-7, 2.5e-7};
 static const double deflection[N] = {0, 0, 1e-9, 3e-9, 6e-9, 2e-9, -1e-9};
@@ -62,6 +63,29 @@ static void test_curve(void **state)
             }
         }
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
+        close_all(&r);
+    }
+}
+
+/* The value at which the approach ends, in newtons, metres or volts. */
+static void test_trigger(void **state)
+{
+    (void)state;
+    static const char *const notes[] = {"TriggerChannel:Force\rTriggerPoint: 2e-09\r" PARTS,
+                                        "TriggerChannel:Deflection\rTriggerPoint: 4e-09\r" PARTS,
+                                        "TriggerChannel:DeflVolts\rTriggerPoint: 0.08\r" PARTS,
+                                        "TriggerChannel:Phase\rTriggerPoint: 90\r" PARTS};
+    for (size_t i = 0; i < sizeof notes / sizeof *notes; i++) {
+        const ibw_writer_file f = usual(notes[i]);
+        reading r;
+        assert_int_equal(ibw_write(&f), 0);
+        assert_int_equal(open_force(&r, path, NULL), WT_OK);
+        next_curve(&r);
+        const double setpoint = r.curve.segments[0].setpoint;
+        if (i < 3)
+            assert_near(setpoint, 2e-9, 1e-12); /* 0.5 N/m, 50 nm/V */
+        else
+            assert_true(isnan(setpoint));
         close_all(&r);
     }
 }
@@ -143,7 +167,8 @@ static void test_old(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_curve), cmocka_unit_test(test_refused),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_curve), cmocka_unit_test(test_trigger),
+                                       cmocka_unit_test(test_refused),
                                        cmocka_unit_test(test_damaged), cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "all_formats.h"
 #include "near.h"
 #include "read/force_source.h"
 #include "read/jpk/jpk.h"
@@ -75,22 +76,6 @@ static jpk_writer_file make_file(const char *path)
     f.sensitivity = 61.3e-9;
     f.setpoint = 2.5e-9;
     return f;
-}
-
-/* One set serves all tests: making it parses every description. */
-static wt_formats *formats;
-
-static int make_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 typedef struct reading {
@@ -382,6 +367,25 @@ static void height_without_conversion(void **state)
     unlink(path);
 }
 
+/* A height that cannot be decoded is told of, with what the file says of it. */
+static void height_of_unknown_type(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_odd.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    reading r;
+    f.odd_height = true;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
+    assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
+    assert_true(logged(&r, "channel height left out"));
+    assert_true(logged(&r, "oddinteger"));
+    close_all(&r);
+    unlink(path);
+}
+
 /* As many channels as there is room for; one more is refused in words. */
 static void many_channels(void **state)
 {
@@ -508,10 +512,11 @@ int main(void)
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(height_without_conversion),
+        cmocka_unit_test(height_of_unknown_type),
         cmocka_unit_test(many_channels),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
         cmocka_unit_test(swollen_entry),
     };
-    return cmocka_run_group_tests(tests, make_formats, free_formats);
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "all_formats.h"
 #include "near.h"
 
 #include "weartrack/read.h"
@@ -109,21 +110,6 @@ typedef struct open_file {
     wt_force_curve curve;
     size_t n, rows; /* curves read, rows of the reference */
 } open_file;
-
-static wt_formats *formats;
-
-static int set_up(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int clean(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
-}
 
 static void fail_with(const wt_error *err)
 {
@@ -581,5 +567,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_file), cmocka_unit_test(channels),
                                        cmocka_unit_test(more_channels)};
-    return cmocka_run_group_tests(tests, set_up, clean);
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -150,6 +150,23 @@ static void cut(void **state)
     f.missing_bytes = 2 * (IN + OUT) * CURVES;
     assert_int_equal(nanoscope_write(&f), 0);
     refused(WT_E_CORRUPT, "the end of the file is missing");
+    assert_int_equal(open_force(&r, path, NULL), WT_E_CORRUPT);
+    assert_string_equal(r.err.place, "\\*Ciao force image list"); /* where it says how many */
+    close_all(&r);
+}
+
+/* The mark of the format and nothing behind it: known for what it is, and damaged. */
+static void mark_alone(void **state)
+{
+    (void)state;
+    static const char *const marks[] = {"\\*Force file list", "\\*File list"};
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
+        FILE *out = fopen(path, "wb");
+        assert_non_null(out);
+        assert_true(fputs(marks[i], out) >= 0);
+        assert_int_equal(fclose(out), 0);
+        refused(WT_E_CORRUPT, "");
+    }
 }
 
 static void oddities(void **state)
@@ -267,8 +284,9 @@ static void damaged(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(curves),    cmocka_unit_test(large),
-                                       cmocka_unit_test(cut),       cmocka_unit_test(oddities),
-                                       cmocka_unit_test(peakforce), cmocka_unit_test(damaged)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(curves),   cmocka_unit_test(large),
+                                       cmocka_unit_test(cut),      cmocka_unit_test(mark_alone),
+                                       cmocka_unit_test(oddities), cmocka_unit_test(peakforce),
+                                       cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

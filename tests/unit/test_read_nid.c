@@ -317,6 +317,28 @@ static void described(void **state)
 
 /* ---- images ------------------------------------------------------------------------------- */
 
+/* Of 4 lines with 8 points, 8 um wide and 4 um high. */
+static void write_scan(const nid_writer_channel *of_scan, size_t n, size_t missed)
+{
+    const nid_writer_group scan = {.name = "Scan forward",
+                                   .points = 8,
+                                   .lines = 4,
+                                   .missed = missed,
+                                   .x_name = "X*",
+                                   .x_unit = "um",
+                                   .y_name = "Y*",
+                                   .y_unit = "m",
+                                   .x_range = 8,
+                                   .y_range = 4e-6,
+                                   .n_channels = n,
+                                   .channels = of_scan};
+    nid_writer_file f = nid_writer_defaults();
+    f.path = path;
+    f.n_groups = 1;
+    f.groups = &scan;
+    assert_int_equal(nid_write(&f), 0);
+}
+
 static void image_with_known_rows(void **state)
 {
     (void)state;
@@ -329,22 +351,7 @@ static void image_with_known_rows(void **state)
         {1, "Z-Axis", "m", -ldexp(1, -20), ldexp(1, -19), 16, heights},
         {3, "Phase", "\302\260", -160, 320, 32, phase},
     };
-    const nid_writer_group scan = {.name = "Scan forward",
-                                   .points = 8,
-                                   .lines = 4,
-                                   .x_name = "X*",
-                                   .x_unit = "um",
-                                   .y_name = "Y*",
-                                   .y_unit = "m",
-                                   .x_range = 8,
-                                   .y_range = 4e-6,
-                                   .n_channels = 2,
-                                   .channels = two};
-    nid_writer_file f = nid_writer_defaults();
-    f.path = path;
-    f.n_groups = 1;
-    f.groups = &scan;
-    assert_int_equal(nid_write(&f), 0);
+    write_scan(two, 2, 0);
     reading r;
     wt_image *images = NULL;
     size_t n = 0;
@@ -414,8 +421,6 @@ static void no_samples(void **state)
     }
 }
 
-/* ---- measured files, where present -------------------------------------------------------- */
-
 /* A complete scan that went down ends at line 0; one that was stopped has lines of one value. */
 static void stopped_scans(void **state)
 {
@@ -436,23 +441,7 @@ static void stopped_scans(void **state)
                 i / 8 >= scans[k].flat_from && i / 8 < scans[k].flat_to ? 0 : ldexp((double)i, -30);
         const nid_writer_channel channel = {1,  "Z-Axis", "m", -ldexp(1, -20), ldexp(1, -19),
                                             16, heights};
-        const nid_writer_group scan = {.name = "Scan forward",
-                                       .points = 8,
-                                       .lines = 4,
-                                       .missed = scans[k].missed,
-                                       .x_name = "X*",
-                                       .x_unit = "m",
-                                       .y_name = "Y*",
-                                       .y_unit = "m",
-                                       .x_range = 8e-6,
-                                       .y_range = 4e-6,
-                                       .n_channels = 1,
-                                       .channels = &channel};
-        nid_writer_file f = nid_writer_defaults();
-        f.path = path;
-        f.n_groups = 1;
-        f.groups = &scan;
-        assert_int_equal(nid_write(&f), 0);
+        write_scan(&channel, 1, scans[k].missed);
         reading r;
         wt_image *images = NULL;
         size_t n = 0;
@@ -466,6 +455,8 @@ static void stopped_scans(void **state)
         close_all(&r);
     }
 }
+
+/* ---- measured files, where present -------------------------------------------------------- */
 
 static wt_image *read_shared(const char *name, size_t *n)
 {

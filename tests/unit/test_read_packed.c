@@ -5,6 +5,8 @@
 #include "made_file.h"
 #include "writers/book_writer.h"
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <zip.h>
 #include <zlib.h>
 
@@ -327,10 +329,35 @@ static void test_damaged(void **state)
     wt_input_close(input);
 }
 
+/* A sheet goes through a file in memory: where that may not be written it is an error, and no
+ * waiting for ever. */
+static void test_no_room(void **state)
+{
+    (void)state;
+    const book_writer_sheet sheet = {"One", SWEEP, false};
+    struct rlimit all, little;
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(xls_write(path, &sheet, 1), 0);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &all), 0);
+    little = all;
+    little.rlim_cur = 100;
+    void (*const before)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
+    const wt_status status = read_sweep(NULL, &sweep, NULL, &err);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &all), 0);
+    (void)signal(SIGXFSZ, before);
+    assert_int_equal(status, WT_E_IO);
+    assert_non_null(strstr(err.message, "no file in memory for the spreadsheet"));
+    wt_sweep_clear(&sweep);
+    reads(NULL, 1, 10e6);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gzip), cmocka_unit_test(test_sheets),
-                                       cmocka_unit_test(test_place), cmocka_unit_test(test_hostile),
-                                       cmocka_unit_test(test_damaged)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gzip),    cmocka_unit_test(test_sheets),
+        cmocka_unit_test(test_place),   cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_damaged), cmocka_unit_test(test_no_room)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -190,6 +190,9 @@ static void declared_by_the_file(void **state)
     static const char wrong[] = "#DECIMAL:POINT\nf;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n";
     assert_int_equal(read_text(d, wrong, &sweep, NULL, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.expected, "decimal point"));
+    static const char point[] = "#DECIMAL:COMMA\nf;E';E'';T\nHz;MPa;MPa;degC\n2.0;3;4;20\n";
+    assert_int_equal(read_text(d, point, &sweep, NULL, &err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.expected, "decimal comma"));
     description_free(d);
 }
 

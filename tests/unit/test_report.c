@@ -145,8 +145,8 @@ static void test_page(void **state)
     static const char *const expected[] = {
         "<h1>EPDM, severe &lt;case&gt;</h1>",
         // value, interval, no numerical error
-        ">0.666</td><td class=\"n\">0.617 to 0.720 (95 % interval)</td><td class=\"n\">–</td>",
-        "Modulus, bulk</th><td class=\"n\">8.24 MPa</td>",
+        ">0.646</td><td class=\"n\">0.614 to 0.679 (95 % interval)</td><td class=\"n\">–</td>",
+        "Modulus, bulk</th><td class=\"n\">7.99 MPa</td>",
         ">3.16 µm</td><td class=\"n\">± 0.78 µm</td><td class=\"n\">± ", /* and of rounding */
         "; 1.0 % from frequencies outside the measured ones</td>",
         "bulk: 0 of 12 curves doubtful, 1 rejected",
@@ -215,13 +215,13 @@ static void test_tables_on_the_page(void **state)
     static const char *const rows[] = {
         "Group|Curves n|Rejected|Spots|Geometric mean (MPa)|95 % interval from (MPa)|to (MPa)|"
         "Median (MPa)|Mean (MPa)|Standard deviation (MPa)|",
-        "bulk|48|0|4|8.24|7.68|8.83|8.38|8.28|0.791|",
+        "bulk|48|0|4|7.99|7.68|8.31|8.27|8.04|0.910|",
         "Indentation rate from (nm/s)|to (nm/s)|n bulk|n track|Spots bulk|Spots track|Track / bulk|"
         "95 % interval from|to|"
         "Welch t|Degrees of freedom|p (Welch)|p (Holm)|p (Mann-Whitney)|its smallest p|"
         "Effect size|",
-        "all|all|48|48|4|4|0.666|0.617|0.720|",
-        "75.0|102|16|16|4|4|0.658|0.614|0.705|",
+        "all|all|48|48|4|4|0.646|0.614|0.679|",
+        "77.8|104|16|16|4|4|0.646|0.623|0.671|",
         "Temperature (°C)|log₁₀ a|Standard error|log₁₀ a of the law|log₁₀ b|Standard error|"
         "log₁₀ b, rubber elasticity|Overlap (decades)|Determined by overlap|Note|",
         "−30.0|5.4",
@@ -231,11 +231,11 @@ static void test_tables_on_the_page(void **state)
         "superposition: holds: ",
         "WLF constant C₂|110.08 K|± 0.11 K|–||",
         "Reference temperature|20 °C|–|–||",
-        "Modulus, bulk|8.24 MPa|7.68 to 8.83 MPa (95 % interval)|–|geometric mean; 48 curves on 4 "
+        "Modulus, bulk|7.99 MPa|7.68 to 8.31 MPa (95 % interval)|–|geometric mean; 48 curves on 4 "
         "spots, 0 rejected; by scatter of the spots|",
         "Degrees of freedom of its error|",
         "Friction coefficient|0.689|0.559 to 0.820 (95 % interval)|± ",
-        "Friction coefficient with layer|0.566|0.456 to 0.676 (95 % interval)|± ",
+        "Friction coefficient with layer|0.557|0.451 to 0.663 (95 % interval)|± ",
         "Group|Equivalent frequency (rad/s)|Indentation (MPa)|95 % interval from (MPa)|to (MPa)|"
         "DMA E′ (MPa)|DMA |E*| (MPa)|± stat. (MPa)|Indentation / DMA|Outside measured frequencies|",
     };

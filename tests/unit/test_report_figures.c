@@ -2,78 +2,13 @@
  * must hold.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "drawn_report.h"
 #include "report/drawing.h"
-#include "report_fixture.h"
-#include "report_place.h"
 
 #include <ctype.h>
 
-/* One report of everything for the tests that only look at it. */
-static char place[] = "/tmp/weartrack-figures-XXXXXX";
-static bool drawn;
-
-static int draw_everything(void **state)
-{
-    (void)state;
-    if (mkdtemp(place) == NULL || chdir(place) != 0)
-        return -1;
-    drawn = have_gnuplot();
-    wt_result *result = fixture_result();
-    if (drawn)
-        write_report(result, "out", NULL);
-    wt_result_free(result);
-    return 0;
-}
-
-static int remove_everything(void **state)
-{
-    (void)state;
-    int status = chdir("/");
-    remove_all(place);
-    return status;
-}
-
-#define NEED_REPORT()                                                                              \
-    do {                                                                                           \
-        if (!drawn)                                                                                \
-            skip();                                                                                \
-        assert_int_equal(chdir(place), 0);                                                         \
-    } while (0)
-
-static char *read_plot(const char *folder, const char *figure, const char *ending)
-{
-    char path[160];
-    size_t length = 0;
-    (void)snprintf(path, sizeof path, "%s/plots/%s.%s", folder, figure, ending);
-    return read_all(path, &length);
-}
-
 /* ---- data ------------------------------------------------------------------------------------ */
-
-enum { MOST = 64 };
-
-/* The sections of a figure's data, which are tables of the text stream. */
-static size_t read_sections(const char *folder, const char *figure, wt_table *sections[MOST])
-{
-    char path[160];
-    size_t n = 0;
-    (void)snprintf(path, sizeof path, "%s/plots/%s.tsv", folder, figure);
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        fail_msg("%s is not there", path);
-    wt_status status = WT_OK;
-    while (n < MOST && (status = wt_stream_read(file, path, &sections[n], NULL)) == WT_OK)
-        assert_true(wt_table_n_rows(sections[n++]) > 0);
-    assert_int_equal(status, WT_END);
-    (void)fclose(file);
-    return n;
-}
-
-static void free_sections(wt_table *sections[MOST], size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_table_free(sections[i]);
-}
 
 static bool has_columns(const wt_table *section, const table_schema *schema,
                         const unsigned *columns, size_t n)
@@ -360,6 +295,30 @@ static void grow_at_once(wt_table *layer, size_t row)
     fixture_put(layer, "thickness", 1e-8 * (double)(row + 1));
 }
 
+/* A time that is the last of the curve is on its axis. */
+static void relax_at_the_end(wt_table *layer)
+{
+    fixture_key(layer, "relaxation_time", number_cell(layer, wt_table_n_rows(layer) - 1, "time"), 0,
+                "s");
+}
+
+static void test_marks_at_the_end(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    const fixture_change change = {"layer", .finish = relax_at_the_end};
+    wt_result *result = fixture_with(&change);
+    const wt_table *const layer = wt_result_find(result, "layer");
+    write_report(result, "ends", NULL);
+    char *script = read_plot("ends", "layer", "gp");
+    const char *label = strstr(script, "set label 'relaxation' at ");
+    assert_non_null(label);
+    assert_near(strtod(label + strlen("set label 'relaxation' at "), NULL),
+                number_cell(layer, wt_table_n_rows(layer) - 1, "time"), 1e-6);
+    free(script);
+    wt_result_free(result);
+}
+
 static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
 {
     (void)state;
@@ -516,10 +475,7 @@ static void test_numbers_of_captions(void **state)
     (void)state;
     NEED_REPORT();
     static const char *const captions[][2] = {
-        {"force_displacement", " bulk: bulk-1.jpk-force-map curve 5, standard error of the contact "
-                               "point 0.058 nm. "},
-        {"force_displacement", "$(rm -r x)  curve 7, standard error of the contact point 0.105 "
-                               "nm. The vertical line"},
+        {"force_displacement", " nm. The vertical line"},
         {"force_indentation", " Lines: contact model with the fitted modulus."},
         {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "
                            "track: n = 48, rejected 0."},
@@ -549,6 +505,18 @@ static void test_numbers_of_captions(void **state)
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
         check_caption("out", captions[i][0], captions[i][1]);
+
+    const wt_table *curves = wt_result_find(everything, "force_displacement");
+    wt_estimate bulk, track;
+    assert_true(wt_table_estimate(curves, "contact_point_bulk", &bulk));
+    assert_true(wt_table_estimate(curves, "contact_point_track", &track));
+    char words[200];
+    (void)snprintf(words, sizeof words, " bulk: %s, standard error of the contact point %.3g nm. ",
+                   wt_table_key(curves, "curve_bulk"), 1e9 * bulk.standard_error);
+    check_caption("out", "force_displacement", words);
+    (void)snprintf(words, sizeof words, " curve 7, standard error of the contact point %.3g nm. ",
+                   1e9 * track.standard_error);
+    check_caption("out", "force_displacement", words);
 }
 
 static void extrapolate_little(wt_table *friction, size_t row)
@@ -674,6 +642,7 @@ int main(void)
         cmocka_unit_test(test_data_have_the_described_columns),
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),
         cmocka_unit_test(test_the_key_lists_what_is_drawn),
+        cmocka_unit_test(test_marks_at_the_end),
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
         cmocka_unit_test(test_label_with_subscripts),
         cmocka_unit_test(test_labels_are_on_the_paper),

@@ -3,53 +3,10 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "drawn_report.h"
 #include "report/drawing.h"
-#include "report_fixture.h"
-#include "report_place.h"
 
 #include <ctype.h>
-
-enum { MOST = 64 };
-
-static char place[] = "/tmp/weartrack-points-XXXXXX";
-static wt_result *result;
-static bool drawn;
-
-static int draw_everything(void **state)
-{
-    (void)state;
-    if (mkdtemp(place) == NULL || chdir(place) != 0)
-        return -1;
-    drawn = have_gnuplot();
-    result = fixture_result();
-    if (drawn)
-        write_report(result, "out", NULL);
-    return 0;
-}
-
-static int remove_everything(void **state)
-{
-    (void)state;
-    wt_result_free(result);
-    int status = chdir("/");
-    remove_all(place);
-    return status;
-}
-
-#define NEED_REPORT()                                                                              \
-    do {                                                                                           \
-        if (!drawn)                                                                                \
-            skip();                                                                                \
-        assert_int_equal(chdir(place), 0);                                                         \
-    } while (0)
-
-static char *plot_file(const char *figure, const char *ending)
-{
-    char path[160];
-    size_t length = 0;
-    (void)snprintf(path, sizeof path, "out/plots/%s.%s", figure, ending);
-    return read_all(path, &length);
-}
 
 typedef struct sections {
     wt_table *of[MOST];
@@ -57,17 +14,10 @@ typedef struct sections {
     const char *figure;
 } sections;
 
-static sections read_sections(const char *figure)
+static sections begin_sections(const char *figure)
 {
-    char path[160];
     sections s = {.figure = figure};
-    (void)snprintf(path, sizeof path, "out/plots/%s.tsv", figure);
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        fail_msg("%s is not there", path);
-    while (s.n < MOST && wt_stream_read(file, path, &s.of[s.n], NULL) == WT_OK)
-        s.n++;
-    (void)fclose(file);
+    s.n = read_sections("out", figure, s.of);
     return s;
 }
 
@@ -76,8 +26,7 @@ static void end_sections(sections *s)
 {
     if (s->seen != s->n)
         fail_msg("%s has %zu sections, not %zu", s->figure, s->n, s->seen);
-    for (size_t i = 0; i < s->n; i++)
-        wt_table_free(s->of[i]);
+    free_sections(s->of, s->n);
 }
 
 /* ---- against their tables -------------------------------------------------------------------- */
@@ -102,7 +51,7 @@ static bool is_chosen(const wt_table *table, size_t row, const chosen *c)
 /* The next section holds the chosen rows, with the columns that it names. */
 static void next_is(sections *s, chosen c)
 {
-    const wt_table *table = wt_result_find(result, c.table);
+    const wt_table *table = wt_result_find(everything, c.table);
     if (table == NULL || s->seen == s->n)
         fail_msg("%s: no table %s or no section %zu", s->figure, c.table, s->seen);
     const wt_table *section = s->of[s->seen++];
@@ -160,15 +109,15 @@ static void test_whole_tables(void **state)
                                            {"cost", "cost"},
                                            {"coverage", "coverage"}};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) {
-        sections s = read_sections(whole[i][0]);
+        sections s = begin_sections(whole[i][0]);
         next_is(&s, (chosen){.table = whole[i][1]});
         end_sections(&s);
     }
-    sections spot = read_sections("spot_map");
+    sections spot = begin_sections("spot_map");
     for (size_t i = 0; i < 3; i++)
         next_is(&spot, (chosen){.table = "spot_map"});
     end_sections(&spot);
-    sections ramp = read_sections("ramp"), payne = read_sections("payne");
+    sections ramp = begin_sections("ramp"), payne = begin_sections("payne");
     next_is(&ramp, (chosen){.table = "ramp"});
     for (size_t i = 0; i < 2; i++)
         next_is(&ramp, (chosen){.table = "glass_transition"});
@@ -192,13 +141,13 @@ static void test_groups(void **state)
                     {"common_law", "sample", {"NR", "SBR 10%"}},
                     {"directions", "factors", {"none", "loss", "storage", "both"}}};
     for (size_t i = 0; i < sizeof by_group / sizeof *by_group; i++) {
-        sections s = read_sections(by_group[i].figure);
+        sections s = begin_sections(by_group[i].figure);
         for (size_t k = 0; k < 4 && by_group[i].group[k] != NULL; k++)
             next_is(&s, (chosen){by_group[i].figure, {by_group[i].column}, {by_group[i].group[k]}});
         end_sections(&s);
     }
-    sections groups = read_sections("modulus_groups"), map = read_sections("modulus_map"),
-             dma = read_sections("dma_comparison"), ratio = read_sections("material_ratio");
+    sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),
+             dma = begin_sections("dma_comparison"), ratio = begin_sections("material_ratio");
     next_is(&dma, (chosen){.table = "dma_comparison"});
     for (size_t k = 0; k < 2; k++) {
         static const char *const names[] = {"bulk", "track"}, *const tables[] = {
@@ -218,14 +167,21 @@ static void test_groups(void **state)
     end_sections(&map);
     end_sections(&dma);
     end_sections(&ratio);
+    /* of three rows and two columns the first panel has the names */
+    char *script = read_plot("out", "material_ratio", "gp"), *key = strstr(script, "unset key");
+    assert_non_null(key);
+    *key = '\0';
+    assert_non_null(strstr(script, " title "));
+    assert_null(strstr(key + 1, " title "));
+    free(script);
 }
 
 static void test_segments_with_their_contact(void **state)
 {
     (void)state;
     NEED_REPORT();
-    sections s = read_sections("force_displacement");
-    const wt_table *table = wt_result_find(result, "force_displacement");
+    sections s = begin_sections("force_displacement");
+    const wt_table *table = wt_result_find(everything, "force_displacement");
     static const char *const groups[] = {"bulk", "track"}, *const segments[] = {"approach",
                                                                                 "retract"};
     /* the points of contact stand behind the two segments of their group */
@@ -244,13 +200,28 @@ static void test_segments_with_their_contact(void **state)
     end_sections(&s);
 }
 
+/* The colour of the next bars of a budget: what is measured, what the model leaves open, the rest.
+ */
+static void next_bars(const char **script, const char *kind)
+{
+    static const char bars[] = "boxxyerror ls ";
+    const char of = strcmp(kind, "measured") == 0 ? '1' : strcmp(kind, "model") == 0 ? '2' : '5';
+    *script = strstr(*script, bars);
+    assert_non_null(*script);
+    *script += strlen(bars);
+    if (**script != of)
+        fail_msg("bars of kind %s have style %c", kind, **script);
+}
+
 /* Each number of the budget that has an error above what is drawn, its kinds in their order. */
 static void test_error_budget(void **state)
 {
     (void)state;
     NEED_REPORT();
-    sections s = read_sections("error_budget");
-    const wt_table *t = wt_result_find(result, "error_budget");
+    sections s = begin_sections("error_budget");
+    char *script = read_plot("out", "error_budget", "gp");
+    const char *at = script;
+    const wt_table *t = wt_result_find(everything, "error_budget");
     const size_t n = wt_table_n_rows(t);
     for (size_t first = 0, end = 0; first < n; first = end) {
         const char *number = text_cell(t, first, "number"), *last = "";
@@ -263,20 +234,23 @@ static void test_error_budget(void **state)
             for (size_t k = first; k < end; k++)
                 any = any || (strcmp(text_cell(t, k, "kind"), kind) == 0 &&
                               isfinite(number_cell(t, k, "relative_error")));
-            if (strcmp(kind, last) != 0 && any)
+            if (strcmp(kind, last) != 0 && any) {
                 next_is(&s, (chosen){"error_budget", {"number", "kind"}, {number, kind}});
+                next_bars(&at, kind);
+            }
             last = kind;
         }
     }
     end_sections(&s);
+    free(script);
 }
 
 static void test_work_precision(void **state)
 {
     (void)state;
     NEED_REPORT();
-    sections s = read_sections("work_precision");
-    const wt_table *t = wt_result_find(result, "work_precision");
+    sections s = begin_sections("work_precision");
+    const wt_table *t = wt_result_find(everything, "work_precision");
     for (size_t row = 0; row < wt_table_n_rows(t); row++) {
         bool first = number_cell(t, row, "seconds") > 0;
         for (size_t i = 0; i < row && first; i++)
@@ -334,16 +308,16 @@ static void test_what_if(void **state)
     } panels[] = {{"friction", "friction", "friction_at_reference"},
                   {"friction_with_layer", "friction", "friction_with_layer_at_reference"},
                   {"thickness", "layer", "balance_thickness"}};
-    sections s = read_sections("what_if");
-    const wt_table *t = wt_result_find(result, "what_if");
-    char *script = plot_file("what_if", "gp");
+    sections s = begin_sections("what_if");
+    const wt_table *t = wt_result_find(everything, "what_if");
+    char *script = read_plot("out", "what_if", "gp");
     for (size_t p = 0; p < 3; p++) {
         range ranges[MOST];
         size_t n = 0;
         wt_estimate used = {0};
         const double is = number_cell(t, 0, panels[p].column);
         assert_true(
-            wt_table_estimate(wt_result_find(result, panels[p].table), panels[p].key, &used));
+            wt_table_estimate(wt_result_find(everything, panels[p].table), panels[p].key, &used));
         for (size_t row = 1; row < wt_table_n_rows(t); row++) {
             const double value = number_cell(t, row, panels[p].column);
             const char *choice = text_cell(t, row, "choice");
@@ -376,8 +350,8 @@ static void test_names_at_their_places(void **state)
 {
     (void)state;
     NEED_REPORT();
-    char *script = plot_file("coverage", "gp"), tic[160];
-    const wt_table *t = wt_result_find(result, "coverage");
+    char *script = read_plot("out", "coverage", "gp"), tic[160];
+    const wt_table *t = wt_result_find(everything, "coverage");
     for (size_t i = 0; i < wt_table_n_rows(t); i++) {
         snprintf(tic, sizeof tic, "'%s' %zu%s", text_cell(t, i, "number"),
                  wt_table_n_rows(t) - 1 - i, i + 1 < wt_table_n_rows(t) ? ", " : ")");
@@ -385,8 +359,8 @@ static void test_names_at_their_places(void **state)
             fail_msg("coverage: no %s", tic);
     }
     free(script);
-    script = plot_file("cost", "gp");
-    t = wt_result_find(result, "cost");
+    script = read_plot("out", "cost", "gp");
+    t = wt_result_find(everything, "cost");
     size_t n = 0;
     for (size_t i = 0; i < wt_table_n_rows(t); i++) {
         char stage[96];
@@ -402,8 +376,8 @@ static void test_names_at_their_places(void **state)
     snprintf(tic, sizeof tic, "set yrange [-%zu.7:-0.3]", n);
     assert_non_null(strstr(script, tic));
     free(script);
-    script = plot_file("error_budget", "gp");
-    t = wt_result_find(result, "error_budget");
+    script = read_plot("out", "error_budget", "gp");
+    t = wt_result_find(everything, "error_budget");
     n = wt_table_n_rows(t);
     for (size_t first = 0, end = 0; first < n; first = end) {
         const char *number = text_cell(t, first, "number");
@@ -423,6 +397,8 @@ static void test_names_at_their_places(void **state)
         }
         snprintf(tic, sizeof tic, "set title '%s'", number);
         assert_true(!shown || strstr(script, tic) != NULL);
+        snprintf(tic, sizeof tic, "set yrange [-0.7:%zu.7]", end - first - 1); /* a row for each */
+        assert_true(!shown || strstr(script, tic) != NULL);
     }
     free(script);
 }
@@ -433,7 +409,7 @@ static void test_names_at_their_places(void **state)
 static size_t count_sets(const char *figure, size_t lines[MOST])
 {
     size_t n = 0, blank = 2;
-    char *text = plot_file(figure, "tsv"), *next = text;
+    char *text = read_plot("out", figure, "tsv"), *next = text;
     while (next != NULL && *next != '\0') {
         char *line = next;
         next = strchr(line, '\n');
@@ -462,7 +438,7 @@ static void test_index_finds_every_section(void **state)
     NEED_REPORT();
     for (size_t i = 0; i < wt_figure_count(); i++) {
         size_t lines[MOST];
-        sections s = read_sections(wt_figure_get(i).name);
+        sections s = begin_sections(wt_figure_get(i).name);
         assert_int_equal(count_sets(s.figure, lines), s.n);
         for (; s.seen < s.n; s.seen++)
             if (lines[s.seen] != wt_table_n_rows(s.of[s.seen]))
@@ -476,7 +452,7 @@ static void test_index_finds_every_section(void **state)
 static void tabulate(const char *figure)
 {
     char path[160];
-    char *script = plot_file(figure, "gp"), *rest = NULL;
+    char *script = read_plot("out", figure, "gp"), *rest = NULL;
     (void)snprintf(path, sizeof path, "out/plots/%s.points", figure);
     FILE *out = fopen(path, "wb");
     assert_non_null(out);
@@ -505,7 +481,7 @@ typedef struct item {
 /* Items of a script that give points in the table, in their order. */
 static size_t list_items(const sections *s, item items[], size_t most)
 {
-    char *script = plot_file(s->figure, "gp"), *rest = NULL;
+    char *script = read_plot("out", s->figure, "gp"), *rest = NULL;
     size_t n = 0;
     bool plot = false;
     for (char *line = strtok_r(script, "\n", &rest); line != NULL;
@@ -551,7 +527,7 @@ static void test_gnuplot_draws_every_point(void **state)
     enum { ITEMS = 256 };
     size_t points = 0, drawn_ones = 0;
     for (size_t i = 0; i < wt_figure_count(); i++) {
-        sections s = read_sections(wt_figure_get(i).name);
+        sections s = begin_sections(wt_figure_get(i).name);
         item items[ITEMS];
         const size_t n = list_items(&s, items, ITEMS);
         tabulate(s.figure);
@@ -591,7 +567,7 @@ static void test_panels(void **state)
     NEED_REPORT();
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const char *figure = wt_figure_get(i).name;
-        char *script = plot_file(figure, "gp"), *rest = NULL;
+        char *script = read_plot("out", figure, "gp"), *rest = NULL;
         size_t plots = 0, places = 0, begun = 0, ended = 0;
         for (char *line = strtok_r(script, "\n", &rest); line != NULL;
              line = strtok_r(NULL, "\n", &rest)) {
@@ -654,7 +630,7 @@ static void test_crowds(void **state)
             most = every[g][0] > most ? every[g][0] : most;
         }
         assert_true(most > 1);
-        char *script = plot_file(cases[i].figure, "gp"), *rest = NULL, words[64];
+        char *script = read_plot("out", cases[i].figure, "gp"), *rest = NULL, words[64];
         snprintf(words, sizeof words, "One sample of %s%zu is drawn.", cases[i].caption, most);
         assert_non_null(strstr(script, words));
         size_t seen = 0;

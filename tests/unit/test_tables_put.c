@@ -531,7 +531,8 @@ static void test_ramps(void **state)
 {
     (void)state;
     static const char *const files[] = {FORMATS "table-units/ramp.csv", CASE "dma.txt",
-                                        FORMATS "table-units/ramp-with-strain.csv"};
+                                        FORMATS "table-units/ramp-with-strain.csv",
+                                        FORMATS "table-units/ramp-frequencies-in-turn.txt"};
     static const double at[] = {290, 500};
     wt_job common = wt_job_defaults();
     common.formats = formats;

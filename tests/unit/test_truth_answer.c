@@ -17,6 +17,8 @@ enum { SPOTS = 3, RATES = 2 };
 static const double rate[RATES] = {1e-6, 2e-5};    /* of the piezo [m/s] */
 static const double with_rate[RATES] = {1.0, 1.2}; /* stiffer where it is faster */
 
+static int track_from; /* the first of the rates at which the track is indented */
+
 static char folder[] = "/tmp/weartrack-answer-XXXXXX";
 static wt_result *result;
 
@@ -55,7 +57,7 @@ static void write_curves(double ratio, double scatter)
             snprintf(path, sizeof path, "%s/%c%d.tsv", folder, "bt"[g], s);
             FILE *out = fopen(path, "w");
             assert_non_null(out);
-            for (int r = 0; r < RATES; r++) {
+            for (int r = g == 1 ? track_from : 0; r < RATES; r++) {
                 hertz h = hertz_standard();
                 h.modulus = BULK * with_rate[r] * exp((s - 1) * scatter);
                 if (g == 1)
@@ -577,12 +579,58 @@ static void test_caveats(void **state)
     (void)after("friction", "What the layer does to friction. Not asked: the case has no layer");
 }
 
+/* The bulk at both rates, the track at the fast one: the ratio is that of the fast one, and the
+ * sentence that tells it says that the moduli beside it have another. */
+static void test_common_rates(void **state)
+{
+    (void)state;
+    static const char words[] = ", for the rates are those that both groups have; the moduli of "
+                                "all rates have the ratio ";
+    track_from = 1;
+    run(0.8, 0.01, INDENTATION(FILES("b"), FILES("t")) COMPARE);
+    track_from = 0;
+    const double common = 0.8 * sqrt(BY_RATE);
+    check("short", "E_track/E_bulk = ", common, 0.01);
+    check("short", words, common * sqrt(1.2), 0.01);
+    check("difference", words, common * sqrt(1.2), 0.01);
+    assert_true(says("difference", "The modulus of the wear track is "));
+    run(0.8, 0.01, INDENTATION(FILES("b"), FILES("t")) COMPARE);
+    assert_false(says("short", words));
+}
+
+/* Elastic curves beside a DMA with loss at their rates: how many are not of its spectrum is said in
+ * the answer and in the log, and what that changes. */
+static void test_other_spectrum(void **state)
+{
+    (void)state;
+    static const char *const group[] = {"bulk", "track"};
+    char table[32], words[96];
+    run(0.6, 0.03, INDENTATION(FILES("b"), FILES("t")) SLIDING COMPARE);
+    for (int g = 0; g < 2; g++) {
+        snprintf(table, sizeof table, "indentation/%s", group[g]);
+        const wt_table *t = wt_result_find(result, table);
+        size_t others = 0;
+        for (size_t i = 0; i < SPOTS * RATES; i++)
+            others += strstr(cell_text(t, i, "reason"), "not of the spectrum of the DMA") != NULL;
+        assert_true(others > 0);
+        snprintf(words, sizeof words, "%zu of %d curves of the %s are not of the spectrum of the ",
+                 others, SPOTS * RATES, group[g]);
+        assert_non_null(strstr(after("caveat", words), "not of factors on the spectrum"));
+        const wt_table *notes = wt_result_find(result, "notes");
+        size_t noted = 0;
+        for (size_t i = 0; i < wt_table_n_rows(notes); i++)
+            noted += strstr(cell_text(notes, i, "text"), words) != NULL;
+        assert_int_equal(noted, 1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),   cmocka_unit_test(test_one_spot),
-        cmocka_unit_test(test_sliding),    cmocka_unit_test(test_disagreement),
-        cmocka_unit_test(test_told_alike), cmocka_unit_test(test_caveats),
+        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_sliding),      cmocka_unit_test(test_disagreement),
+        cmocka_unit_test(test_told_alike),   cmocka_unit_test(test_caveats),
+        cmocka_unit_test(test_common_rates), cmocka_unit_test(test_other_spectrum),
     };
     return cmocka_run_group_tests_name("answers of known truth", tests, make_folder, clean);
 }

@@ -28,6 +28,7 @@ static double modulus(double mean, int r, int spot)
     return mean * with_rate[r] * exp((spot - 1) * SCATTER * spread[r]);
 }
 
+static wt_curve_verdict verdict_of_all = WT_CURVE_ACCEPTED; /* but the one that is rejected */
 static int n_names = SPOTS; /* of spots; the others are called as those are */
 
 /* An indentation table with all its columns; one curve for each spot and rate, one rejected. */
@@ -73,8 +74,8 @@ static wt_table *indentation(const char *group, double mean)
         snprintf(spot, sizeof spot, "s%d", s % n_names);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
         assert_int_equal(wt_table_put_text(t, SPOT, spot, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, VERDICT, good ? "accepted" : "saturated", NULL),
-                         WT_OK);
+        const char *said = good ? wt_curve_verdict_id(verdict_of_all) : "saturated";
+        assert_int_equal(wt_table_put_text(t, VERDICT, said, NULL), WT_OK);
         if (!good)
             break;
         wt_table_put(t, MODULUS, modulus(mean, r, s));
@@ -548,6 +549,64 @@ static void test_common(void **state)
                 RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
 }
 
+/* So does a half-angle; what is given for tips that state nothing is not taken then. */
+static void test_half_angle(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    for (size_t g = 0; g < 2; g++) {
+        wt_table *const table = g == 0 ? bulk_table : track_table;
+        const wt_estimate error = {0.1, 0, 0, "1"}, gain = {g == 0 ? -1.5 : -1.9, 0, 0, "1"};
+        assert_int_equal(wt_table_set_estimate(table, "half_angle_error", error, NULL), WT_OK);
+        assert_int_equal(wt_table_set_estimate(table, "half_angle_gain", gain, NULL), WT_OK);
+    }
+    wt_compare_job job = wt_compare_job_defaults();
+    job.tip_error = 0.7;
+    assert_non_null(strstr(includes_of(job), "half-angle of the tip"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, 0.4 * 0.1), 1e-9);
+}
+
+static void set_lever(wt_table *table, double value, double error)
+{
+    const wt_estimate lever = {value, error, 0, "N/m"};
+    assert_int_equal(wt_table_set_estimate(table, "spring_constant", lever, NULL), WT_OK);
+}
+
+/* Two levers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, whatever is given for such that state
+ * none. Without both stated the given one is that of both. */
+static void test_stated_levers(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    set_lever(bulk_table, 0.5, 0.05);
+    set_lever(track_table, 2, 0.06);
+    wt_compare_job job = wt_compare_job_defaults();
+    job.levers = WT_LEVERS_TWO;
+    job.lever_error = 0.3;
+    assert_non_null(strstr(includes_of(job), "spring constants"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, hypot(0.1, 0.03)), 1e-9);
+    set_lever(track_table, 2, 0);
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, hypot(0.1, 0.3)), 1e-9);
+}
+
+/* What is not given has no value and no error, of which the numerical one does not apply. */
+static void test_not_given(void **state)
+{
+    (void)state;
+    const wt_compare_job job = wt_compare_job_defaults();
+    const wt_estimate unset[] = {job.temperature, job.track_temperature, job.temperature_slope};
+    for (size_t i = 0; i < sizeof unset / sizeof *unset; i++) {
+        assert_true(isnan(unset[i].value) && isnan(unset[i].standard_error));
+        assert_true(unset[i].numerical_error == 0);
+    }
+}
+
 static void set_shown(wt_table *table, double loss, double bend)
 {
     const wt_estimate values[] = {{loss, 0, 0, "1"}, {bend, 0, 0, "1"}};
@@ -683,12 +742,64 @@ static void test_temperature_error(void **state)
     assert_near(key_estimate(tables.dma_comparison, "temperature").standard_error, 2, 1e-12);
 }
 
+/* Without an accepted curve in a group the other one is told, and what rejected the most. */
+static void test_none_accepted(void **state)
+{
+    (void)state;
+    static const struct {
+        wt_curve_verdict verdict;
+        const char *settled_by;
+    } cases[] = {{WT_CURVE_POOR_FIT, "whether it wore"},
+                 {WT_CURVE_DRIFT, "begin farther from the sample"},
+                 {WT_CURVE_NO_CONTACT, "pressed further"},
+                 {WT_CURVE_SATURATED, "or a stiffer lever"},
+                 {WT_CURVE_NEGATIVE, "the sign of the deflection"},
+                 {WT_CURVE_UNREADABLE, "whose approach is there"}};
+    const wt_job common = wt_job_defaults();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const int empty = (int)(i % 2);
+        static const char *const names[2] = {"bulk", "track"};
+        wt_table *groups[2];
+        wt_compare_job job = wt_compare_job_defaults();
+        wt_compare_tables made = {0};
+        char words[256];
+        for (int g = 0; g < 2; g++) {
+            verdict_of_all = g == empty ? cases[i].verdict : WT_CURVE_ACCEPTED;
+            groups[g] = indentation(names[g], BULK);
+        }
+        verdict_of_all = WT_CURVE_ACCEPTED;
+        job.bulk = groups[0];
+        job.track = groups[1];
+        assert_int_equal(wt_compare_groups(&job, &common, &made, NULL), WT_OK);
+        const wt_table *c = made.comparison;
+        const size_t rejected = cases[i].verdict == WT_CURVE_SATURATED ? 7 : 6;
+        snprintf(words, sizeof words,
+                 "cannot say: none of the 7 curves of the %s has a modulus (%zu: %s)",
+                 empty ? "track" : "bulk", rejected, wt_curve_verdict_text(cases[i].verdict));
+        assert_string_equal(wt_table_key(c, "differs"), words);
+        assert_non_null(strstr(wt_table_key(c, "settled_by"), cases[i].settled_by));
+        assert_int_equal(wt_table_n_rows(c), 1);
+        assert_near(cell(c, 0, empty ? "n_bulk" : "n_track"), SPOTS * RATES, 0);
+        assert_near(cell(c, 0, empty ? "spots_bulk" : "spots_track"), SPOTS, 0);
+        assert_near(cell(c, 0, empty ? "n_track" : "n_bulk"), 0, 0);
+        assert_true(isnan(cell(c, 0, "ratio")) && isnan(cell(c, 0, "ratio_low")));
+        assert_null(wt_table_key(c, "modulus_ratio"));
+        assert_int_equal(wt_table_n_rows(made.modulus_groups), 2);
+        assert_near(cell(made.modulus_groups, (size_t)!empty, "geometric_mean"), BULK, 1e-9);
+        assert_true(isnan(cell(made.modulus_groups, (size_t)empty, "geometric_mean")));
+        wt_compare_tables_clear(&made);
+        wt_table_free(groups[0]);
+        wt_table_free(groups[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
         cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_two_spots),
+        cmocka_unit_test(test_none_accepted),
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),
@@ -696,6 +807,9 @@ int main(void)
         cmocka_unit_test(test_not_known),
         cmocka_unit_test(test_out_of_reach),
         cmocka_unit_test(test_common),
+        cmocka_unit_test(test_half_angle),
+        cmocka_unit_test(test_stated_levers),
+        cmocka_unit_test(test_not_given),
         cmocka_unit_test(test_shown),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),

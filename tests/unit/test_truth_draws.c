@@ -137,7 +137,8 @@ static void test_calibration_draws(void **state)
     check_independent(knobs, 3, thickness, "critical_energy");
 }
 
-/* Stating one more error changes none of the other draws; the seed changes all. */
+/* Stating one more error changes none of the other draws, and takes one slope more out of what they
+ * scatter; the seed changes all. */
 static void test_seed(void **state)
 {
     (void)state;
@@ -149,8 +150,9 @@ static void test_seed(void **state)
     double depth = thickness("balance_thickness").standard_error;
     assert_true(hysteresis > 0 && depth > 0);
     sliding.shear_stress.standard_error = 0.5e6;
-    assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 0);
-    assert_near(thickness("balance_thickness").standard_error, depth, 0);
+    assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 1e-3);
+    assert_near(thickness("balance_thickness").standard_error, depth, 1e-3);
+    sliding.shear_stress.standard_error = 0;
     work.seed += 1;
     assert_true(fabs(friction("hysteresis_at_reference").standard_error / hysteresis - 1) > 1e-6);
     assert_true(fabs(thickness("balance_thickness").standard_error / depth - 1) > 1e-6);

@@ -1,6 +1,7 @@
 /* Materials side by side: isotherms of two rubbers whose spectra, laws and scales are known, so
  * that every ratio is. How often the interval holds it: `unit_truth_materials N` draws N pairs and
  * prints the shares. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
 #include "truth.h"
 
 #include "dma_data.h"
@@ -9,8 +10,6 @@
 enum { ISOTHERMS = 9, POINTS = 13, QUANTITIES = 3 };
 
 #define REFERENCE 293.15
-
-static wt_formats *formats;
 
 /* One spectrum, moved and scaled, with a law of its own; the moduli follow rho T. */
 typedef struct rubber_truth {
@@ -34,19 +33,6 @@ static void moduli_of(const rubber_truth *r, double temperature, double omega, d
     x[0] *= r->scale * temperature / REFERENCE;
     x[1] *= r->scale * temperature / REFERENCE;
     x[2] = x[1] / x[0];
-}
-
-static int open_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int close_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
 }
 
 /* The sweeps of a rubber, each oven temperature off by a normal `spread` [K]. */
@@ -366,7 +352,7 @@ static int print_coverage(size_t n)
                        shares[o][q].n, 50 * shares[o][q].width / (double)shares[o][q].n);
         fflush(stdout);
     }
-    return close_formats(NULL);
+    return free_formats(NULL);
 }
 
 int main(int argc, char **argv)
@@ -381,5 +367,5 @@ int main(int argc, char **argv)
     };
     if (argc > 1)
         return print_coverage(strtoul(argv[1], NULL, 10));
-    return cmocka_run_group_tests(tests, open_formats, close_formats);
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -238,7 +238,8 @@ static void put_channel(const writer *w, FILE *out, const char *prefix, enum cha
             types[file->encoding], prefix, prefix, channel_names[c]);
     put_unit(out, prefix, base_unit);
     if (encoders[file->encoding] != NULL) {
-        fprintf(out, "%sencoder.type=%s\n", prefix, encoders[file->encoding]);
+        fprintf(out, "%sencoder.type=%s\n", prefix,
+                file->odd_height && c == HEIGHT ? "oddinteger" : encoders[file->encoding]);
         snprintf(inner, sizeof inner, "%sencoder.", prefix);
         put_scaling(out, inner, w->encoders[c].offset, w->encoders[c].multiplier, base_unit);
     }

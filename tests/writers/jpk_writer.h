@@ -47,6 +47,7 @@ typedef struct jpk_writer_file {
     jpk_writer_encoding encoding;
     unsigned n_more;     /* channels that are listed beside those there are */
     bool bare_height;    /* the height stays in volts: its conversions are not defined */
+    bool odd_height;     /* its samples are integers of a kind that nobody knows */
     bool inline_headers; /* no shared-data: every key stands in the segment header */
     bool folders;        /* with entries for the folders */
     bool stored;         /* not compressed: the same bytes with any version of zlib */

@@ -50,33 +50,35 @@
 
 /* Means over times that grow by one factor; a dwell is a block. */
 #define DWELL_POINTS_COLUMNS(X)                                                                    \
-    X(DWELL_POINTS_TIME, "time", "time from contact", SI(TIME))                                    \
-    X(DWELL_POINTS_FORCE, "force", "force above the baseline", SI(FORCE))                          \
-    X(DWELL_POINTS_INDENTATION, "indentation", "indentation depth", SI(INDENTATION))               \
-    X(DWELL_POINTS_MODULUS, "modulus",                                                             \
+    X(DWELL_POINTS_TIME, AS(time), "time from contact", SI(TIME))                                  \
+    X(DWELL_POINTS_FORCE, AS(force), "force above the baseline", SI(FORCE))                        \
+    X(DWELL_POINTS_INDENTATION, AS(indentation), "indentation depth", SI(INDENTATION))             \
+    X(DWELL_POINTS_MODULUS, AS(modulus),                                                           \
       "of an elastic rubber with this force at this indentation; nan: it pulls, or is too deep",   \
       SI(MODULUS), SPARSE)                                                                         \
-    X(DWELL_POINTS_FITTED, "fitted_modulus", "the same of what was fitted", SI(MODULUS), SPARSE)   \
-    X(DWELL_POINTS_FILE, "file", "file of the curve", TEXT)                                        \
-    X(DWELL_POINTS_CURVE, "curve", "number of the curve in its file", NUMBER)
+    X(DWELL_POINTS_FITTED, AS(fitted_modulus), "the same of what was fitted", SI(MODULUS), SPARSE) \
+    X(DWELL_POINTS_FILE, AS(file), "file of the curve", TEXT)                                      \
+    X(DWELL_POINTS_CURVE, AS(curve), "number of the curve in its file", NUMBER)
 #define DWELL_POINTS_KEYS(X)
 
 /* A frequency of a dwell in each row; a dwell is a block. */
 #define DWELL_MODULI_COLUMNS(X)                                                                    \
-    X(DWELL_MODULI_FILE, "file", "file of the curve", TEXT)                                        \
-    X(DWELL_MODULI_CURVE, "curve", "number of the curve in its file", NUMBER)                      \
-    X(DWELL_MODULI_SEGMENT, "segment", "number of the segment in the curve", NUMBER)               \
-    X(DWELL_MODULI_KIND, "kind", "relaxation, creep or modulation", TEXT)                          \
-    X(DWELL_MODULI_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                    \
+    X(DWELL_MODULI_FILE, AS(file), "file of the curve", TEXT)                                      \
+    X(DWELL_MODULI_CURVE, AS(curve), "number of the curve in its file", NUMBER)                    \
+    X(DWELL_MODULI_SEGMENT, AS(segment), "number of the segment in the curve", NUMBER)             \
+    X(DWELL_MODULI_KIND, AS(kind), "relaxation, creep or modulation", TEXT)                        \
+    X(DWELL_MODULI_ANGULAR_FREQUENCY, IN(moduli, angular_frequency), "angular frequency",          \
       SI(ANGULAR_FREQUENCY))                                                                       \
     COLUMN_AND_ERROR(X, DWELL_MODULI_STORAGE, "storage_modulus", "storage modulus",                \
-                     SI(STORAGE_MODULUS), "E′", .member = NULL)                                    \
+                     SI(STORAGE_MODULUS), "E′", SHOWS(moduli.storage))                             \
     X(DWELL_MODULI_STORAGE_COMMON, "storage_modulus_common_error",                                 \
-      "of its standard error, what curves of one kind share", SI(STORAGE_MODULUS))                 \
+      "of its standard error, what curves of one kind share", SI(STORAGE_MODULUS),                 \
+      SHOWS(moduli.storage_common_error))                                                          \
     COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″", \
-                     .member = NULL)                                                               \
+                     SHOWS(moduli.loss))                                                           \
     X(DWELL_MODULI_LOSS_COMMON, "loss_modulus_common_error",                                       \
-      "of its standard error, what curves of one kind share", SI(LOSS_MODULUS))
+      "of its standard error, what curves of one kind share", SI(LOSS_MODULUS),                    \
+      SHOWS(moduli.loss_common_error))
 #define DWELL_MODULI_KEYS(X)
 
 /* Those of several curves against the DMA; a group is a block. */

@@ -9,7 +9,8 @@
     X(ERROR_BUDGET_SOURCE, IN(of, source), "where the error comes from", TEXT, LABEL("Source"))    \
     X(ERROR_BUDGET_KIND, IN(of, kind),                                                             \
       "measured: one standard error by this source alone; together: by all of them; draws: "       \
-      "standard error of that by the number of replicates; numerical: a bound; model: half the "   \
+      "what the number of replicates leaves open of that, at most; numerical: a bound; model: "    \
+      "half the "                                                                                  \
       "range of the what-if table",                                                                \
       TEXT, LABEL("Kind"))                                                                         \
     X(ERROR_BUDGET_RELATIVE_ERROR, "relative_error", "the error over the number", NUMBER,          \

@@ -45,12 +45,16 @@
     X(GLASS_TRANSITION_TEMPERATURE_MIN, AS(temperature_min), "coldest point", SI(TEMPERATURE))     \
     X(GLASS_TRANSITION_TEMPERATURE_MAX, AS(temperature_max), "warmest point", SI(TEMPERATURE))     \
     X(GLASS_TRANSITION_SOURCE, AS(source), "file and step", TEXT)
-/* Of the frequency nearest to 1 Hz at which there is a peak. */
+/* Of the frequency nearest to 1 Hz at which there is a peak; the energies of all frequencies. */
 #define GLASS_TRANSITION_KEYS(X)                                                                   \
     X(GLASS_TRANSITION_KEY_FACTOR_PEAK, "loss_factor_peak_temperature", SI(TEMPERATURE),           \
       SHOWS(factor_peak), HEADLINE("Glass transition (peak of tan δ)"), OPTIONAL)                  \
     X(GLASS_TRANSITION_KEY_LOSS_PEAK, "loss_modulus_peak_temperature", SI(TEMPERATURE),            \
       SHOWS(loss_peak), HEADLINE("Glass transition (peak of the loss modulus)"), OPTIONAL)         \
+    X(GLASS_TRANSITION_KEY_FACTOR_ENERGY, "loss_factor_activation_energy", UNIT("J/mol"),          \
+      SHOWS(factor_energy), LABEL("Activation energy of the peak of tan δ"), OPTIONAL)             \
+    X(GLASS_TRANSITION_KEY_LOSS_ENERGY, "loss_modulus_activation_energy", UNIT("J/mol"),           \
+      SHOWS(loss_energy), LABEL("Activation energy of the peak of the loss modulus"), OPTIONAL)    \
     X(GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),        \
       LABEL("at the angular frequency"), OPTIONAL)                                                 \
     X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), TEXT)

@@ -32,7 +32,7 @@
     X(FAILURES_FILE, AS(file), "file or stage that failed", TEXT, LABEL("File"))                   \
     X(FAILURES_MESSAGE, AS(message), "what went wrong, where, and what to do", TEXT,               \
       LABEL("What happened"))
-#define FAILURES_KEYS(X)
+#define FAILURES_KEYS(X) X(FAILURES_KEY_STATUS, "status", PLAIN, OPTIONAL)
 
 #define COST_COLUMNS(X)                                                                            \
     X(COST_STAGE, AS(stage), "stage", TEXT, LABEL("Stage"))                                        \

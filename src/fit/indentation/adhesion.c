@@ -30,7 +30,11 @@ static const double least_tabor = 1.0;
 static const double let_go = 0.02;
 /* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
 static const double most_loss = 2.0;
-enum { MAX_ROUNDS = 3, LEVER_ROUNDS = 50 };
+enum {
+    MAX_ROUNDS = 3,
+    LEVER_ROUNDS = 50,
+    START_SAMPLES = 100 /* of the contact, to start a fit */
+};
 
 /* ---- snap-on --------------------------------------------------------------------------------- */
 
@@ -256,33 +260,82 @@ static void refine(curve_fitting *f, curve_solution *s)
     curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
 }
 
+/* Means of some samples of a jump's baseline and contact each, for fits that only start others: a
+ * start needs no more of them. False if they are few. */
+static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t *to_jump)
+{
+    const curve_samples *s = &f->input.samples;
+    const size_t length = (s->n - jump) / START_SAMPLES;
+    if (length < 2 || jump / length < CURVE_BASELINE_SAMPLES || s->gap_to > s->gap_from ||
+        curve_has_wave(&f->kind.wave))
+        return false;
+    /* Nothing needs the way out after curve_read_retract. */
+    *to = (curve_samples){.position = f->workspace->retract_position,
+                          .force = f->workspace->retract_force,
+                          .spring_constant = s->spring_constant};
+    *to_jump = jump / length;
+    for (size_t i = jump % length; i + length <= s->n; i += length) {
+        to->position[to->n] = curve_sum(s->position + i, length) / (double)length;
+        to->force[to->n++] = curve_sum(s->force + i, length) / (double)length;
+    }
+    return true;
+}
+
+/* With a free contact point, the jump where the tip touches if it follows. */
+static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
+{
+    const curve_samples *samples = &f->input.samples;
+    curve_solution best = {.cost = (double)INFINITY};
+    size_t jump_of_best = f->kind.jump;
+    for (int round = 0; round < MAX_ROUNDS; round++) {
+        refine(f, s);
+        if (!(s->cost < best.cost))
+            break;
+        best = *s;
+        jump_of_best = f->kind.jump;
+        const size_t jump = first_beyond(samples, s->p[CURVE_C]);
+        if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
+            samples->n - jump < CURVE_BASELINE_SAMPLES)
+            break;
+        f->kind.jump = jump;
+    }
+    f->kind.jump = jump_of_best;
+    *s = best;
+}
+
 /* From a jump: first with the contact point there, then with a free one, for from the wrong side of
  * the jump the fit does not find the way. follows: the jump stays where the tip touches. */
 static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jump, bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
-    const size_t n = f->input.samples.n;
-    curve_solution best = {.cost = (double)INFINITY};
+    const curve_samples all = f->input.samples;
+    curve_samples some;
     if (!fixed)
-        s.p[CURVE_C] = f->input.samples.position[jump];
+        s.p[CURVE_C] = all.position[jump];
     f->kind.jump = jump;
-    f->kind.contact_fixed = true;
+    if (thin(f, jump, &some, &f->kind.jump))
+        f->input.samples = some;
+    f->kind.contact_fixed = f->kind.rough = true;
     refine(f, &s);
     f->kind.contact_fixed = fixed;
-    for (int round = 0; !fixed && round < MAX_ROUNDS; round++) {
-        refine(f, &s);
-        if (!(s.cost < best.cost))
-            break;
-        best = s;
-        jump = first_beyond(&f->input.samples, s.p[CURVE_C]);
-        if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
-            n - jump < CURVE_BASELINE_SAMPLES)
-            break;
-        f->kind.jump = jump;
+    if (!fixed)
+        refine_jump(f, &s, follows);
+    f->input.samples = all;
+    f->kind.rough = false;
+    if (!s.converged)
+        return s;
+    f->kind.jump = jump;
+    if (follows && !fixed) {
+        const size_t touched = first_beyond(&all, s.p[CURVE_C]);
+        if (touched >= CURVE_BASELINE_SAMPLES && all.n - touched >= CURVE_BASELINE_SAMPLES)
+            f->kind.jump = touched;
     }
-    best = fixed ? s : best;
-    f->kind.jump = best.first_contact;
-    return best;
+    if (fixed)
+        refine(f, &s);
+    else
+        refine_jump(f, &s, follows);
+    f->kind.jump = s.first_contact;
+    return s;
 }
 
 /* How much larger than the noise the residual is, and so the errors are: any parameter more lowers
@@ -296,7 +349,7 @@ static bool is_adhesive(const curve_fitting *f)
 {
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
-    const adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], root * root};
+    const adhesion law = {f->table, s->p[CURVE_E], root * root};
     return s->converged &&
            root > work_errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
@@ -327,12 +380,14 @@ static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
 {
     const double k = f->input.samples.spring_constant;
     curve_solution start = f->solution;
-    const wt_tip *tip = contact_table_tip(f->table);
-    const adhesion law = {tip, start.p[CURVE_E], adhesion_work(tip, start.p[CURVE_E], k, pull)};
-    if (isnan(law.work) || !adhesion_applies(tip))
+    const adhesion law = {f->table, start.p[CURVE_E],
+                          adhesion_work(f->table, start.p[CURVE_E], k, pull)};
+    if (isnan(law.work) || !adhesion_applies(contact_table_tip(f->table)))
         return false;
-    const double release = adhesion_release(&law, k);
-    const double depth = adhesion_at(&law, adhesion_radius(&law, k, 0.0, release, 0.0)).depth;
+    const double touch = 0.0;
+    double bare;
+    adhesion_balance(&law, k, adhesion_release(&law, k), &touch, 1, &bare);
+    const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
     return fit_adhesion_from(f, start, depth, jump);

@@ -189,12 +189,12 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W], k = f->input.samples.spring_constant;
-    adhesion law = {contact_table_tip(f->table), s->p[CURVE_E], 0.0};
+    adhesion law = {f->table, s->p[CURVE_E], 0.0};
     fit->adhesion_force = f->snap_on;
     fit->pull_off_force = f->pull_off;
     if (f->pull_off >= 0.0)
         fit->pull_off_work =
-            f->pull_off > 0.0 ? adhesion_work(law.tip, law.reduced, k, f->pull_off) : 0.0;
+            f->pull_off > 0.0 ? adhesion_work(f->table, law.reduced, k, f->pull_off) : 0.0;
     const bool long_range = f->kind.adhesive && f->kind.constant_pull;
     if (long_range) {
         fit->contact_pull.value = root;

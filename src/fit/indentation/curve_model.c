@@ -163,46 +163,52 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     const double k = s->spring_constant, e = p[CURVE_E], root = p[CURVE_W];
-    const adhesion law = {contact_table_tip(m->table), e, root * root};
+    const adhesion law = {m->table, e, root * root};
     const double release = adhesion_release(&law, k);
-    double radius = 0.0;
+    double *const z = w->residual, *const bare = w->delta; /* which both are made of them */
     for (size_t i = first; i < s->n; i++) {
-        const double z = s->position[i] - p[CURVE_C];
+        z[i] = s->position[i] - p[CURVE_C];
         w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
-        if (m->jump > 0 ? i < m->jump : !(z > 0.0))
-            continue;
-        radius = adhesion_radius(&law, k, z, release, radius);
-        if (!(radius > 0.0))
-            continue;
-        const adhesive_contact c = adhesion_at(&law, radius);
-        w->delta[i] = c.depth;
-        w->g[i] = c.force / e;
-        if (!(radius > release * (1.0 + 1e-9))) /* beyond its reach: held there */
-            continue;
-        w->slope[i] = c.stiffness / e;
-        w->by_modulus[i] = c.by_modulus;
-        w->by_work[i] = root > 0.0 ? 2.0 * root * c.by_work : 0.0;
+    }
+    while (first < s->n && (m->jump > 0 ? first < m->jump : !(z[first] > 0.0)))
+        first++;
+    adhesion_balance(&law, k, release, z + first, s->n - first, bare + first);
+    for (size_t i = first; i < s->n; i += ADHESION_BLOCK) {
+        const size_t n = s->n - i < ADHESION_BLOCK ? s->n - i : ADHESION_BLOCK;
+        adhesive_contacts c;
+        adhesion_along(&law, bare + i, n, &c);
+        for (size_t j = 0; j < n; j++) {
+            const bool touches = m->jump > 0 || z[i + j] > 0.0;
+            const bool moves = touches && bare[i + j] > release * (1.0 + 1e-9); /* else held */
+            w->delta[i + j] = touches ? c.depth[j] : 0.0;
+            w->g[i + j] = touches ? c.force[j] / e : 0.0;
+            w->slope[i + j] = moves ? c.stiffness[j] / e : 0.0;
+            w->by_modulus[i + j] = moves ? c.by_modulus[j] : 0.0;
+            w->by_work[i + j] = moves && root > 0.0 ? 2.0 * root * c.by_work[j] : 0.0;
+        }
     }
 }
 
 /* Contact with a constant pull P: the lever is at a height that is larger by P/k. */
-static void balance_pull(const curve_law *m, const double p[N], size_t first)
+static void balance_pull(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     const double k = s->spring_constant, e = p[CURVE_E], pull = p[CURVE_W];
+    double higher[N];
+    memcpy(higher, p, sizeof higher);
+    higher[CURVE_C] -= pull / k;
+    m->balanced = false; /* the forces of before have the pull in them */
+    balance(m, higher, first);
     for (size_t i = first; i < s->n; i++) {
-        const double z = s->position[i] - p[CURVE_C], higher = z + pull / k, start = w->delta[i];
-        w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
-        if (m->jump > 0 ? i < m->jump : !(z > 0.0))
-            continue;
-        double g = 0.0, slope = 0.0;
-        if (higher > 0.0)
-            w->delta[i] = curve_balanced_depth(m->table, k, higher, e, 0.0, 1.0, start, &g, &slope);
-        w->g[i] = g - (higher > 0.0 ? pull : -k * z) / e;
-        w->slope[i] = slope;
-        w->by_modulus[i] = g;
-        w->by_work[i] = higher > 0.0 ? -1.0 : 0.0;
+        const double z = s->position[i] - p[CURVE_C], g = w->g[i];
+        const bool touches = m->jump > 0 ? i >= m->jump : z > 0.0, rests = z + pull / k > 0.0;
+        const bool presses = touches && rests;
+        w->delta[i] = presses ? w->delta[i] : 0.0;
+        w->g[i] = !touches ? 0.0 : presses ? g - pull / e : k * z / e;
+        w->slope[i] = presses ? w->slope[i] : 0.0;
+        w->by_modulus[i] = presses ? g : 0.0;
+        w->by_work[i] = presses ? -1.0 : 0.0;
     }
 }
 

@@ -56,6 +56,11 @@ static double dot(const double a[N], const double b[N])
  * the forces. */
 static const double least_step = 1e-5;
 
+/* Of what a step may leave that is none: a thousandth of a standard error. */
+static const double nearly = 1e4;
+static const double stuck = 1e8; /* a tenth */
+static const double least_damping = 1e-3;
+
 static double by_step(const curve_samples *s, double cost)
 {
     return least_step * least_step / (double)s->n * cost;
@@ -86,8 +91,8 @@ static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const w
 static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
-    double expected = (double)INFINITY;
-    const double rounding = by_rounding(s);
+    double expected = (double)INFINITY, kept = 0.0; /* damping to begin a step with */
+    const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
     wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
     *cost = cost_at(m, p, wave);
@@ -98,37 +103,58 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             return false;
         curve_model_normal(m, p, &e);
         bool moved = false;
-        for (double damping = 0.0; !moved; damping = damping > 0.0 ? 10.0 * damping : 1e-3) {
+        for (double damping = 0.0; !moved;
+             damping = damping > 0.0 ? 10.0 * damping : fmax(kept, least_damping)) {
             double step[1][N], trial[N];
             memcpy(step[0], e.jr, sizeof e.jr);
             bool solved = solve(&e, damping, step, 1);
             if (damping == 0.0) {
                 expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
-                if (expected <= by_step(s, *cost) || expected <= rounding)
+                if (expected <= close * by_step(s, *cost) || expected <= rounding)
                     return true;
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
             const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
-            if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+            const double before = *cost;
+            const bool near = expected < fmax(1e-9 * before, 1e-14 * m->ff);
+            const bool too_far = damping == 0.0 && kept > 0.0 && !near;
+            if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
                 double trial_cost = cost_at(m, trial, &trial_wave);
                 /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
-                if (trial_cost < *cost ||
-                    (damping == 0.0 && expected < fmax(1e-9 * *cost, 1e-14 * m->ff))) {
+                if (trial_cost < before || (damping == 0.0 && near)) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
                     *wave = trial_wave;
                     moved = true;
+                    if (damping <= kept) /* at once */
+                        kept = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
+                    else
+                        kept = damping;
                 }
             }
+            /* At a kink, where a sample lets go, nothing more is gained however much is expected.
+             */
+            if (moved && m->adhesive && damping > 0.0 &&
+                before - *cost < stuck * by_step(s, before))
+                return expected <= nearly * by_step(s, before);
             if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
                 *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
             }
         }
     }
-    return expected <= 1e4 * by_step(s, *cost);
+    return expected <= nearly * by_step(s, *cost);
+}
+
+static size_t first_contact(const curve_law *m, const double p[N])
+{
+    const curve_samples *s = m->samples;
+    size_t first = 0;
+    while (first < s->n && (m->jump > 0 ? first < m->jump : s->position[first] < p[CURVE_C]))
+        first++;
+    return first;
 }
 
 WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
@@ -138,10 +164,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     const double *p = s->p;
     const size_t n = samples->n;
 
-    size_t first = 0;
-    while (first < n && (m->jump > 0 ? first < m->jump : samples->position[first] < p[CURVE_C]))
-        first++;
-    s->first_contact = first;
+    const size_t first = s->first_contact;
 
     /* A sensitivity larger by a share u acts like a noise of u times the force f: J'f is J'r where
      * the baseline is, which has nothing but noise. */
@@ -203,6 +226,7 @@ curve_law curve_law_of(const wt_contact_table *table, const curve_samples *sampl
                        .constant_pull = kind->constant_pull,
                        .memory = kind->memory && !kind->adhesive,
                        .wave = curve_has_wave(&kind->wave),
+                       .rough = kind->rough && !curve_has_wave(&kind->wave),
                        .jump = kind->jump};
 }
 
@@ -230,7 +254,9 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     if (m.wave)
         s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
     curve_model_complete(&m, s.p);
-    statistics(&m, &s);
+    s.first_contact = first_contact(&m, s.p);
+    if (!m.rough)
+        statistics(&m, &s);
     *solution = s;
 }
 

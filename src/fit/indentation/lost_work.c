@@ -49,7 +49,6 @@ static double loss_of(const curve_fitting *f, double power)
     const curve_samples *s = &f->input.samples;
     const double k = s->spring_constant, modulus = f->solution.p[CURVE_E];
     double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1];
-    const wt_tip *tip = contact_table_tip(f->table);
     hereditary *law = &f->workspace->memory;
     curve_power rubber;
     const double top = s->position[f->input.n_all - f->n_snap - 1] - f->solution.p[CURVE_C];
@@ -60,7 +59,7 @@ static double loss_of(const curve_fitting *f, double power)
     curve_power_make(&rubber, power, 1.0);
     hereditary_begin(law, &rubber.series, modulus / hereditary_modulus(&rubber.series, 1.0),
                      1.0 / STEPS, 2.0);
-    if (hereditary_loop(law, tip, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
+    if (hereditary_loop(law, f->table, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
         return (double)NAN;
     double in = 0.0, back = 0.0;
     for (int i = 1; i <= STEPS; i++) {

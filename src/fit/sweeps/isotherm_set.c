@@ -76,7 +76,7 @@ static const double far_off = 5.0;
 enum { LEAST_MANY = 5 };
 
 /* The end of the points that become one from `from` on; alone: none do. */
-static size_t together(const struct point *point, size_t n, size_t from, bool alone)
+static size_t end_of_repeats(const struct point *point, size_t n, size_t from, bool alone)
 {
     size_t to = from + 1;
     while (!alone && to < n && point[to].x - point[from].x < one_point)
@@ -97,7 +97,7 @@ static bool is_even(const struct point *point, size_t n)
 static bool is_sparse(const struct point *point, size_t n)
 {
     size_t left = 0;
-    for (size_t k = 0; k < n; k = together(point, n, k, false))
+    for (size_t k = 0; k < n; k = end_of_repeats(point, n, k, false))
         left++;
     return left < SHIFT_MIN_POINTS || n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
 }
@@ -128,7 +128,7 @@ static void fill_points(const struct point *point, size_t n, shift_curve *curve)
     const bool alone = is_sparse(point, n);
     curve->n = 0;
     for (size_t from = 0, to; from < n; from = to, curve->n++) {
-        to = together(point, n, from, alone);
+        to = end_of_repeats(point, n, from, alone);
         double x = 0.0;
         for (size_t i = from; i < to; i++)
             x += point[i].x / (double)(to - from);

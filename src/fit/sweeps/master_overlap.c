@@ -60,7 +60,7 @@ wt_status master_may_overlap(master_work *work, bool *may, wt_error *err)
     return status;
 }
 
-static size_t away(const master_work *work, size_t i)
+static size_t isotherms_away(const master_work *work, size_t i)
 {
     return i > work->anchor ? i - work->anchor : work->anchor - i;
 }
@@ -70,7 +70,8 @@ static double common_steps(const master_work *work, size_t one, size_t other)
 {
     double sum = 0.0;
     while (one != other) {
-        size_t *const next = away(work, one) > away(work, other) ? &one : &other;
+        size_t *const next =
+            isotherms_away(work, one) > isotherms_away(work, other) ? &one : &other;
         *next = work->link[*next].onto;
     }
     for (; one != work->anchor; one = work->link[one].onto)

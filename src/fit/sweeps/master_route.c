@@ -28,7 +28,8 @@ static double steeper_reference(const master_work *work)
                : (double)NAN;
 }
 
-/* Whether one spectrum describes the isotherms from `first` to `last`. */
+/* Whether one spectrum describes the isotherms from `first` to `last`: not if it does not end,
+ * spans too much, or leaves some without overlap or too few that it could be of. */
 static wt_status try_part(const master_work *whole, size_t first, size_t last, bool *holds,
                           wt_error *err)
 {
@@ -52,7 +53,9 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
         status = master_agrees(&work, holds, err);
     posterior_free(work.posterior);
     pool_free(&work.memory);
-    return status == WT_E_MEMORY ? status : WT_OK;
+    const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
+                      status == WT_E_NO_OVERLAP || status == WT_E_MISSING;
+    return none ? WT_OK : status;
 }
 
 /* ---- a part that one spectrum describes ------------------------------------------------------ */
@@ -61,7 +64,7 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
 enum { LEAST_PART = LAW_LEAST_TOLD };
 
 /* The farthest end with which the part still holds: all there is, then by halves. */
-static wt_status widen(master_work *work, bool warm, wt_error *err)
+static wt_status widen_part(master_work *work, bool warm, wt_error *err)
 {
     size_t *const end = warm ? &work->last : &work->first;
     size_t steps = warm ? work->set.n - 1 - work->last : work->first; /* that may hold */
@@ -95,9 +98,9 @@ static wt_status find_part(master_work *work, wt_error *err)
     status = try_part(work, work->first, work->last, &holds, err);
     if (status != WT_OK || !holds)
         return status;
-    status = widen(work, true, err);
+    status = widen_part(work, true, err);
     if (status == WT_OK)
-        status = widen(work, false, err);
+        status = widen_part(work, false, err);
     work->part = true;
     return status;
 }

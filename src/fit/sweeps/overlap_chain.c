@@ -38,7 +38,7 @@ struct overlap {
 };
 
 /* Slope of the storage modulus at each point. */
-static void slopes(const shift_curve *c, double *slope)
+static void storage_slopes(const shift_curve *c, double *slope)
 {
     size_t from = 0, to = 0;
     for (size_t k = 0; k < c->n; k++) {
@@ -97,7 +97,7 @@ static void find_gaps(struct overlap *o, double a)
 }
 
 /* What the shift lacks by the gaps, and the squares of both. */
-static double lacks(const struct overlap *o, double *gaps, double *slope_squares)
+static double gaps_by_slope(const struct overlap *o, double *gaps, double *slope_squares)
 {
     double cross = 0.0;
     *gaps = *slope_squares = 0.0;
@@ -111,7 +111,7 @@ static double lacks(const struct overlap *o, double *gaps, double *slope_squares
 }
 
 /* By how much gaps beside each other go together, as they do where the curves differ in form. */
-static double together(const struct overlap *o)
+static double gap_correlation(const struct overlap *o)
 {
     double product = 0.0, square = 0.0;
     for (size_t i = 0; i < o->n; i++) {
@@ -130,7 +130,8 @@ static bool find_step(struct overlap *o, double start, double *a, double *error,
     *a = start;
     for (int i = 0; i < MOST_STEPS; i++) {
         find_gaps(o, *a);
-        const double move = o->n >= LEAST_GAPS ? lacks(o, &gaps, &slope_squares) : (double)NAN;
+        const double move =
+            o->n >= LEAST_GAPS ? gaps_by_slope(o, &gaps, &slope_squares) : (double)NAN;
         if (!isfinite(move))
             return false;
         *a += fmax(-largest_sigma, fmin(largest_sigma, move));
@@ -138,10 +139,10 @@ static bool find_step(struct overlap *o, double start, double *a, double *error,
             break;
     }
     find_gaps(o, *a);
-    if (o->n < LEAST_GAPS || !isfinite(lacks(o, &gaps, &slope_squares)))
+    if (o->n < LEAST_GAPS || !isfinite(gaps_by_slope(o, &gaps, &slope_squares)))
         return false;
     /* so many stand for themselves; both directions have the same points */
-    const double rho = together(o), all = sqrt(gaps / slope_squares);
+    const double rho = gap_correlation(o), all = sqrt(gaps / slope_squares);
     const double independent = fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
     *error = hypot(all / sqrt(independent), 0.5 * (*a - start));
     /* what is no chance of noise */
@@ -201,7 +202,7 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, ov
     }
     for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
         c.first[i] = k;
-        slopes(&set->curves[i], c.slope + k);
+        storage_slopes(&set->curves[i], c.slope + k);
     }
     for (size_t i = anchor + 1; i < n; i++)
         for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !link[i].placed; k++)

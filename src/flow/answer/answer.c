@@ -226,6 +226,16 @@ static void say_group(const answer_story *story, const char *name, const char *w
     if (!isnan(modulus.low))
         snprintf(interval, sizeof interval, "%s by %s", words_of_interval(&modulus).text,
                  modulus.includes);
+    if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
+        const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
+        if (rejected == 1)
+            answer_say(story, how_different, "difference", "%s: the only curve has no modulus.",
+                       words);
+        else
+            answer_say(story, how_different, "difference",
+                       "%s: none of the %.0f curves has a modulus.", words, rejected);
+        return;
+    }
     answer_say(story, how_different, "difference",
                "%s: E = %s%s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.",
                words, words_of_number(&modulus).text, words_of_frequency(&modulus).text, interval,

@@ -64,6 +64,13 @@ static void indentation_caveats(answer_story *story)
         rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
         spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
+    for (int g = 0; g < 2; g++) {
+        char text[512];
+        telling t = {text, sizeof text, 0};
+        if (story->indentation[g].table != NULL &&
+            tell_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
+            answer_caveat(story, CAVEAT_VERDICT, "%s.", text);
+    }
     const bool both = spots[0] != NULL && spots[1] == spots[0];
     for (int g = 0; g < (both ? 1 : 2); g++)
         if (spots[g] != NULL)
@@ -119,8 +126,11 @@ static void calibration_caveats(answer_story *story)
         "by about as much as itself. %s",
         gains, lever);
     tell(&t, "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    /* of a group without a modulus there is no gain, and no ratio in which an error could cancel */
     const char *cantilevers =
-        comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
+        isnan(gain[0]) || isnan(gain[1])
+            ? NULL
+            : comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
     const char *includes = comparison_words(&story->found.comparison, COMPARISON_KEY_INCLUDES);
     if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
         tell(&t,

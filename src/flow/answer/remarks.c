@@ -6,6 +6,7 @@
 #include "weartrack/flow.h"
 
 #include <math.h>
+#include <string.h>
 
 static void of_material(double share, const char *statement, wt_parselog *log)
 {
@@ -55,6 +56,19 @@ static void of_comparison(const table_view *v, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
 }
 
+/* Of each group: its table has the name behind a stroke. */
+static void of_curves(const wt_table *table, wt_parselog *log)
+{
+    const size_t prefix = strlen(indentation_schema.name);
+    char text[512];
+    telling t = {text, sizeof text, 0};
+    table_view view;
+    if (strncmp(wt_table_name(table), indentation_schema.name, prefix) == 0 &&
+        table_bind(table, &indentation_schema, "", &view, NULL) == WT_OK &&
+        tell_other_spectrum(&t, &view, wt_table_name(table) + prefix))
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "indentation: %s", text);
+}
+
 static void of_layer(const table_view *v, wt_parselog *log)
 {
     static const layer_key statements[] = {LAYER_KEY_MATERIAL_STATEMENT,
@@ -69,6 +83,8 @@ static void of_layer(const table_view *v, wt_parselog *log)
 void wt_result_remarks(const wt_result *result, wt_parselog *log)
 {
     table_view view;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        of_curves(wt_result_table(result, i), log);
     if (table_bind_of(result, &friction_schema, "", &view, NULL) == WT_OK)
         of_friction(&view, log);
     else if (table_bind_of(result, &what_if_schema, "", &view, NULL) == WT_OK)

@@ -136,6 +136,12 @@ static void say_transition(sentence *s, const table_view *v)
         say(s, "%s", isnan(factor.value) ? "" : ",");
         say_peak(s, loss, "the loss modulus");
     }
+    const wt_estimate energy =
+        glass_transition_value(v, isnan(factor.value) ? GLASS_TRANSITION_KEY_LOSS_ENERGY
+                                                      : GLASS_TRANSITION_KEY_FACTOR_ENERGY);
+    if (!isnan(energy.value))
+        say(s, "; activation energy %.3g ± %.2g kJ/mol", energy.value / 1000,
+            energy.standard_error / 1000);
 }
 
 static void say_payne(sentence *s, const table_view *v)

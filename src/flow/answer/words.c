@@ -295,6 +295,31 @@ size_t n_extrapolated(const table_view *dma)
     return n;
 }
 
+bool tell_other_spectrum(telling *t, const table_view *indentation, const char *group)
+{
+    size_t tried = 0, others = 0;
+    if (isnan(indentation_value(indentation, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value))
+        return false;
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        /* without times there is no memory to be tried */
+        if (isnan(indentation_get(indentation, i, INDENTATION_MODULUS)) ||
+            isnan(indentation_get(indentation, i, INDENTATION_LOAD_TIME)))
+            continue;
+        tried++;
+        others += isnan(indentation_get(indentation, i, INDENTATION_SPECTRUM_FACTOR)) ? 1 : 0;
+    }
+    if (others == 0)
+        return false;
+    tell(t,
+         "%zu of %zu curves of the %s are not of the spectrum of the DMA: their moduli are fitted "
+         "without it, and the ratio of track and bulk is one of moduli at the rates that both "
+         "have, not of factors on the spectrum; another temperature than that stated or another "
+         "rubber would do it, or a layer of another spectrum, to which no one ratio holds at all "
+         "frequencies",
+         others, tried, group);
+    return true;
+}
+
 size_t words_of_rejected(const table_view *indentation, char *text, size_t size)
 {
     size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;

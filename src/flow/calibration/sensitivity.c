@@ -412,7 +412,7 @@ static double ways_error(size_t row, double retract_over_approach)
     return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
 }
 
-static void widen(wt_interval *i, double relative)
+static void widen_interval(wt_interval *i, double relative)
 {
     const double low = hypot(i->value - i->low, NORMAL_95 * relative * i->value),
                  high = hypot(i->high - i->value, NORMAL_95 * relative * i->value);
@@ -432,8 +432,8 @@ static void add_ways_error(group groups[ROWS])
         g->ways_error = ways_error(row, difference);
         if (isnan(g->ways_error))
             continue;
-        widen(&g->sensitivity, g->ways_error);
-        widen(&g->factor, g->ways_error);
+        widen_interval(&g->sensitivity, g->ways_error);
+        widen_interval(&g->factor, g->ways_error);
     }
 }
 

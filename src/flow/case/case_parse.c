@@ -73,23 +73,21 @@ static wt_status schema_error(const complaint *c, wt_error *err)
 
 static wt_status validate_case(xmlDoc *doc, wt_error *err)
 {
-    wt_status status = WT_OK;
     complaint c = {0};
     const char *text = wt_case_schema();
     xmlSchemaParserCtxt *parser = xmlSchemaNewMemParserCtxt(text, (int)strlen(text));
     xmlSchema *schema = parser == NULL ? NULL : xmlSchemaParse(parser);
     xmlSchemaValidCtxt *valid = schema == NULL ? NULL : xmlSchemaNewValidCtxt(schema);
-    if (valid == NULL) {
+    if (valid != NULL)
+        xmlSchemaSetValidStructuredErrors(valid, keep_first_message, &c);
+    const int result = valid == NULL ? 0 : xmlSchemaValidateDoc(valid, doc);
+    wt_status status = WT_OK;
+    if (valid == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the schema of case files");
-        goto done;
-    }
-    xmlSchemaSetValidStructuredErrors(valid, keep_first_message, &c);
-    int result = xmlSchemaValidateDoc(valid, doc);
-    if (result > 0 || c.any)
+    else if (result > 0 || c.any)
         status = schema_error(&c, err);
     else if (result < 0)
         status = wt_fail(err, WT_E_INTERNAL, "the case file could not be checked");
-done:
     xmlSchemaFreeValidCtxt(valid);
     xmlSchemaFree(schema);
     xmlSchemaFreeParserCtxt(parser);
@@ -154,10 +152,8 @@ static wt_status parse_case(wt_case *c, wt_error *err)
     wt_status status = read_document(c, &doc, err);
     if (status == WT_OK)
         status = validate_case(doc, err);
-    if (status != WT_OK)
-        goto done;
-    const xmlNode *root = xmlDocGetRootElement(doc);
-    const xmlNode *title = case_child(root, "title");
+    const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
+    const xmlNode *title = status == WT_OK ? case_child(root, "title") : NULL;
     if (title != NULL)
         status = case_node_text(c, title, &c->title, err);
     for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
@@ -165,7 +161,6 @@ static wt_status parse_case(wt_case *c, wt_error *err)
         if (section != NULL)
             status = sections[i].read(c, section, err);
     }
-done:
     xmlFreeDoc(doc);
     return status;
 }
@@ -173,35 +168,32 @@ done:
 wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
                           wt_error *err)
 {
-    wt_status status = WT_OK;
-    wt_case *c = NULL;
-    char *folder = NULL;
     if (length == 0 || length > MAX_CASE_BYTES) {
-        status = wt_fail(err, WT_E_SCHEMA, "this is no case file");
+        wt_fail(err, WT_E_SCHEMA, "this is no case file");
+        wt_error_file(err, path);
         wt_error_expected(err, "XML of 1 byte to 4 MiB");
         wt_error_found(err, "%zu bytes", length);
-        goto done;
+        return WT_E_SCHEMA;
     }
-    c = case_new();
-    folder = wt_path_folder(path);
+    wt_case *c = case_new();
+    char *folder = wt_path_folder(path);
     if (c != NULL && folder != NULL) {
         c->xml_length = length;
         c->path = pool_text(&c->memory, path, strlen(path));
         c->folder = pool_text(&c->memory, folder, strlen(folder));
         c->xml = pool_text(&c->memory, bytes, length);
     }
-    status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
-                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                 : parse_case(c, err);
-done:
+    const wt_status status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
+                                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                 : parse_case(c, err);
     free(folder);
-    if (status != WT_OK) {
+    if (status == WT_OK) {
+        *out = c;
+    } else {
         wt_error_file(err, path);
         wt_case_free(c);
-        return status;
     }
-    *out = c;
-    return WT_OK;
+    return status;
 }
 
 wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)

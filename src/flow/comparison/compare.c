@@ -292,6 +292,7 @@ static wt_status check_copies(const compare_pair *p, wt_error *err)
 static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
 {
     bool all = p->present[0] && p->present[1] && isnan(job->temperature_slope.value);
+    all = all && p->data[0].group.n > 0 && p->data[1].group.n > 0;
     for (int g = 0; all && g < 2; g++)
         for (size_t i = 0; i < p->data[g].group.n; i++)
             all = all && p->data[g].spectrum_factor[i] > 0;

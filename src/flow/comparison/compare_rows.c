@@ -14,7 +14,8 @@ typedef struct comparison_task {
     const wt_job *work;
     compare_known known;
     compare_unsaid unsaid;
-    compare_row *rows; /* [1 + n_bins] */
+    compare_row *rows; /* [1 + n_rates] */
+    size_t n_rates;
 } comparison_task;
 
 /* A rate with one unit or without scatter leaves its row without numbers. */
@@ -64,14 +65,29 @@ static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
     return WT_OK;
 }
 
-static wt_status nothing_to_compare(const compare_pair *p, wt_error *err)
+/* Without a curve in a group: a row that says how many the other has. */
+static wt_status count_units(const comparison_task *task, compare_row *r, wt_error *err)
 {
-    wt_fail(err, WT_E_EMPTY, "too few accepted curves to compare");
-    wt_error_expected(err, "some in each group");
-    wt_error_found(err, "bulk %zu, track %zu", p->data[0].group.n, p->data[1].group.n);
-    wt_error_advice(err, "the column reason of the indentation tables says why curves were "
-                         "rejected");
-    return WT_E_EMPTY;
+    const double none = (double)NAN;
+    wt_group_summary of[2] = {{0}};
+    wt_status status = WT_OK;
+    *r = (compare_row){.low = none, .high = none, .holm = none};
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        const wt_group *group = &task->p->data[g].group;
+        r->n[g] = group->n;
+        if (group->n > 0)
+            status = wt_group_summarise(group, &of[g], err);
+    }
+    const wt_estimate unknown = {none, none, 0, "1"};
+    r->c = (wt_comparison){.by_spot = task->p->data[0].group.spot != NULL &&
+                                      task->p->data[1].group.spot != NULL,
+                           .n_bulk = of[0].n_spots,
+                           .n_track = of[1].n_spots,
+                           .unsettled = WT_ONE_SPOT,
+                           .log_ratio = unknown,
+                           .rate_slope = unknown,
+                           .interaction_p = none};
+    return status;
 }
 
 /* Where the curves do not say what their rates do, the DMA may. */
@@ -246,11 +262,12 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
 {
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
+    const size_t n_rates = task->n_rates;
     const compare_verdict v = compare_judge(p, task->job, &task->known, &task->unsaid,
-                                            &task->rows[0], task->rows + 1, p->n_bins);
+                                            &task->rows[0], task->rows + 1, n_rates);
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
-    add_rows(&t, task->rows, p->n_bins + 1, v.silent, interval);
+    add_rows(&t, task->rows, n_rates + 1, v.silent, interval);
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
                             .settled_by = v.settled_by,
@@ -276,21 +293,25 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
                              wt_table **table, wt_error *err)
 {
     comparison_task task = {.p = p, .job = job, .work = work};
-    if (p->data[0].group.n == 0 || p->data[1].group.n == 0)
-        return nothing_to_compare(p, err);
-    task.rows = calloc(p->n_bins + 1, sizeof *task.rows);
+    const bool both = p->data[0].group.n > 0 && p->data[1].group.n > 0;
+    task.n_rates = both ? p->n_bins : 0;
+    task.rows = calloc(task.n_rates + 1, sizeof *task.rows);
     if (task.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = compare_rows(&task, err);
-    if (status == WT_OK)
+    wt_status status = both ? compare_rows(&task, err) : count_units(&task, task.rows, err);
+    if (status == WT_OK && !both)
+        status = compare_find_known(p, job, work, false, &task.known, err);
+    if (status == WT_OK && both)
         status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
-    if (status == WT_OK) {
+    if (status == WT_OK)
         warn_copies(&task);
+    if (status == WT_OK && both) {
         warn_two_spots(&task);
         warn_one_spot(&task);
         warn_rates(&task);
-        status = write_table(&task, table, err);
     }
+    if (status == WT_OK)
+        status = write_table(&task, table, err);
     free(task.rows);
     return status;
 }

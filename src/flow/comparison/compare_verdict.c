@@ -93,6 +93,66 @@ static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict
         twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
 }
 
+/* What would have a modulus, where curves were rejected for this. */
+static const char *better_curves(wt_curve_verdict rejected_for)
+{
+    switch (rejected_for) {
+    case WT_CURVE_POOR_FIT:
+    case WT_CURVE_ADHESIVE:
+    case WT_CURVE_AMBIGUOUS:
+        return "what the contact law lacks: radius and half-angle of the tip as it is now (curves "
+               "on the bulk again after the track tell whether it wore), curves without a pull, a "
+               "DMA of the rubber for its loss, a larger depth if it is rough";
+    case WT_CURVE_NO_BASELINE:
+    case WT_CURVE_DRIFT:
+        return "curves that begin farther from the sample, with a straight baseline";
+    case WT_CURVE_NO_CONTACT:
+    case WT_CURVE_IMPRECISE:
+        return "curves that are pressed further, or with less noise";
+    case WT_CURVE_SATURATED:
+        return "curves that are pressed less far, or a stiffer lever";
+    case WT_CURVE_NEGATIVE:
+    case WT_CURVE_RIGID:
+        return "the sign of the deflection and the deflection sensitivity, or a stiffer lever";
+    default:
+        return "curves whose approach is there as a whole";
+    }
+}
+
+/* A group has no curve with a modulus: the other one is told by itself. */
+static bool judge_empty(const compare_pair *p, compare_verdict *v)
+{
+    const bool empty[2] = {p->data[0].group.n == 0, p->data[1].group.n == 0};
+    if (!empty[0] && !empty[1])
+        return false;
+    v->silent = true;
+    SAY(v->differs, "cannot say: ");
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &p->data[g];
+        const size_t used = strlen(v->differs), told = strlen(v->settled_by);
+        if (!empty[g])
+            continue;
+        const char *also = g > 0 && empty[0] ? "; " : "";
+        if (d->group.n_rejected == 1)
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%sthe only curve of the %s has no modulus", also, compare_group_name[g]);
+        else
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%snone of the %zu curves of the %s has a modulus", also,
+                          d->group.n_rejected, compare_group_name[g]);
+        const char *better = better_curves(d->rejected_for);
+        if (d->n_rejected_for > 0) {
+            const size_t end = strlen(v->differs);
+            clocale_print(v->differs + end, sizeof v->differs - end, " (%zu: %s)",
+                          d->n_rejected_for, wt_curve_verdict_text(d->rejected_for));
+        }
+        if (strstr(v->settled_by, better) == NULL)
+            clocale_print(v->settled_by + told, sizeof v->settled_by - told, "%s%s",
+                          told > 0 ? "; " : "", better);
+    }
+    return true;
+}
+
 /* What keeps the ratio itself from being known. */
 static bool judge_conditions(const compare_pair *p, const compare_known *k, const compare_row *row,
                              compare_verdict *v)
@@ -204,7 +264,8 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
     compare_verdict v = {0};
-    if (judge_conditions(p, known, row, &v) || judge_error(p, job, known, row, &v))
+    if (judge_empty(p, &v) || judge_conditions(p, known, row, &v) ||
+        judge_error(p, job, known, row, &v))
         return v;
     if (c->interaction_p < level) {
         judge_twist(rates, n_rates, c->interaction_p, &v);

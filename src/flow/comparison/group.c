@@ -136,6 +136,21 @@ static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of
     return WT_OK;
 }
 
+static void count_rejected(const table_view *t, wt_group_data *d)
+{
+    size_t counts[WT_CURVE_UNREADABLE + 1] = {0};
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const char *verdict = indentation_text(t, row, INDENTATION_VERDICT);
+        for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
+            counts[v] += strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0 ? 1 : 0;
+    }
+    for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
+        if (!wt_curve_usable((wt_curve_verdict)v) && counts[v] > d->n_rejected_for) {
+            d->rejected_for = (wt_curve_verdict)v;
+            d->n_rejected_for = counts[v];
+        }
+}
+
 /* How its spots were found: the words of the table; one without is not of this program. */
 static void note_spots(const table_view *t, wt_group_data *d)
 {
@@ -248,8 +263,10 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else
         status = find_rows(&t, &d, row_of, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
         note_spots(&t, &d);
+        count_rejected(&t, &d);
+    }
     double gain = 0;
     for (size_t i = 0; status == WT_OK && i < d.group.n; i++) {
         d.modulus[i] = indentation_get(&t, row_of[i], INDENTATION_MODULUS);

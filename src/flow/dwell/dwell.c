@@ -9,7 +9,7 @@
 #include "flow/work/inputs.h"
 
 #include "data/force_curve.h"
-#include "data/tables/tables.h"
+#include "data/tables/rows.h"
 #include "model/tip.h"
 
 #include <math.h>
@@ -47,6 +47,9 @@ static double point_modulus(const dwell_task *task, const wt_dwell_point *p, dou
     return tells ? modulus : (double)NAN;
 }
 
+TABLE_ROW(dwell_points, DWELL_POINTS, double time, force, indentation, modulus, fitted_modulus;
+          const char *file; size_t curve;)
+
 static void put_points(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                        const wt_dwell *dwell)
 {
@@ -54,34 +57,14 @@ static void put_points(dwell_task *task, const flow_file *file, const wt_force_c
     table_block(t);
     for (size_t i = 0; i < dwell->n_points; i++) {
         const wt_dwell_point *p = &dwell->point[i];
-        table_row(t);
-        dwell_points_put(t, DWELL_POINTS_TIME, p->time);
-        dwell_points_put(t, DWELL_POINTS_FORCE, p->force);
-        dwell_points_put(t, DWELL_POINTS_INDENTATION, p->indentation);
-        dwell_points_put(t, DWELL_POINTS_MODULUS, point_modulus(task, p, p->modulus));
-        dwell_points_put(t, DWELL_POINTS_FITTED, point_modulus(task, p, p->fitted));
-        dwell_points_put_text(t, DWELL_POINTS_FILE, file->name);
-        dwell_points_put(t, DWELL_POINTS_CURVE, (double)curve->index);
+        TABLE_ADD(dwell_points, t, p->time, p->force, p->indentation,
+                  point_modulus(task, p, p->modulus), point_modulus(task, p, p->fitted), file->name,
+                  curve->index);
     }
 }
 
-static void put_moduli(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                       const wt_segment *s, const char *kind, const wt_dwell_moduli *m)
-{
-    table_writer *t = &task->moduli;
-    table_row(t);
-    dwell_moduli_put_text(t, DWELL_MODULI_FILE, file->name);
-    dwell_moduli_put(t, DWELL_MODULI_CURVE, (double)curve->index);
-    dwell_moduli_put(t, DWELL_MODULI_SEGMENT, (double)s->index);
-    dwell_moduli_put_text(t, DWELL_MODULI_KIND, kind);
-    dwell_moduli_put(t, DWELL_MODULI_ANGULAR_FREQUENCY, m->angular_frequency);
-    dwell_moduli_put(t, DWELL_MODULI_STORAGE, m->storage.value);
-    dwell_moduli_put(t, DWELL_MODULI_STORAGE_STANDARD_ERROR, m->storage.standard_error);
-    dwell_moduli_put(t, DWELL_MODULI_STORAGE_COMMON, m->storage_common_error);
-    dwell_moduli_put(t, DWELL_MODULI_LOSS, m->loss.value);
-    dwell_moduli_put(t, DWELL_MODULI_LOSS_STANDARD_ERROR, m->loss.standard_error);
-    dwell_moduli_put(t, DWELL_MODULI_LOSS_COMMON, m->loss_common_error);
-}
+TABLE_ROW(dwell_moduli, DWELL_MODULI, const char *file; size_t curve, segment; const char *kind;
+          wt_dwell_moduli moduli;)
 
 /* Into the row of the dwell. */
 static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
@@ -156,7 +139,8 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
         put_row_moduli(t, &d->moduli[d->n / 2]);
     for (size_t i = 0; i < d->n; i++)
         if (dwell_is_modulus(&d->moduli[i]))
-            put_moduli(task, file, curve, s, kind, &d->moduli[i]);
+            TABLE_ADD(dwell_moduli, &task->moduli, file->name, curve->index, s->index, kind,
+                      d->moduli[i]);
 }
 
 static void put_modulated(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
@@ -170,7 +154,8 @@ static void put_modulated(dwell_task *task, const flow_file *file, const wt_forc
     dwell_put(t, DWELL_INDENTATION_START, m->indentation);
     dwell_put(t, DWELL_AMPLITUDE, m->amplitude);
     put_row_moduli(t, &m->moduli);
-    put_moduli(task, file, curve, m->segment, "modulation", &m->moduli);
+    TABLE_ADD(dwell_moduli, &task->moduli, file->name, curve->index, m->segment->index,
+              "modulation", m->moduli);
 }
 
 /* What is held behind the approach, up to the retract or another motion. */

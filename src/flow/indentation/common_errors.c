@@ -27,7 +27,7 @@ const char *common_source_words(wt_common_source source)
     return words[source];
 }
 
-static double relative(double value, double error)
+static double relative_error(double value, double error)
 {
     return error > 0 ? error / value : (double)NAN;
 }
@@ -76,11 +76,11 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_er
     const wt_estimate k = job->spring_constant, s = job->sensitivity;
     *to = (common_errors){
         .error = {[WT_COMMON_SPRING_CONSTANT] =
-                      first_known(relative(k.value, k.standard_error), job->lever_error),
-                  [WT_COMMON_SENSITIVITY] =
-                      first_known(relative(s.value, s.standard_error), job->sensitivity_error),
-                  [WT_COMMON_HALF_ANGLE] = relative(tip->half_angle, tip->half_angle_error),
-                  [WT_COMMON_RADIUS] = relative(tip->radius, tip->radius_error)},
+                      first_known(relative_error(k.value, k.standard_error), job->lever_error),
+                  [WT_COMMON_SENSITIVITY] = first_known(relative_error(s.value, s.standard_error),
+                                                        job->sensitivity_error),
+                  [WT_COMMON_HALF_ANGLE] = relative_error(tip->half_angle, tip->half_angle_error),
+                  [WT_COMMON_RADIUS] = relative_error(tip->radius, tip->radius_error)},
         .stride = 1};
     for (int i = 0; i < WT_COMMON_SOURCES; i++) {
         to->stated = to->stated || to->error[i] > 0;
@@ -105,7 +105,7 @@ void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
             workspace->tip_moved[n++] = of->tip[i][1];
 }
 
-static void forget(common_curve *curve)
+static void clear_curve(common_curve *curve)
 {
     for (int i = 0; i < 2; i++)
         free(curve->branch[i].height);
@@ -118,14 +118,14 @@ void common_errors_clear(common_errors *errors)
         for (int way = 0; way < 2; way++)
             wt_contact_table_free(errors->tip[i][way]);
     for (size_t i = 0; i < errors->n; i++)
-        forget(&errors->curve[i]);
+        clear_curve(&errors->curve[i]);
     *errors = (common_errors){0};
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static wt_status copy(const wt_force_curve *curve, wt_segment_kind kind, common_branch *to,
-                      wt_error *err)
+static wt_status copy_branch(const wt_force_curve *curve, wt_segment_kind kind, common_branch *to,
+                             wt_error *err)
 {
     const wt_segment *segment = wt_force_curve_segment(curve, kind);
     if (segment == NULL || segment->n_points == 0)
@@ -157,7 +157,7 @@ static void thin_out(common_errors *to)
         if (i % 2 == 0)
             to->curve[kept++] = to->curve[i];
         else
-            forget(&to->curve[i]);
+            clear_curve(&to->curve[i]);
     to->n = kept;
     to->stride *= 2;
 }
@@ -173,8 +173,8 @@ wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve, wt_
     }
     common_curve *kept = &to->curve[to->n++];
     *kept = (common_curve){.spring_constant = curve->cantilever.spring_constant};
-    const wt_status status = copy(curve, WT_SEGMENT_APPROACH, &kept->branch[0], err);
-    return status == WT_OK ? copy(curve, WT_SEGMENT_RETRACT, &kept->branch[1], err) : status;
+    const wt_status status = copy_branch(curve, WT_SEGMENT_APPROACH, &kept->branch[0], err);
+    return status == WT_OK ? copy_branch(curve, WT_SEGMENT_RETRACT, &kept->branch[1], err) : status;
 }
 
 /* ---- fits ------------------------------------------------------------------------------------ */
@@ -189,7 +189,7 @@ typedef struct refit {
     wt_error *errors; /* of each item */
 } refit;
 
-static curve_branch scale(const common_branch *b, double factor, double *scaled)
+static curve_branch scale_branch(const common_branch *b, double factor, double *scaled)
 {
     for (size_t i = 0; i < b->n; i++)
         scaled[i] = factor * b->force[i];
@@ -198,7 +198,7 @@ static curve_branch scale(const common_branch *b, double factor, double *scaled)
 
 /* d ln E of a step of one source each way. The modulus of a fit that no longer passes its tests is
  * told all the same. */
-static wt_status move(void *user, size_t item, unsigned worker)
+static wt_status move_source(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;
     common_errors *to = f->to;
@@ -213,8 +213,8 @@ static wt_status move(void *user, size_t item, unsigned worker)
         const bool lever = source == WT_COMMON_SPRING_CONSTANT,
                    signal = lever || source == WT_COMMON_SENSITIVITY;
         const curve_branch scaled[2] = {
-            scale(&curve->branch[0], signal ? factor : 1, scratch),
-            scale(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
+            scale_branch(&curve->branch[0], signal ? factor : 1, scratch),
+            scale_branch(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
         wt_indent_fit fit;
         const wt_status status =
             curve_fit_branches(signal ? f->contact : to->tip[source][way], f->options, &scaled[0],
@@ -246,7 +246,7 @@ wt_status common_errors_fit(common_errors *to, const wt_contact_table *contact,
     if (f.scratch == NULL || f.errors == NULL) {
         status = wt_fail(err, status, "out of memory");
     } else {
-        status = wt_parallel_for(n, threads, move, &f, NULL, "fitting curves anew");
+        status = wt_parallel_for(n, threads, move_source, &f, NULL, "fitting curves anew");
         size_t first = 0;
         while (first < n && f.errors[first].status == WT_OK)
             first++;

@@ -44,7 +44,7 @@ wt_curve_set *wt_curve_set_new(void)
     return calloc(1, sizeof(wt_curve_set));
 }
 
-static void forget(wt_curve_set *set)
+static void clear_curves(wt_curve_set *set)
 {
     for (size_t i = 0; i < set->n; i++)
         free(set->curves[i].block);
@@ -57,7 +57,7 @@ void wt_curve_set_free(wt_curve_set *set)
 {
     if (set == NULL)
         return;
-    forget(set);
+    clear_curves(set);
     free(set);
 }
 
@@ -101,7 +101,7 @@ double curve_set_variance(const wt_curve_set *set)
 
 void curve_set_begin(wt_curve_set *set, const wt_indent_job *job)
 {
-    forget(set);
+    clear_curves(set);
     *set = (wt_curve_set){
         .tip = job->tip, .options = job->options, .temperature = job->temperature.value};
     set->options.spectrum = NULL;
@@ -130,7 +130,7 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
     return n;
 }
 
-static void turn(double *x, size_t n)
+static void turn_round(double *x, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         const double kept = x[i];
@@ -150,7 +150,7 @@ static void join_times(kept_curve *k)
         k->time[OUT][i] += shift;
 }
 
-static bool remembers(const wt_indent_fit *fit)
+static bool has_memory(const wt_indent_fit *fit)
 {
     return fit->spectrum_factor.value > 0 || fit->loss_power > 0;
 }
@@ -165,7 +165,7 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
     set->samples += n[IN] + n[OUT];
     set->useless = set->useless || set->samples > MOST_SAMPLES || fit->work_of_adhesion.value > 0;
     if (set->useless) {
-        forget(set);
+        clear_curves(set);
         return WT_OK;
     }
     kept_curve *curves = array_grow(set->curves, set->n, sizeof *curves);
@@ -186,10 +186,10 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
         next += 2 * n[w];
         k->n[w] = keep_way(way[w], fit->direction, k->position[w], k->time[w], &timed[w]);
     }
-    turn(k->position[OUT], k->n[OUT]);
+    turn_round(k->position[OUT], k->n[OUT]);
     if (timed[IN] && (timed[OUT] || k->n[OUT] == 0) && k->n[IN] > 1)
         join_times(k);
-    else if (remembers(fit))
+    else if (has_memory(fit))
         set->useless = true;
     else
         k->time[IN] = k->time[OUT] = NULL;
@@ -321,7 +321,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
     const size_t n = in_contact(k, s, first);
     wt_status status = begin_law(set, k, level, made, n, s, err);
     if (status == WT_OK)
-        status = hereditary_loop(&s->law, &set->tip, 1 / k->spring_constant, s->time, s->base, n,
+        status = hereditary_loop(&s->law, contact, 1 / k->spring_constant, s->time, s->base, n,
                                  s->push, err);
     if (status != WT_OK)
         return status;

@@ -57,8 +57,8 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
 }
 
 /* Turns elastic forces over modulus into those of rubber with memory. */
-static wt_status remember(const wt_prony *spectrum, const double *time, size_t n, double *force,
-                          wt_error *err)
+static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
+                              wt_error *err)
 {
     hereditary law = {0};
     double before = 0, shortest = (double)INFINITY;
@@ -105,7 +105,7 @@ static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options
             modulus /=
                 (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
         }
-        status = remember(known ? options->spectrum : &power.series, time, m, model, err);
+        status = apply_memory(known ? options->spectrum : &power.series, time, m, model, err);
     }
     for (size_t i = 0; i < n; i++)
         model[i] *= modulus / reduced;
@@ -132,31 +132,29 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     double *delta = scratch + longest, *shown = scratch + 2 * longest,
            *model = scratch + 3 * longest, *time = scratch + 4 * longest;
     const double *force = segment_force(approach, &curve->cantilever, scratch);
-
-    wt_status status = WT_OK;
-    if (force == NULL)
-        goto done;
+    if (force == NULL) {
+        free(scratch);
+        return WT_OK;
+    }
     table_writer whole =
         next_block(&tables->force_displacement, &force_displacement_schema, group, err);
     set_keys(&whole, file, curve, fit);
     add_segment(&whole, approach, fit, force);
 
     size_t n = wt_indent_curve(fit, height, force, approach->n_points, k, delta, shown);
-    status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
-    if (status != WT_OK)
-        goto done;
-    table_writer branch =
-        next_block(&tables->force_indentation, &force_indentation_schema, group, err);
-    for (size_t i = 0; i < n; i++)
-        TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
-    if (retract != NULL)
-        force = segment_force(retract, &curve->cantilever, scratch);
-    if (retract != NULL && force != NULL)
-        add_segment(&whole, retract, fit, force);
-    status = table_end(&whole, NULL);
-    if (status == WT_OK)
-        status = table_end(&branch, NULL);
-done:
+    wt_status status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
+    if (status == WT_OK) {
+        table_writer branch =
+            next_block(&tables->force_indentation, &force_indentation_schema, group, err);
+        for (size_t i = 0; i < n; i++)
+            TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
+        force = retract == NULL ? NULL : segment_force(retract, &curve->cantilever, scratch);
+        if (force != NULL)
+            add_segment(&whole, retract, fit, force);
+        status = table_end(&whole, NULL);
+        if (status == WT_OK)
+            status = table_end(&branch, NULL);
+    }
     free(scratch);
     return status;
 }

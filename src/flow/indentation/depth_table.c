@@ -25,7 +25,7 @@ static depth_words si_words(double value, const char *unit)
 }
 
 /* What would settle it; other: a residual that is no change with depth. */
-static const char *advice(const wt_curve_depth *d, bool other)
+static const char *depth_advice(const wt_curve_depth *d, bool other)
 {
     if (d->loss_share > 0.5 || (other && d->loss_share > 0))
         return "the DMA of the rubber would tell";
@@ -59,7 +59,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
             text, 320,
             "cannot say: the curves have a residual in common that no modulus that changes "
             "with depth leaves (chance %s); %s",
-            number_chance(d->misfit_chance).text, advice(d, true));
+            number_chance(d->misfit_chance).text, depth_advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes, by how much and which way the "
@@ -77,7 +77,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
         clocale_print(text, 320,
                       "cannot say: between %s and %s the modulus may be the same or change by more "
                       "than %g %% (factor %s); %s",
-                      shallow.text, deep.text, margin, range, advice(d, false));
+                      shallow.text, deep.text, margin, range, depth_advice(d, false));
 }
 
 /* What a change would mean if a layer made it, and what else may. */

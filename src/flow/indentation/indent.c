@@ -136,7 +136,7 @@ static bool has_room(const indent_task *task)
 }
 
 /* Reads the next curve; NULL if there is none. */
-static item *take(indent_task *task)
+static item *take_curve(indent_task *task)
 {
     while (task->status == WT_OK && task->source != NULL && !has_room(task))
         (void)pthread_cond_wait(&task->written, &task->lock);
@@ -249,7 +249,7 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
     item *it;
     (void)i;
     (void)pthread_mutex_lock(&task->lock);
-    while ((it = take(task)) != NULL) {
+    while ((it = take_curve(task)) != NULL) {
         (void)pthread_mutex_unlock(&task->lock);
         if (it->status == WT_OK)
             it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
@@ -432,7 +432,7 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
     return WT_OK;
 }
 
-static wt_status prepare(indent_task *task, wt_error *err)
+static wt_status prepare_task(indent_task *task, wt_error *err)
 {
     wt_status status = indent_job_check(task->job, err);
     if (status == WT_OK)
@@ -469,7 +469,7 @@ static wt_status prepare(indent_task *task, wt_error *err)
     return WT_OK;
 }
 
-static void release(indent_task *task)
+static void release_task(indent_task *task)
 {
     for (unsigned i = 0; task->scratch != NULL && i < task->n_workers; i++)
         wt_indent_workspace_free(task->scratch[i]);
@@ -516,40 +516,37 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                         .k_low = (double)NAN,
                         .k_high = (double)NAN};
     flow_files files = {NULL, 0, NULL};
-    wt_status status = prepare(&task, err);
+    wt_status status = prepare_task(&task, err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
         status = read_files(&task, &files, err);
-    if (status != WT_OK)
-        goto done;
-    if (task.n_curves == 0) {
+    if (status == WT_OK && task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
         flow_tell_files(&files, task.n_failed, err);
-        goto done;
     }
     task.rows.err = err; /* that of the last row was the error of its file */
-    status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
-                               task.scratch, err);
-    if (status != WT_OK)
-        goto done;
-    set_keys(&task, &files);
-    status = indent_say_together(&task.together, job, work, &task.rows, err);
+    if (status == WT_OK)
+        status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
+                                   task.scratch, err);
+    if (status == WT_OK) {
+        set_keys(&task, &files);
+        status = indent_say_together(&task.together, job, work, &task.rows, err);
+    }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
-    if (status != WT_OK)
-        goto done;
-    status = table_end(&task.rows, &tables->indentation);
-    task.rows.table = NULL;
-    tables->n_files = files.n;
-    tables->n_curves = task.n_curves;
-    tables->n_accepted = task.n_accepted;
-    tables->n_failed = task.n_failed;
-    say_cost(&task);
-done:
-    release(&task);
+    if (status == WT_OK) {
+        status = table_end(&task.rows, &tables->indentation);
+        task.rows.table = NULL;
+        tables->n_files = files.n;
+        tables->n_curves = task.n_curves;
+        tables->n_accepted = task.n_accepted;
+        tables->n_failed = task.n_failed;
+        say_cost(&task);
+    }
+    release_task(&task);
     flow_files_clear(&files);
     return status;
 }

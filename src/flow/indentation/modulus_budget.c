@@ -111,8 +111,8 @@ static void put_rows(table_writer *t, const char *group, const budget *b)
 
 /* ---- in words -------------------------------------------------------------------------------- */
 
-static void add(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
-static void add(char *text, size_t size, const char *format, ...)
+static void append_words(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
+static void append_words(char *text, size_t size, const char *format, ...)
 {
     const size_t used = strlen(text);
     va_list list;
@@ -134,13 +134,13 @@ static void say_parts(const budget *b, char *text, size_t size)
         if (largest < 0)
             break;
         said[largest] = true;
-        add(text, size, "%s%.2g %% by the %s", before, 100 * share_of(b, b->part[largest].error),
-            b->part[largest].words);
+        append_words(text, size, "%s%.2g %% by the %s", before,
+                     100 * share_of(b, b->part[largest].error), b->part[largest].words);
         before = ", ";
     }
 }
 
-static void say(const char *group, const budget *b, char *text, size_t size)
+static void describe_budget(const char *group, const budget *b, char *text, size_t size)
 {
     char value[32], low[32], high[32];
     const double reach = students_t_quantile(b->all.df) * b->all.error;
@@ -149,26 +149,29 @@ static void say(const char *group, const budget *b, char *text, size_t size)
     wt_format_si(b->group.geometric_mean * exp(reach), "Pa", 4, high, sizeof high);
     text[0] = '\0';
     if (isnan(b->all.error)) {
-        add(text, size, "modulus of the %s %s; its standard error is not known, for %s", group,
-            value,
-            b->group.n_spots <= 1        ? "one spot tells nothing of how the sample scatters"
-            : isnan(b->part[LOSS].error) ? "nothing says what the loss of its curves does"
-                                         : "no curve could be fitted anew with what is stated");
+        append_words(text, size, "modulus of the %s %s; its standard error is not known, for %s",
+                     group, value,
+                     b->group.n_spots <= 1 ? "one spot tells nothing of how the sample scatters"
+                     : isnan(b->part[LOSS].error)
+                         ? "nothing says what the loss of its curves does"
+                         : "no curve could be fitted anew with what is stated");
         const char *before = "; what its curves share makes ";
         for (int i = 0; i < SCATTER; i++)
             if (b->part[i].applies && b->part[i].error > 0) {
-                add(text, size, "%s%.2g %% (%s)", before, 100 * b->part[i].error, b->part[i].words);
+                append_words(text, size, "%s%.2g %% (%s)", before, 100 * b->part[i].error,
+                             b->part[i].words);
                 before = ", ";
             }
     } else {
-        add(text, size, "modulus of the %s %s, 95 %% interval %s to %s, standard error %.2g %%",
-            group, value, low, high, 100 * b->all.error);
+        append_words(text, size,
+                     "modulus of the %s %s, 95 %% interval %s to %s, standard error %.2g %%", group,
+                     value, low, high, 100 * b->all.error);
         say_parts(b, text, size);
     }
     const char *before = "; no error is stated of: ";
     for (int i = 0; i < WT_COMMON_SOURCES; i++)
         if (b->part[i].applies && !(b->part[i].source_error > 0)) {
-            add(text, size, "%s%s", before, b->part[i].words);
+            append_words(text, size, "%s%s", before, b->part[i].words);
             before = ", ";
         }
 }
@@ -185,7 +188,7 @@ static void add_group(table_writer *t, const char *name, const wt_group_data *d)
     put_rows(t, name, &b);
     const double e = b.group.geometric_mean, reach = students_t_quantile(b.all.df) * b.all.error;
     const bool bounded = !isnan(b.all.error) && isfinite(b.all.df);
-    say(name, &b, text, sizeof text);
+    describe_budget(name, &b, text, sizeof text);
     TABLE_SET(modulus_budget, t, {e, e * b.all.error, 0, NULL}, bounded ? b.all.df : (double)NAN,
               e * exp(-reach), e * exp(reach), text);
 }

@@ -255,11 +255,12 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
 {
     const wt_layer_job *job = task->job;
     replicates *r = &task->replicates;
-    replicates_add(r, job->specific_wear_rate.standard_error, "specific wear rate");
+    replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
     const bool calibrated = isnan(job->critical_energy.value);
     const double given =
         (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
-    replicates_add(r, given, calibrated ? "observed thickness" : "critical energy");
+    replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
+                   calibrated ? "observed thickness" : "critical energy");
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
     if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;

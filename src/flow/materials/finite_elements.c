@@ -5,7 +5,9 @@
  * viscoelasticity): reduced time is the integral of dt/A, log10 A = -C1 (T - T0) / (C2 + T - T0),
  * so A is aT. Ansys (Material Reference, time-temperature superposition): reduced time is A t,
  * log10 A = C1 (T - T0) / (C2 + T - T0), so A is 1/aT; the constants are the same. Code_Aster has
- * no series of its own: a behaviour of MFront with its numbers in DEFI_MATERIAU.
+ * no series of its own: a behaviour of MFront with its numbers in DEFI_MATERIAU. For vibrations
+ * Abaqus has *VISCOELASTIC, FREQUENCY=PRONY (Keywords Reference): the same terms beside the
+ * elasticity in the end, MODULI=LONG TERM; it moves no frequency with temperature.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/master.h"
@@ -23,15 +25,16 @@
 
 static const struct system {
     const char *words;
-    double stress, time; /* Pa, s of the unit */
+    double stress, time, density; /* Pa, s, kg/m3 of the unit */
 } systems[] = {
-    [WT_SOLID_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1},
-    [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1},
-    [WT_SOLID_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3}};
+    [WT_SOLID_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1, 1},
+    [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1, 1e12},
+    [WT_SOLID_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3, 1e9}};
 
 wt_solid_options wt_solid_options_defaults(void)
 {
-    return (wt_solid_options){.poisson_ratio = 0.5};
+    return (wt_solid_options){
+        .poisson_ratio = 0.5, .density = (double)NAN, .expansion = (double)NAN};
 }
 
 static const wt_param rows[] = {
@@ -40,6 +43,19 @@ static const wt_param rows[] = {
      .help = "of the files of --export: Pa and s, MPa and s, or GPa and ms"},
     {PARAM_CHOICE_OF("export-temperature", wt_solid_options, temperature, "degC|K"),
      .flags = PARAM_NO_CASE, .help = "unit of the temperatures in the files of --export"},
+    {PARAM_CHOICE_OF("export-domain", wt_solid_options, domain, "time|frequency"),
+     .flags = PARAM_NO_CASE,
+     .help =
+         "Abaqus: *VISCOELASTIC, TIME=PRONY, or FREQUENCY=PRONY for vibrations at the reference "
+         "temperature; the other programs take one file for both"},
+    {PARAM_TEXT_OF("export-name", wt_solid_options, name), .flags = PARAM_NO_CASE, .value = "NAME",
+     .unset = "RUBBER", .help = "name of the material in the files of --export"},
+    {PARAM("export-density", wt_solid_options, density, WT_Q_MASS_DENSITY, ABOVE(0)),
+     .flags = PARAM_NO_CASE, .value = "RHO", .unset = "not written",
+     .help = "mass density, for the files of --export"},
+    {PARAM("export-expansion", wt_solid_options, expansion, WT_Q_THERMAL_EXPANSION, ABOVE(0)),
+     .flags = PARAM_NO_CASE, .value = "ALPHA", .unset = "not written",
+     .help = "coefficient of linear thermal expansion, for the files of --export"},
     POISSON_RATIO(wt_solid_options),
 };
 PARAM_TABLE(wt_solid_options_params, wt_solid_options, rows, wt_solid_options_defaults, NO_PARTS)
@@ -51,13 +67,16 @@ typedef struct solid {
     wt_rubber rubber;
     table_view series, shifts_of; /* the second without a table: not known */
     const struct system *system;
+    const wt_solid_options *options;
+    const char *name;
     bool incompressible;
     double nu, zero;           /* of the unit of temperature [K] */
     double reference;          /* temperature */
     double instant, long_term; /* Young's moduli */
     bool shifts;               /* c1 and c2 are there */
     double c1, c2;
-    size_t n_levels;        /* of temperature; 1: alike at all */
+    double fastest;  /* storage modulus at the highest frequency that was measured, Young's */
+    size_t n_levels; /* of temperature; 1: alike at all */
     double *level, *factor; /* temperature, and what the moduli are multiplied by there */
 } solid;
 
@@ -84,16 +103,21 @@ static double bulk_of(const solid *s, double young)
     return young / (3 * (1 - 2 * s->nu));
 }
 
-/* Arrhenius is WLF whose pole is at absolute zero; of a joined law that which holds at the
- * reference. */
+/* Arrhenius is WLF whose pole is at absolute zero, about any temperature. */
+static void arrhenius_as_wlf(double activation_energy, double about, double *c1, double *c2)
+{
+    *c1 = -2 * wt_arrhenius_log_shift(activation_energy, about, 2 * about);
+    *c2 = about;
+}
+
+/* Of a joined law that which holds at the reference. */
 static void take_law(solid *s)
 {
     const wt_shift_law *law = &s->rubber.law;
     const double reference = s->rubber.prony.reference_temperature;
     s->shifts = law->kind != WT_LAW_NONE;
     if (law->kind == WT_LAW_ARRHENIUS || (law->kind == WT_LAW_JOINED && reference < law->joint)) {
-        s->c1 = -2 * wt_arrhenius_log_shift(law->activation_energy, reference, 2 * reference);
-        s->c2 = reference;
+        arrhenius_as_wlf(law->activation_energy, reference, &s->c1, &s->c2);
     } else {
         s->c1 = law->wlf.c1;
         s->c2 = law->wlf.c2;
@@ -137,16 +161,50 @@ static wt_status take_series(solid *s, wt_error *err)
     if (isnan(p->reference_temperature))
         return wt_fail(err, WT_E_MISSING, "the reference temperature of the series is not known");
     s->reference = p->reference_temperature - s->zero;
-    s->instant = s->long_term = scale * p->equilibrium_modulus;
+    s->fastest = s->instant = s->long_term = scale * p->equilibrium_modulus;
     for (size_t i = 0; i < p->n; i++) {
+        const double x = pow(p->frequency_max * p->relaxation_time[i], 2);
         p->modulus[i] *= scale;
         p->relaxation_time[i] /= s->system->time;
         s->instant += p->modulus[i];
+        s->fastest += p->modulus[i] * x / (1 + x);
     }
-    return s->instant > 0 ? WT_OK : wt_fail(err, WT_E_RANGE, "the series has no modulus");
+    if (!(s->instant > 0))
+        return wt_fail(err, WT_E_RANGE, "the series has no modulus");
+    if (s->options->domain == WT_SOLID_FREQUENCY && !(s->long_term > 0)) {
+        wt_fail(err, WT_E_RANGE,
+                "the series has no modulus in the end, which the frequency domain "
+                "of Abaqus begins with");
+        wt_error_advice(err, "give it by --prony-long-term, or leave --export-domain out");
+        return WT_E_RANGE;
+    }
+    return WT_OK;
 }
 
 /* ---- what is said above the numbers ---------------------------------------------------------- */
+
+/* A joined law beyond its joint Tj, for a subroutine of the user: those programs hold one branch.
+ */
+static void say_other_branch(solid *s)
+{
+    const wt_shift_law *law = &s->rubber.law;
+    const bool below = s->reference + s->zero < law->joint;
+    double c1 = law->wlf.c1, c2 = law->wlf.c2;
+    if (below) { /* WLF from the joint on */
+        const double from = law->joint - law->wlf.reference_temperature;
+        c1 = law->wlf.c1 * law->wlf.c2 / (law->wlf.c2 + from);
+        c2 = law->wlf.c2 + from;
+    } else {
+        arrhenius_as_wlf(law->activation_energy, law->joint, &c1, &c2);
+    }
+    print_solid(s,
+                "%sOnly %s Tj = %.6g. On the other side it is log10 aT = %.12g - C1 (T - Tj)/"
+                "(C2 + T - Tj)\n%swith C1 = %.12g and C2 = %.12g (%s), which is not in the cards "
+                "below.\n",
+                s->comment, below ? "below" : "above", law->joint - s->zero,
+                wt_shift_law_log_a(law, law->joint), s->comment, c1, c2,
+                below ? "WLF" : "Arrhenius");
+}
 
 static void say_law(solid *s)
 {
@@ -166,9 +224,7 @@ static void say_law(solid *s)
             s, "%sThis is the Arrhenius law, %.6g kJ/mol, to which C2 = T0 in kelvin makes it.\n",
             s->comment, law->activation_energy / 1000);
     if (law->kind == WT_LAW_JOINED)
-        print_solid(s, "%sOnly %s %.6g: on the other side the law that was found is another.\n",
-                    s->comment, s->reference + zero < law->joint ? "below" : "above",
-                    law->joint - zero);
+        say_other_branch(s);
     print_solid(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
                 s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
 }
@@ -185,13 +241,6 @@ static double deviation_percent(const table_view *series, prony_reduced_key key)
 /* What the series rests on: it says so wherever the file goes. */
 static void say_superposition(solid *s)
 {
-    const wt_prony *p = &s->rubber.prony;
-    double faster = 0, all = p->equilibrium_modulus;
-    for (size_t i = 0; i < p->n; i++) {
-        all += p->modulus[i];
-        if (p->relaxation_time[i] * p->frequency_max < 1)
-            faster += p->modulus[i];
-    }
     if (s->shifts_of.table != NULL) {
         const char *verdict = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_SUPERPOSITION);
         const char *route = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_ROUTE);
@@ -200,11 +249,12 @@ static void say_superposition(solid *s)
         if (route != NULL)
             print_solid(s, "%sShifts by: %s.\n", s->comment, route);
     }
-    if (faster > 0)
-        print_solid(s,
-                    "%sOf the modulus at once %.2g %% relaxes in times shorter than was measured: "
-                    "extrapolated.\n",
-                    s->comment, 100 * faster / all);
+    if (isfinite(s->fastest))
+        print_solid(
+            s,
+            "%sThe modulus at once is an extrapolation: at the highest frequency measured the "
+            "storage modulus is %.6g,\n%sand %.2g %% of the modulus at once lies beyond it.\n",
+            s->comment, s->fastest, s->comment, 100 * (1 - s->fastest / s->instant));
 }
 
 static void say_series(solid *s)
@@ -264,15 +314,21 @@ static double term_share(const solid *s, size_t i)
 static void write_abaqus(solid *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    print_solid(s, "*MATERIAL, NAME=RUBBER\n");
+    const bool frequency = s->options->domain == WT_SOLID_FREQUENCY;
+    const char *moduli = frequency ? "LONG TERM" : "INSTANTANEOUS";
+    print_solid(s, "*MATERIAL, NAME=%s\n", s->name);
+    if (!isnan(s->options->density))
+        print_solid(s, "*DENSITY\n%.12g,\n", s->options->density / s->system->density);
+    if (!isnan(s->options->expansion))
+        print_solid(s, "*EXPANSION\n%.12g,\n", s->options->expansion);
     if (s->incompressible) {
         print_solid(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
-        print_solid(s, "*HYPERELASTIC, NEO HOOKE, MODULI=INSTANTANEOUS\n");
+        print_solid(s, "*HYPERELASTIC, NEO HOOKE, MODULI=%s\n", moduli);
     } else {
-        print_solid(s, "*ELASTIC, MODULI=INSTANTANEOUS\n");
+        print_solid(s, "*ELASTIC, MODULI=%s\n", moduli);
     }
     for (size_t i = 0; i < s->n_levels; i++) {
-        const double young = s->instant * s->factor[i];
+        const double young = (frequency ? s->long_term : s->instant) * s->factor[i];
         if (s->incompressible)
             print_solid(s, "%.12g, 0.", shear_of(s, young) / 2);
         else
@@ -281,11 +337,11 @@ static void write_abaqus(solid *s)
             print_solid(s, ", %.10g", s->level[i]);
         print_solid(s, "\n");
     }
-    print_solid(s, "*VISCOELASTIC, TIME=PRONY\n");
+    print_solid(s, "*VISCOELASTIC, %s=PRONY\n", frequency ? "FREQUENCY" : "TIME");
     for (size_t i = 0; i < p->n; i++)
         print_solid(s, "%.12g, %.12g, %.12g\n", term_share(s, i),
                     s->incompressible ? 0 : term_share(s, i), p->relaxation_time[i]);
-    if (s->shifts)
+    if (s->shifts && !frequency)
         print_solid(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
 }
 
@@ -294,7 +350,7 @@ enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* of one of its lines */
 static void ansys_prony(solid *s, const char *what)
 {
     const wt_prony *p = &s->rubber.prony;
-    print_solid(s, "TB,PRONY,RUBBER,1,%zu,%s\n", p->n, what);
+    print_solid(s, "TB,PRONY,%s,1,%zu,%s\n", s->name, p->n, what);
     for (size_t i = 0; i < p->n; i++) {
         if (i % ANSYS_PAIRS == 0)
             print_solid(s, "TBDATA,%zu", 2 * i + 1);
@@ -305,10 +361,11 @@ static void ansys_prony(solid *s, const char *what)
 }
 
 /* Values in rows of six from the first place on. */
-static void ansys_row(solid *s, const char *command, const double *value, double scale, size_t i)
+static void ansys_row(solid *s, const char *command, const char *name, const double *value,
+                      double scale, size_t i)
 {
     const size_t last = s->n_levels - i < ANSYS_TEMPERATURES ? s->n_levels : i + ANSYS_TEMPERATURES;
-    print_solid(s, "%s%zu", command, i + 1);
+    print_solid(s, "%s%s%s%zu", command, name, *name != '\0' ? "," : "", i + 1);
     for (size_t k = i; k < last; k++)
         print_solid(s, ",%.10g", scale * value[k]);
     print_solid(s, "\n");
@@ -316,25 +373,29 @@ static void ansys_row(solid *s, const char *command, const double *value, double
 
 static void write_ansys(solid *s)
 {
-    print_solid(s, "RUBBER=1 ! number of the material\n");
+    print_solid(s, "%s=1 ! number of the material\n", s->name);
+    if (!isnan(s->options->density))
+        print_solid(s, "MP,DENS,%s,%.12g\n", s->name, s->options->density / s->system->density);
+    if (!isnan(s->options->expansion))
+        print_solid(s, "MP,ALPX,%s,%.12g\n", s->name, s->options->expansion);
     if (s->incompressible) {
         print_solid(s,
                     "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
-        print_solid(s, "TB,HYPER,RUBBER,%zu,2,NEO\n", s->n_levels);
+        print_solid(s, "TB,HYPER,%s,%zu,2,NEO\n", s->name, s->n_levels);
         for (size_t i = 0; i < s->n_levels; i++) {
             if (s->n_levels > 1)
                 print_solid(s, "TBTEMP,%.10g\n", s->level[i]);
             print_solid(s, "TBDATA,1,%.12g,0\n", shear_of(s, s->instant * s->factor[i]));
         }
     } else if (s->n_levels == 1) {
-        print_solid(s, "MP,EX,RUBBER,%.12g\nMP,PRXY,RUBBER,%.12g\n", s->instant, s->nu);
+        print_solid(s, "MP,EX,%s,%.12g\nMP,PRXY,%s,%.12g\n", s->name, s->instant, s->name, s->nu);
     } else {
         print_solid(s, "MPTEMP\n");
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
-            ansys_row(s, "MPTEMP,", s->level, 1, i);
+            ansys_row(s, "MPTEMP,", "", s->level, 1, i);
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
-            ansys_row(s, "MPDATA,EX,RUBBER,", s->factor, s->instant, i);
-        print_solid(s, "MP,PRXY,RUBBER,%.12g\n", s->nu);
+            ansys_row(s, "MPDATA,EX,", s->name, s->factor, s->instant, i);
+        print_solid(s, "MP,PRXY,%s,%.12g\n", s->name, s->nu);
     }
     ansys_prony(s, "SHEAR");
     if (!s->incompressible)
@@ -342,8 +403,8 @@ static void write_ansys(solid *s)
     if (!s->shifts)
         return;
     print_solid(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
-    print_solid(s, "TB,SHIFT,RUBBER,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->reference, s->c1,
-                s->c2);
+    print_solid(s, "TB,SHIFT,%s,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->name, s->reference,
+                s->c1, s->c2);
 }
 
 /* The stress of a term relaxes by its own Hooke's law: exact for strain at a constant rate within a
@@ -393,10 +454,15 @@ static void write_code_aster(solid *s)
     print_solid(
         s,
         "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
-    print_solid(s,
-                "RUBBER = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g),\n    MFRONT=_F(\n"
-                "        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
-                s->instant, s->nu, s->nu, s->long_term);
+    print_solid(s, "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g", s->name, s->instant,
+                s->nu);
+    if (!isnan(s->options->density))
+        print_solid(s, ", RHO=%.12g", s->options->density / s->system->density);
+    if (!isnan(s->options->expansion))
+        print_solid(s, ", ALPHA=%.12g", s->options->expansion);
+    print_solid(
+        s, "),\n    MFRONT=_F(\n        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
+        s->nu, s->long_term);
     for (size_t i = 0; i < p->n; i++)
         print_solid(s, "            %.12g,\n", p->modulus[i]);
     for (size_t i = 0; i < p->n; i++)
@@ -417,6 +483,10 @@ static void write_table(solid *s)
                 "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
                 s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
     print_solid(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
+    if (!isnan(s->options->density))
+        print_solid(s, "%sdensity %.12g\n", s->comment, s->options->density / s->system->density);
+    if (!isnan(s->options->expansion))
+        print_solid(s, "%sthermal_expansion %.12g\n", s->comment, s->options->expansion);
     if (s->shifts)
         print_solid(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment, s->c2);
     for (size_t i = 0; s->n_levels > 1 && i < s->n_levels; i++)
@@ -450,9 +520,30 @@ bool wt_solid_program_find(const char *name, size_t length, wt_solid_program *pr
     return false;
 }
 
+static const char default_name[] = "RUBBER";
+
+/* What all programs take for a name: Ansys names parameters with 32 characters at most, Code_Aster
+ * concepts with 8. */
+static wt_status check_name(wt_solid_program program, const char *name, wt_error *err)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    static const char others[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+    const size_t most = program == WT_SOLID_CODE_ASTER ? 8 : 32;
+    if (name == NULL ||
+        (strspn(name, letters) > 0 && name[strspn(name, others)] == '\0' && strlen(name) <= most))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "not a name of a material");
+    wt_error_place(err, "export-name");
+    wt_error_expected(err, "a letter, then letters, digits and '_', %zu at most", most);
+    wt_error_found(err, "\"%s\"", name);
+    return WT_E_ARG;
+}
+
 wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *options, wt_error *err)
 {
-    const wt_status status = param_check(wt_solid_options_params(), options, err);
+    wt_status status = param_check(wt_solid_options_params(), options, err);
+    if (status == WT_OK)
+        status = check_name(program, options->name, err);
     if (status != WT_OK || program != WT_SOLID_CODE_ASTER || options->poisson_ratio < 0.5)
         return status;
     wt_fail(err, WT_E_RANGE, "Code_Aster needs a Poisson's ratio below 0.5");
@@ -475,6 +566,8 @@ wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *pr
     const wt_solid_options o = options != NULL ? *options : wt_solid_options_defaults();
     solid s = {.out = out,
                .comment = programs[program].comment,
+               .options = &o,
+               .name = o.name != NULL ? o.name : default_name,
                .nu = o.poisson_ratio,
                .incompressible = o.poisson_ratio >= 0.5,
                .zero = o.temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0};

@@ -59,7 +59,7 @@ static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
 }
 
 /* What a stage is to be given, some of which may be out of reach. */
-static flow_things takes(const flow_plan *plan, size_t stage)
+static flow_things things_taken(const flow_plan *plan, size_t stage)
 {
     return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
 }
@@ -69,7 +69,7 @@ static flow_things takes(const flow_plan *plan, size_t stage)
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
-    const flow_things of_a = takes(plan, a), of_b = takes(plan, b);
+    const flow_things of_a = things_taken(plan, a), of_b = things_taken(plan, b);
     const int more = __builtin_popcountll(of_a) - __builtin_popcountll(of_b);
     const int idle = __builtin_popcountll(s->gives & ~plan->required) -
                      __builtin_popcountll(t->gives & ~plan->required);
@@ -80,8 +80,8 @@ static bool is_better(const flow_plan *plan, size_t a, size_t b)
 }
 
 /* Chooses the best stage that gives a thing, then what it needs. */
-static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing thing,
-                   const char *because)
+static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing thing,
+                         const char *because)
 {
     size_t best = FLOW_N_STAGES;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
@@ -97,13 +97,13 @@ static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing t
     plan->chosen[best] = true;
     snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
-        if (!(takes(plan, best) & FLOW_BIT(t)))
+        if (!(things_taken(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
         snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
                  flow_thing_rows[t].words);
-        choose(plan, able, (flow_thing)t, reason);
+        choose_stage(plan, able, (flow_thing)t, reason);
     }
 }
 
@@ -201,7 +201,7 @@ void flow_plan_make(const wt_case *c, flow_plan *plan)
             continue;
         char reason[128];
         snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
-        choose(plan, able, (flow_thing)t, reason);
+        choose_stage(plan, able, (flow_thing)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
         if (plan->chosen[i])
@@ -220,7 +220,7 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         char title[160], needs[256], gives[256];
         flow_stage_title(i, plan.level[i], title, sizeof title);
-        flow_things_list(takes(&plan, i), needs, sizeof needs);
+        flow_things_list(things_taken(&plan, i), needs, sizeof needs);
         flow_things_list(flow_stages[i].gives, gives, sizeof gives);
         table_row(&t);
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);

@@ -7,6 +7,7 @@
 
 #include "base/array.h"
 #include "base/pool.h"
+#include "base/quantity.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -260,6 +261,50 @@ static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ra
     return status;
 }
 
+/* ---- how a peak moves with frequency ----------------------------------------------------------
+ */
+
+/* Sums over the peaks at all frequencies: x = 1/T by its error, y = ln omega. */
+typedef struct motion {
+    size_t n;
+    double w, x, y, xx, xy, yy; /* about the first of them */
+    double x0, y0;
+} motion;
+
+static void add_motion(motion *m, const wt_peak *peak, double angular_frequency)
+{
+    const double temperature = peak->at.value,
+                 error = peak->at.standard_error / (temperature * temperature);
+    if (!peak->found || !(error > 0))
+        return;
+    if (m->n++ == 0) {
+        m->x0 = 1 / temperature;
+        m->y0 = log(angular_frequency);
+    }
+    const double w = 1 / (error * error), x = 1 / temperature - m->x0,
+                 y = log(angular_frequency) - m->y0;
+    m->w += w;
+    m->x += w * x;
+    m->y += w * y;
+    m->xx += w * x * x;
+    m->xy += w * x * y;
+    m->yy += w * y * y;
+}
+
+/* Apparent activation energy -R d ln omega / d (1/T), by the line of 1/T over ln omega, whose
+ * errors are those of the peaks, or what they scatter about it if that is more: a curve of WLF is
+ * such a scatter. A line through two frequencies has the errors of the peaks alone. */
+static wt_estimate activation_energy(const motion *m)
+{
+    const double none = (double)NAN, yy = m->yy - m->y * m->y / m->w,
+                 xy = m->xy - m->x * m->y / m->w, xx = m->xx - m->x * m->x / m->w, slope = xy / yy;
+    if (m->n < 2 || !(yy > 0) || !(slope < 0))
+        return (wt_estimate){none, none, none, "J/mol"};
+    const double energy = -GAS_CONSTANT / slope,
+                 scatter = m->n > 2 ? (xx - slope * xy) / (double)(m->n - 2) : 1;
+    return (wt_estimate){energy, energy * sqrt(fmax(scatter, 1) / yy) / -slope, 0, "J/mol"};
+}
+
 /* ---- the job --------------------------------------------------------------------------------- */
 
 typedef struct writers {
@@ -268,14 +313,18 @@ typedef struct writers {
 
 /* Of the frequency nearest to 1 Hz that has a peak. */
 TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak;
-           double angular_frequency; const char *deformation;)
+           wt_estimate factor_energy, loss_energy; double angular_frequency;
+           const char *deformation;)
 
 static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
                          writers *w, wt_error *err)
 {
     double away = HUGE_VAL;
-    glass_transition_keys best = {not_known, not_known, (double)NAN,
-                                  flow_deformation_name(sweep->deformation)};
+    motion factors = {0}, losses = {0};
+    glass_transition_keys best = {.factor_peak = not_known,
+                                  .loss_peak = not_known,
+                                  .angular_frequency = (double)NAN,
+                                  .deformation = flow_deformation_name(sweep->deformation)};
     wt_status status = WT_OK;
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
         const wt_ramp *ramp = &sweep->ramps[i];
@@ -289,6 +338,8 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
         if (status == WT_OK)
             status = put_moduli(&w->moduli, job, ramp, &u, err);
         pool_free(&memory);
+        add_motion(&factors, &found.factor, ramp->angular_frequency);
+        add_motion(&losses, &found.loss, ramp->angular_frequency);
         const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
         if (status == WT_OK && (found.factor.found || found.loss.found) && off < away) {
             away = off;
@@ -297,6 +348,8 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
             best.loss_peak = found.loss.found ? found.loss.at : not_known;
         }
     }
+    best.factor_energy = activation_energy(&factors);
+    best.loss_energy = activation_energy(&losses);
     glass_transition_set_keys(&w->transition, &best);
     return status;
 }

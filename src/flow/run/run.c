@@ -162,7 +162,7 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 /* Moves a table into the result. */
-static wt_status publish(conduct *d, wt_table **table, wt_error *err)
+static wt_status publish_table(conduct *d, wt_table **table, wt_error *err)
 {
     if (*table == NULL)
         return WT_OK;
@@ -188,10 +188,10 @@ static wt_status publish_stages(conduct *d, wt_error *err)
     for (size_t i = 0; i < table_n_schemas; i++) {
         for (unsigned k = FLOW_FIRST_TABLE; status == WT_OK && k < FLOW_FIRST_INNER; k++)
             if (flow_thing_rows[k].schema == table_schemas[i] && (r->plan.required & FLOW_BIT(k)))
-                status = publish(d, &r->table[k], err);
+                status = publish_table(d, &r->table[k], err);
         for (size_t k = 0; status == WT_OK && k < COUNT_OF(of_both); k++)
             if (of_both[k].schema == table_schemas[i] && (r->plan.required & of_both[k].things))
-                status = publish(d, of_both[k].table, err);
+                status = publish_table(d, of_both[k].table, err);
     }
     return status;
 }
@@ -212,13 +212,17 @@ static void warn_of_copies(const conduct *d)
     }
 }
 
-static wt_status finish(conduct *d, wt_error *err)
+static wt_status finish_result(conduct *d, wt_error *err)
 {
     wt_table *answer = NULL, *inputs = NULL, *notes = NULL, *cost = NULL;
     wt_table **const last[] = {&answer, &inputs, &notes, &d->failures, &cost};
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
+    if (status == WT_OK && wt_table_n_rows(d->failures) > 0)
+        status = wt_failures_answered(
+            d->failures,
+            wt_result_n_tables(d->result) > 0 ? WT_ANSWERED_PARTLY : WT_ANSWERED_NOTHING, err);
     if (status == WT_OK)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
                              &answer, err);
@@ -231,7 +235,7 @@ static wt_status finish(conduct *d, wt_error *err)
     if (status == WT_OK)
         status = wt_cost_table(d->cost, &cost, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(last); i++)
-        status = publish(d, last[i], err);
+        status = publish_table(d, last[i], err);
     for (size_t i = 0; i < COUNT_OF(last); i++) {
         wt_table_free(*last[i]);
         *last[i] = NULL;
@@ -301,7 +305,8 @@ static wt_status add_case(conduct *d, wt_error *err)
     return wt_result_set_case(d->result, c->xml, c->xml_length, err);
 }
 
-static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog *log, wt_error *err)
+static wt_status prepare_run(conduct *d, const wt_run_options *options, wt_parselog *log,
+                             wt_error *err)
 {
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
@@ -344,26 +349,24 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
         options = &defaults;
     wt_status status = param_check(wt_run_params(), options, err);
     if (status == WT_OK)
-        status = prepare(&d, options, log, err);
-    if (status != WT_OK)
-        goto done;
-    flow_plan_make(c, &d.run.plan);
-    d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
-    d.run.job.left_out = find_left_out(&d.run.plan, options);
-    d.have = d.run.plan.sources;
+        status = prepare_run(&d, options, log, err);
+    if (status == WT_OK) {
+        flow_plan_make(c, &d.run.plan);
+        d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
+        d.run.job.left_out = find_left_out(&d.run.plan, options);
+        d.have = d.run.plan.sources;
+    }
     for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
         status = consider_stage(&d, i, err);
-    if (status != WT_OK)
-        goto done;
-    size_t failed = wt_table_n_rows(d.failures);
-    status = finish(&d, err);
+    const size_t failed = status == WT_OK ? wt_table_n_rows(d.failures) : 0;
+    if (status == WT_OK)
+        status = finish_result(&d, err);
     if (status == WT_OK) {
         *result = d.result;
         d.result = NULL;
         if (n_failed != NULL)
             *n_failed = failed;
     }
-done:
     flow_run_clear(&d.run);
     wt_formats_free(d.formats);
     wt_result_free(d.result);

@@ -26,7 +26,7 @@ void flow_run_clear(flow_run *run)
 }
 
 /* Moves a table into the run; one that a stage left there before goes. */
-static void keep(flow_run *run, flow_thing thing, wt_table **table)
+static void keep_table(flow_run *run, flow_thing thing, wt_table **table)
 {
     wt_table_free(run->table[thing]);
     run->table[thing] = *table;
@@ -145,7 +145,7 @@ static wt_estimate indented_at(const wt_case *c, int g)
                                                          : job->temperature;
 }
 
-static wt_status indent(flow_run *run, int g, wt_error *err)
+static wt_status indent_group(flow_run *run, int g, wt_error *err)
 {
     static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
@@ -171,23 +171,24 @@ static wt_status indent(flow_run *run, int g, wt_error *err)
             return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
     }
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
-    keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK, &run->curves.indentation);
+    keep_table(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
+               &run->curves.indentation);
     return status;
 }
 
 wt_status flow_step_bulk(flow_run *run, wt_error *err)
 {
-    return indent(run, 0, err);
+    return indent_group(run, 0, err);
 }
 
 wt_status flow_step_track(flow_run *run, wt_error *err)
 {
-    return indent(run, 1, err);
+    return indent_group(run, 1, err);
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
+static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
 {
     wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
@@ -199,10 +200,10 @@ static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
         say_items(run, tables.modulus_groups);
-    keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
-    keep(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
-    keep(run, FLOW_COMPARISON, &tables.comparison);
-    keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
+    keep_table(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    keep_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
+    keep_table(run, FLOW_COMPARISON, &tables.comparison);
+    keep_table(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
     wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
     return status;
 }
@@ -210,7 +211,7 @@ static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
 wt_status flow_step_compare(flow_run *run, wt_error *err)
 {
     table_view comparison;
-    wt_status status = compare(run, false, err);
+    wt_status status = compare_groups(run, false, err);
     if (status == WT_OK)
         status = table_bind(run->table[FLOW_COMPARISON], &comparison_schema, "", &comparison, err);
     if (status != WT_OK)
@@ -228,7 +229,7 @@ wt_status flow_step_compare(flow_run *run, wt_error *err)
 /* Of the groups there are. */
 wt_status flow_step_groups(flow_run *run, wt_error *err)
 {
-    return compare(run, true, err);
+    return compare_groups(run, true, err);
 }
 
 wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
@@ -249,7 +250,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
         say_items(run, tables.dma_comparison);
-        keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
+        keep_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
     return status;
@@ -276,13 +277,13 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     if (status == WT_OK && run->c->rubber.moduli == WT_MODULI_POINTS)
         status = wt_rubber_tabulate(&run->rubber, tables.master_curve, &run->c->rubber, err);
     set_direction(run->c, &run->rubber);
-    keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
-    keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
-    keep(run, FLOW_PRONY, &tables.prony);
-    keep(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
-    keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
-    keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
-    keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
+    keep_table(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
+    keep_table(run, FLOW_MASTER_CURVE, &tables.master_curve);
+    keep_table(run, FLOW_PRONY, &tables.prony);
+    keep_table(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
+    keep_table(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
+    keep_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
+    keep_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the fit */
     return status;
 }
@@ -311,9 +312,9 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
     }
     const wt_status status = wt_ramp_make(&job, &work, &tables, err);
     wt_table_free(again);
-    keep(run, FLOW_RAMP, &tables.ramp);
-    keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
-    keep(run, FLOW_MODULI_AT, &tables.moduli_at);
+    keep_table(run, FLOW_RAMP, &tables.ramp);
+    keep_table(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
+    keep_table(run, FLOW_MODULI_AT, &tables.moduli_at);
     return status;
 }
 
@@ -324,8 +325,8 @@ wt_status flow_step_payne(flow_run *run, wt_error *err)
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
     const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
-    keep(run, FLOW_PAYNE, &tables.payne);
-    keep(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
+    keep_table(run, FLOW_PAYNE, &tables.payne);
+    keep_table(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
     return status;
 }
 
@@ -393,7 +394,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
-    keep(run, FLOW_LAYER, &tables.layer);
+    keep_table(run, FLOW_LAYER, &tables.layer);
     return WT_OK;
 }
 
@@ -436,7 +437,7 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
         status =
             wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
     if (status == WT_OK)
-        keep(run, FLOW_FRICTION, &tables.friction);
+        keep_table(run, FLOW_FRICTION, &tables.friction);
     return status;
 }
 

@@ -376,11 +376,14 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     replicates *r = &task->replicates;
     const wt_layer_known *layer = task->layer;
     if (!isnan(task->sliding->shear_stress.value))
-        replicates_add(r, task->sliding->shear_stress.standard_error, "shear stress");
+        replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
     const bool bulk_varies = r->varies;
     if (layer != NULL) {
-        replicates_add(r, layer->thickness.standard_error, "thickness of the layer");
-        replicates_add(r, layer->modulus_ratio.standard_error, "modulus ratio of the layer");
+        replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,
+                       "thickness of the layer");
+        replicates_add(r, layer->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
+                       "modulus ratio of the layer");
     }
     wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)

@@ -51,17 +51,16 @@ static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table
     wt_friction_node *nodes = malloc(n * sizeof *nodes);
     if (q == NULL || nodes == NULL) {
         t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
-        goto done;
+    } else {
+        for (size_t i = 0; i < n; i++)
+            q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+        q[n - 1] = c->roughness->q1;
+        add_area_block(c, first, q, n, nodes, t, cost);
+        if (middle > first && middle < last)
+            add_area_block(c, middle, q, n, nodes, t, cost);
+        if (last > first)
+            add_area_block(c, last, q, n, nodes, t, cost);
     }
-    for (size_t i = 0; i < n; i++)
-        q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
-    q[n - 1] = c->roughness->q1;
-    add_area_block(c, first, q, n, nodes, t, cost);
-    if (middle > first && middle < last)
-        add_area_block(c, middle, q, n, nodes, t, cost);
-    if (last > first)
-        add_area_block(c, last, q, n, nodes, t, cost);
-done:
     free(q);
     free(nodes);
 }

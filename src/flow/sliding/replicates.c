@@ -2,7 +2,8 @@
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
-#include "flow/work/draws.h"
+
+#include "model/cholesky.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,12 +27,21 @@ static void add_drawn(replicates *r, const char *words)
     add_words(r->includes, sizeof r->includes, words);
 }
 
-void replicates_add(replicates *r, double standard_error, const char *words)
+/* One more would be part of what is not a line, as the material is. */
+static void add_line(replicates *r, flow_draw draw)
 {
-    if (standard_error > 0)
+    if (r->n_draws < REPLICATES_MOST)
+        r->draw[r->n_draws++] = draw;
+}
+
+void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words)
+{
+    if (standard_error > 0) {
         add_drawn(r, words);
-    else
+        add_line(r, draw);
+    } else {
         add_words(r->lacks, sizeof r->lacks, words);
+    }
 }
 
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
@@ -43,13 +53,17 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     } else {
         add_words(r.lacks, sizeof r.lacks, "material");
         if (rubber->c1_error > 0 || rubber->c2_error > 0)
-            add_drawn(&r, "shift law");
+            replicates_add(&r, 1, FLOW_DRAW_SHIFT_LAW, "shift law");
     }
-    replicates_add(&r, sliding->pressure.standard_error, "pressure");
-    replicates_add(&r, sliding->temperature.standard_error, "temperature");
-    replicates_add(&r, sliding->surface->c0.standard_error, "roughness");
-    if (sliding->softness != NULL)
-        replicates_add(&r, softness_has_errors(sliding->softness), "softening with strain");
+    replicates_add(&r, sliding->pressure.standard_error, FLOW_DRAW_PRESSURE, "pressure");
+    replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
+    replicates_add(&r, sliding->surface->c0.standard_error, FLOW_DRAW_DENSITY, "roughness");
+    if (sliding->softness != NULL) {
+        const bool drawn = softness_has_errors(sliding->softness);
+        replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");
+        if (drawn)
+            add_line(&r, FLOW_DRAW_SOFT_LOSS);
+    }
     return r;
 }
 
@@ -105,6 +119,67 @@ static void end_materials(replicates *r)
     r->drawn = NULL;
 }
 
+/* ---- their scatter --------------------------------------------------------------------------- */
+
+/* The equations of a line through the finite values of number k; how many there are. */
+static size_t collect(const replicates *r, const double *z, size_t k, double *a, double *b)
+{
+    const size_t p = r->n_draws + 1;
+    size_t n = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const double *row = z + i * p, value = r->value[i * r->stride + k];
+        if (!isfinite(value))
+            continue;
+        n++;
+        for (size_t u = 0; u < p; u++) {
+            b[u] += row[u] * value;
+            for (size_t v = 0; v <= u; v++)
+                a[u * p + v] += row[u] * row[v];
+        }
+    }
+    return n;
+}
+
+/* Standard deviation of number k where the draws z [n * p] make lines: the squares of the slopes
+ * and that of the rest. The squares of slopes that the rest scatters are too large by it, for
+ * each its variance over n. */
+static double spread_about_lines(const replicates *r, const double *z, size_t k)
+{
+    /* As many draws for each slope that what they scatter by is small against the rest. */
+    enum { FOR_EACH = 5, MOST = REPLICATES_MOST + 1 };
+    double a[MOST * MOST] = {0}, b[MOST] = {0}, rest = 0, lines = 0;
+    const size_t p = r->n_draws + 1, n = collect(r, z, k, a, b);
+    if (n < FOR_EACH * p || !cholesky_solve(a, p, p, 0, b))
+        return flow_spread(r->value + k, r->n, r->stride);
+    for (size_t i = 0; i < r->n; i++) {
+        double left = r->value[i * r->stride + k];
+        for (size_t u = 0; u < p; u++)
+            left -= b[u] * z[i * p + u];
+        rest += isfinite(left) ? left * left : 0;
+    }
+    rest /= (double)(n - p);
+    for (size_t u = 1; u < p; u++)
+        lines += b[u] * b[u];
+    return sqrt(lines + rest * (1 - (double)(p - 1) / (double)n));
+}
+
+static wt_status find_errors(replicates *r, wt_error *err)
+{
+    const size_t p = r->n_draws + 1;
+    double *const z = malloc((r->n + 1) * p * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < r->n; i++) {
+        z[i * p] = 1;
+        for (size_t u = 1; u < p; u++)
+            z[i * p + u] = flow_draw_normal(r->work->seed, i, r->draw[u - 1]);
+    }
+    for (size_t k = 0; k < r->stride; k++)
+        r->error[k] = spread_about_lines(r, z, k);
+    free(z);
+    return WT_OK;
+}
+
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err)
 {
@@ -133,9 +208,7 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
                         "%zu of %zu replicates of the %s have no solution and are left out of the "
                         "standard errors",
                         lost, r->n, r->what);
-    for (size_t k = 0; k < stride; k++)
-        r->error[k] = flow_spread(r->value + k, r->n, stride);
-    return WT_OK;
+    return find_errors(r, err);
 }
 
 void replicates_clear(replicates *r)

@@ -101,7 +101,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
                                   err);
             if (status == WT_OK) {
                 put_points(&points, s, &payne);
-                TABLE_ADD(payne, &numbers, *s, payne, u.n, s->strain[0], s->strain[s->n - 1]);
+                TABLE_ADD(payne, &numbers, *s, payne, u.n, u.strain[0], u.strain[u.n - 1]);
                 told++;
             }
         }

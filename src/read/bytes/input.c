@@ -100,16 +100,17 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     const bool standard = strcmp(path, "-") == 0;
     struct stat st;
     status = standard ? open_standard(in, &st, err) : open_file(in, path, &st, err);
-    if (status != WT_OK)
-        goto fail;
-    if ((status = wt_guard_read(path, err)) != WT_OK)
-        goto fail;
-    if (S_ISDIR(st.st_mode)) {
+    if (status == WT_OK)
+        status = wt_guard_read(path, err);
+    if (status == WT_OK && S_ISDIR(st.st_mode)) {
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
         wt_error_expected(err, "a file");
         wt_error_advice(err, "'%s/*' names the files in it", path);
-        goto fail;
+    }
+    if (status != WT_OK) {
+        wt_input_close(in);
+        return status;
     }
     /* Standard input that was redirected from a file may stand anywhere in it: then it is read as a
      * pipe. */
@@ -117,9 +118,6 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         in->expected = (size_t)st.st_size;
     *input = in;
     return WT_OK;
-fail:
-    wt_input_close(in);
-    return status;
 }
 
 wt_status wt_input_open_memory(const void *bytes, size_t length, const char *name, wt_input **input,

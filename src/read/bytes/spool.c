@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static wt_status grow(spool *to, size_t n, const char *name, wt_error *err)
+static wt_status grow_spool(spool *to, size_t n, const char *name, wt_error *err)
 {
     size_t room = to->room > 0 ? to->room : 1 << 16;
     while (room - to->length < n) {
@@ -47,7 +47,7 @@ wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt
     }
     if (status == WT_OK && to->has_file)
         status = scratch_write(to->file, bytes, n, name, err);
-    else if (status == WT_OK && (status = grow(to, n, name, err)) == WT_OK && n > 0)
+    else if (status == WT_OK && (status = grow_spool(to, n, name, err)) == WT_OK && n > 0)
         memcpy(to->bytes + to->length, bytes, n);
     to->length += status == WT_OK ? n : 0;
     return status;

@@ -134,7 +134,7 @@ wt_quantity_set quantities_of(unsigned kind)
     return set;
 }
 
-static size_t find(unsigned kind)
+static size_t kind_number(unsigned kind)
 {
     size_t i = 0;
     while (i + 1 < N_NEEDS && needs[i].kind != kind)
@@ -144,10 +144,10 @@ static size_t find(unsigned kind)
 
 const char *quantities_needed(unsigned kind)
 {
-    return needs[find(kind)].words;
+    return needs[kind_number(kind)].words;
 }
 
 const char *kind_name(unsigned kind)
 {
-    return needs[find(kind)].name;
+    return needs[kind_number(kind)].name;
 }

@@ -20,7 +20,7 @@ static bool alias_is_unit(const text_description *d, const char *unit)
     return false;
 }
 
-static wt_status complain(wt_error *err, const char *name, const char *element)
+static wt_status fail_element(wt_error *err, const char *name, const char *element)
 {
     wt_error_file(err, name);
     wt_error_place(err, "element %s", element);
@@ -37,34 +37,34 @@ wt_status description_check_whole(const text_description *d, const char *name, w
         if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
             wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
             wt_error_expected(err, "%s", quantities_needed(kind));
-            return complain(err, name, "table");
+            return fail_element(err, name, "table");
         }
     for (size_t i = 0; i < d->n_aliases; i++)
         if (!alias_is_unit(d, d->aliases[i].means)) {
             wt_fail(err, WT_E_SCHEMA, "not a unit of any column");
             wt_error_expected(err, "a unit of one of the quantities");
             wt_error_found(err, "means=\"%s\"", d->aliases[i].means);
-            return complain(err, name, "unit");
+            return fail_element(err, name, "unit");
         }
     for (size_t i = 1; i < d->n_names; i++) {
         const column_name *a = &d->names[i - 1], *b = &d->names[i];
         if (strcmp(a->name, b->name) == 0 && a->rule == b->rule) {
             wt_fail(err, WT_E_SCHEMA, "a name stands twice in one column");
             wt_error_found(err, "\"%s\" (compared in lower case without blanks)", b->name);
-            return complain(err, name, "column");
+            return fail_element(err, name, "column");
         }
     }
     if ((d->kinds & WT_KIND_SWEEP) == 0 &&
         (d->group != NULL || d->n_samples > 0 || !isnan(d->temperature_jump))) {
         wt_fail(err, WT_E_SCHEMA, "isotherms without a sweep");
         wt_error_expected(err, "kinds with sweep in it");
-        return complain(err, name, "isotherms");
+        return fail_element(err, name, "isotherms");
     }
     if ((d->kinds & WT_KIND_FORCE) == 0 &&
         (d->n_markers > 0 || d->n_values > 0 || d->curve_column != NULL || d->turning_point)) {
         wt_fail(err, WT_E_SCHEMA, "segments without a force curve");
         wt_error_expected(err, "kinds with force in it");
-        return complain(err, name, "segments");
+        return fail_element(err, name, "segments");
     }
     return WT_OK;
 }

@@ -110,31 +110,26 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
     }
     p.d = calloc(1, sizeof *p.d);
     context = xmlNewParserCtxt();
-    if (p.d == NULL || context == NULL) {
+    if (p.d != NULL && context != NULL) {
+        p.d->temperature_jump = (double)NAN;
+        p.d->xml = parse_text(&p, xml, length);
+    } else {
         parse_no_memory(&p);
-        goto done;
     }
-    p.d->temperature_jump = (double)NAN;
-    p.d->xml = parse_text(&p, xml, length);
-    if (p.status != WT_OK)
-        goto done;
-    xmlSetStructuredErrorFunc(NULL, keep_quiet);
-    document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
-                                 XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
-                                     XML_PARSE_NOCDATA);
-    if (document == NULL) {
-        explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
-        goto done;
+    if (p.status == WT_OK) {
+        xmlSetStructuredErrorFunc(NULL, keep_quiet);
+        document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
+                                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
+                                         XML_PARSE_NOCDATA);
+        if (document == NULL)
+            explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
+        else if (document->intSubset != NULL)
+            explain(&p, NULL, "a document type or entities are not allowed in a description");
     }
-    if (document->intSubset != NULL) {
-        explain(&p, NULL, "a document type or entities are not allowed in a description");
-        goto done;
-    }
-    if (schema != NULL)
+    if (p.status == WT_OK && schema != NULL)
         validate(&p, schema, document);
     if (p.status == WT_OK)
         parse(&p, xmlDocGetRootElement(document));
-done:
     xmlSetStructuredErrorFunc(previous_context, previous);
     xmlFreeDoc(document);
     if (context != NULL)

@@ -94,6 +94,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     if (status != WT_OK)
         return status;
     const force_facts read = ibw_facts(&file);
+    facts_add(facts, "curves", "", "one for each file", "1");
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (ibw_note(&file, keys[i], text))
             facts_add(facts, keys[i], "", "note", "%s", text);

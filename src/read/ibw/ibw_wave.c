@@ -37,7 +37,7 @@ bool ibw_is_old(const unsigned char *bytes, size_t length)
     return (big ? be16(bytes) : le16(bytes)) == 2 && HEADER_2 + wave + note == length;
 }
 
-static uint32_t number(const ibw_file *f, size_t at)
+static uint32_t number_at(const ibw_file *f, size_t at)
 {
     return f->big_endian ? be32(f->bytes + at) : le32(f->bytes + at);
 }
@@ -47,7 +47,8 @@ static double read_real(const ibw_file *f, size_t at)
     return float64(f->big_endian ? be64(f->bytes + at) : le64(f->bytes + at));
 }
 
-static wt_status fail(wt_error *err, wt_status status, const char *message, const char *expected)
+static wt_status fail_expected(wt_error *err, wt_status status, const char *message,
+                               const char *expected)
 {
     wt_fail(err, status, "%s", message);
     wt_error_place(err, "header of the Igor wave");
@@ -68,8 +69,8 @@ static wt_status read_type(ibw_file *f, wt_error *err)
 {
     const unsigned type = f->big_endian ? be16(f->bytes + TYPE) : le16(f->bytes + TYPE);
     if (type != 2 && type != 4)
-        return fail(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
-                    "numbers of 32 or 64 bits");
+        return fail_expected(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
+                             "numbers of 32 or 64 bits");
     f->type = type == 2 ? SAMPLE_FLOAT32 : SAMPLE_FLOAT64;
     return WT_OK;
 }
@@ -77,8 +78,8 @@ static wt_status read_type(ibw_file *f, wt_error *err)
 static wt_status set_sizes(ibw_file *f, size_t n, size_t channels, wt_error *err)
 {
     if (n == 0 || n > (size_t)1 << 28 || channels > IBW_CHANNELS)
-        return fail(err, WT_E_CORRUPT, "impossible size of the wave",
-                    "up to 268 million samples of up to 32 channels");
+        return fail_expected(err, WT_E_CORRUPT, "impossible size of the wave",
+                             "up to 268 million samples of up to 32 channels");
     f->n = n;
     f->n_channels = channels;
     return WT_OK;
@@ -86,13 +87,13 @@ static wt_status set_sizes(ibw_file *f, size_t n, size_t channels, wt_error *err
 
 static wt_status read_shape(ibw_file *f, wt_error *err)
 {
-    const size_t channels = number(f, DIMENSIONS + 4);
+    const size_t channels = number_at(f, DIMENSIONS + 4);
     wt_status status = read_type(f, err);
-    if (status == WT_OK && (channels == 0 || number(f, DIMENSIONS + 8) != 0))
-        status = fail(err, WT_E_EMPTY, "the wave holds no force curve",
-                      "two dimensions: samples and channels");
+    if (status == WT_OK && (channels == 0 || number_at(f, DIMENSIONS + 8) != 0))
+        status = fail_expected(err, WT_E_EMPTY, "the wave holds no force curve",
+                               "two dimensions: samples and channels");
     if (status == WT_OK)
-        status = set_sizes(f, number(f, DIMENSIONS), channels, err);
+        status = set_sizes(f, number_at(f, DIMENSIONS), channels, err);
     f->interval = read_real(f, STEPS);
     if (!(f->interval > 0) || !isfinite(f->interval))
         f->interval = (double)NAN;
@@ -101,9 +102,9 @@ static wt_status read_shape(ibw_file *f, wt_error *err)
 
 static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
 {
-    const size_t layers = number(f, DIMENSIONS + 8);
-    *grid = (ibw_grid){.n_columns = number(f, DIMENSIONS),
-                       .n_rows = number(f, DIMENSIONS + 4),
+    const size_t layers = number_at(f, DIMENSIONS + 8);
+    *grid = (ibw_grid){.n_columns = number_at(f, DIMENSIONS),
+                       .n_rows = number_at(f, DIMENSIONS + 4),
                        .step_x = read_real(f, STEPS),
                        .step_y = read_real(f, STEPS + 8),
                        .x_min = read_real(f, STARTS),
@@ -111,9 +112,9 @@ static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
     const wt_status status = read_type(f, err);
     if (status != WT_OK)
         return status;
-    if (layers == 0 || number(f, DIMENSIONS + 12) != 0)
-        return fail(err, WT_E_EMPTY, "the wave holds no image",
-                    "three dimensions: columns, lines and channels");
+    if (layers == 0 || number_at(f, DIMENSIONS + 12) != 0)
+        return fail_expected(err, WT_E_EMPTY, "the wave holds no image",
+                             "three dimensions: columns, lines and channels");
     /* Sizes of 32 bits each: their product fits. */
     return set_sizes(f, grid->n_columns * grid->n_rows, layers, err);
 }
@@ -123,21 +124,21 @@ static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_err
 {
     enum { SIZES = 4, LABELS = 36, LABEL = 32, N_BEFORE = 7 };
     const size_t samples = f->n * f->n_channels * sample_width(f->type);
-    const size_t wave = number(f, SIZES), note = number(f, SIZES + 8);
+    const size_t wave = number_at(f, SIZES), note = number_at(f, SIZES + 8);
     /* Formula, note, unit of the data, units of the four dimensions, then the labels of each. */
     static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32};
-    const size_t labels = number(f, LABELS + 4 * dimension);
+    const size_t labels = number_at(f, LABELS + 4 * dimension);
     uint64_t end = (uint64_t)HEADER_5 + wave;
     if (wave != WAVE_5 + samples)
-        return fail(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
-                    "one number for each sample of each channel");
+        return fail_expected(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
+                             "one number for each sample of each channel");
     for (size_t i = 0; i < N_BEFORE; i++) {
         if (before[i] == 12)
             f->note = (const char *)f->bytes + (end < length ? end : length);
-        end += number(f, before[i]);
+        end += number_at(f, before[i]);
     }
     for (size_t i = 0; i < dimension; i++)
-        end += number(f, LABELS + 4 * i);
+        end += number_at(f, LABELS + 4 * i);
     if (end + labels > length) {
         wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
         wt_error_expected(err, "%llu bytes", (unsigned long long)(end + labels));
@@ -163,7 +164,8 @@ static wt_status open_wave(wt_input *input, ibw_file *file, size_t *length, wt_e
     *file = (ibw_file){.name = wt_input_name(input)};
     const wt_status status = wt_input_bytes(input, &file->bytes, length, err);
     if (status == WT_OK && !ibw_is(file->bytes, *length, &file->big_endian))
-        return fail(err, WT_E_CORRUPT, "damaged header", "version 5, and a check sum that agrees");
+        return fail_expected(err, WT_E_CORRUPT, "damaged header",
+                             "version 5, and a check sum that agrees");
     return status;
 }
 

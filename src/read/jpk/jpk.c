@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool contains(const file_peek *peek, const char *text)
+static bool peek_contains(const file_peek *peek, const char *text)
 {
     /* Looking through the input may move what was shown of a pipe. */
     return peek->whole ? memmem(peek->bytes, peek->length, text, strlen(text)) != NULL
@@ -26,10 +26,10 @@ static recognition detect(const file_reader *self, file_peek *peek)
     recognition match = {.answer = ANSWER_NO};
     if (peek->length < 4 || memcmp(peek->bytes, "PK\3\4", 4) != 0)
         return match;
-    if (contains(peek, "/segment-header.properties")) {
+    if (peek_contains(peek, "/segment-header.properties")) {
         match.answer = ANSWER_YES;
         match.score = 95;
-    } else if (contains(peek, "data-image.") && contains(peek, "header.properties")) {
+    } else if (peek_contains(peek, "data-image.") && peek_contains(peek, "header.properties")) {
         match.answer = ANSWER_UNSUPPORTED;
         snprintf(match.reason, sizeof match.reason, "a JPK file without force curves");
     }
@@ -38,7 +38,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
 
 /* ---- facts -------------------------------------------------------------------------------- */
 
-static const char *described(const jpk_file *file, const char *name)
+static const char *description_of(const jpk_file *file, const char *name)
 {
     char key[192];
     const char *type = properties_get(&file->header, "type");
@@ -61,7 +61,7 @@ static void add_identity(const jpk_file *file, table_writer *facts)
     facts_add(facts, "format version", "", "file-format-version", "%s",
               version != NULL ? version : "not stated");
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = described(file, known[i].name);
+        const char *text = description_of(file, known[i].name);
         if (text != NULL && *text != '\0')
             facts_add(facts, known[i].item, "", known[i].name, "%s", text);
     }

@@ -28,7 +28,7 @@ static size_t most_bytes(const jpk_channel *channel)
                : most;
 }
 
-static wt_status load(jpk_source *source, const jpk_channel *channel, wt_error *err)
+static wt_status load_channel(jpk_source *source, const jpk_channel *channel, wt_error *err)
 {
     jpk_file *file = &source->file;
     if (!channel->has_file)
@@ -56,7 +56,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
             values[i] = multiplier * (double)i + offset;
         missing = samples_mend(values, n);
     } else {
-        wt_status status = source->loaded != channel ? load(source, channel, err) : WT_OK;
+        wt_status status = source->loaded != channel ? load_channel(source, channel, err) : WT_OK;
         if (status != WT_OK)
             return status;
         missing =

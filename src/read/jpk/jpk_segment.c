@@ -39,7 +39,7 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
 }
 
 /* What the user set; newer files keep it below "settings.segment-settings.". */
-static const char *setting(const jpk_file *file, const jpk_segment *segment, const char *name)
+static const char *setting_of(const jpk_file *file, const jpk_segment *segment, const char *name)
 {
     char key[96];
     snprintf(key, sizeof key, "settings.segment-settings.%s", name);
@@ -61,11 +61,11 @@ static wt_segment_kind kind_of(const char *style, const char *type)
 
 static void read_settings(const jpk_file *file, jpk_segment *segment)
 {
-    const char *style = setting(file, segment, "style");
+    const char *style = setting_of(file, segment, "style");
     const double duration = number_of(segment_key(file, segment, "duration"));
-    const double start = number_of(setting(file, segment, "z-start"));
-    const double end = number_of(setting(file, segment, "z-end"));
-    const double time = number_of(setting(file, segment, "duration"));
+    const double start = number_of(setting_of(file, segment, "z-start"));
+    const double end = number_of(setting_of(file, segment, "z-end"));
+    const double time = number_of(setting_of(file, segment, "duration"));
     snprintf(segment->style, sizeof segment->style, "%s", style != NULL ? style : "");
     segment->kind =
         kind_of(segment->style, segment_key(file, segment, "settings.segment-settings.type"));
@@ -74,10 +74,10 @@ static void read_settings(const jpk_file *file, jpk_segment *segment)
     segment->duration = duration >= 0 ? duration : (double)NAN;
     segment->velocity = moves && time > 0 ? fabs(start - end) / time : (double)NAN;
     segment->frequency = segment->kind == WT_SEGMENT_MODULATION
-                             ? number_of(setting(file, segment, "frequency"))
+                             ? number_of(setting_of(file, segment, "frequency"))
                              : (double)NAN;
     segment->setpoint_voltage =
-        approach ? number_of(setting(file, segment, "setpoint")) : (double)NAN;
+        approach ? number_of(setting_of(file, segment, "setpoint")) : (double)NAN;
 }
 
 static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)

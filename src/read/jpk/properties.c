@@ -23,7 +23,7 @@ typedef struct parser {
     size_t line;
 } parser;
 
-static void put(parser *p, uint32_t c)
+static void put_character(parser *p, uint32_t c)
 {
     if (c < 0x80) {
         *p->out++ = (char)c;
@@ -103,7 +103,7 @@ static bool unicode(parser *p)
             c = 0xfffd;
         }
     }
-    put(p, c);
+    put_character(p, c);
     return true;
 }
 
@@ -125,7 +125,7 @@ static bool escape(parser *p)
     if (c == '\0')
         return false;
     const char *letter = strchr(letters, c);
-    put(p, letter != NULL ? (unsigned char)means[letter - letters] : c);
+    put_character(p, letter != NULL ? (unsigned char)means[letter - letters] : c);
     return true;
 }
 
@@ -159,7 +159,7 @@ static bool copy_word(parser *p, bool key)
         if (c == '\0')
             return false;
         if (c != '\\')
-            put(p, c);
+            put_character(p, c);
         else if (!escape(p))
             return false;
     }
@@ -177,7 +177,7 @@ static int by_key(const void *a, const void *b)
     return x->key < y->key ? -1 : x->key > y->key;
 }
 
-static wt_status reserve(property_list *p, size_t length, wt_error *err)
+static wt_status reserve_properties(property_list *p, size_t length, wt_error *err)
 {
     if (length > SIZE_MAX / 64)
         return wt_fail(err, WT_E_RANGE, "header too large");
@@ -195,7 +195,7 @@ static wt_status reserve(property_list *p, size_t length, wt_error *err)
     return WT_OK;
 }
 
-static void sort(property_list *p)
+static void sort_properties(property_list *p)
 {
     if (p->n < 2)
         return;
@@ -213,7 +213,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
                            wt_error *err)
 {
     properties->n = 0;
-    wt_status status = reserve(properties, length, err);
+    wt_status status = reserve_properties(properties, length, err);
     if (status != WT_OK)
         return status;
     parser p = {.at = bytes, .end = bytes + length, .out = properties->text, .line = 1};
@@ -251,7 +251,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
         }
         properties->items[properties->n++] = item;
     }
-    sort(properties);
+    sort_properties(properties);
     return WT_OK;
 }
 

@@ -53,7 +53,7 @@ static size_t whole_of(const nanoscope_file *f, size_t section, const char *key,
 /* ---- how many curves, how wide their numbers ---------------------------------------------------
  */
 
-static size_t samples(const nanoscope_file *f)
+static size_t samples_of_curve(const nanoscope_file *f)
 {
     return f->n_in + f->n_hold + f->n_out;
 }
@@ -63,7 +63,7 @@ static size_t samples(const nanoscope_file *f)
  */
 static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t bytes, unsigned *width)
 {
-    const size_t samps = samples(f);
+    const size_t samps = samples_of_curve(f);
     if (columns == 0 || rows == 0 || bytes / samps / rows < columns)
         return false;
     for (unsigned w = 2; w <= 4; w += 2) {
@@ -139,7 +139,7 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
         f->cantilever.sensitivity = soft;
     if (!find_grid(f, bytes, &c.width)) {
         wt_fail(err, WT_E_CORRUPT, "the size of a block agrees with no number of curves");
-        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples(f));
+        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples_of_curve(f));
         wt_error_place(err, "\\*" BLOCK ", Data length");
         wt_error_expected(err, "2 or 4 bytes for each sample of all curves");
         return WT_E_CORRUPT;
@@ -160,7 +160,7 @@ static wt_status cut_curves(nanoscope_file *f, wt_parselog *log, wt_error *err)
     for (size_t i = 0; i < f->n_channels; i++) {
         const nanoscope_channel *c = &f->channels[i];
         const size_t there = c->offset < f->length ? f->length - c->offset : 0;
-        const size_t whole_curves = there / c->width / samples(f);
+        const size_t whole_curves = there / c->width / samples_of_curve(f);
         f->n_curves = whole_curves < f->n_curves ? whole_curves : f->n_curves;
     }
     if (f->n_curves == 0)
@@ -221,14 +221,14 @@ static void read_sinusoid(nanoscope_file *f)
     double sync = nanoscope_number(&f->header, scan, "Sync Distance QNM");
     const double points = nanoscope_number(&f->header, scan, "Sample Points");
     const double kilohertz = nanoscope_number(&f->header, scan, "PFT Freq");
-    const double n = (double)samples(f);
+    const double n = (double)samples_of_curve(f);
     if (isnan(sync))
         sync = nanoscope_number(&f->header, scan, "Sync Distance");
     if (capture == NULL || strcmp(capture, "Allow") != 0 || !(amplitude > 0) || !(points > 0) ||
         !(sync >= 0 && sync <= points) || f->n_hold > 0)
         return;
     f->sinusoid = true;
-    f->shift = (size_t)lrint(sync / points * n) % samples(f);
+    f->shift = (size_t)lrint(sync / points * n) % samples_of_curve(f);
     f->ramp = 2e-9 * amplitude;
     const double period = force_positive(1e-3 / kilohertz);
     f->time_in = period * (double)f->n_in / n;
@@ -258,7 +258,7 @@ static void read_place(nanoscope_file *f)
 /* Where sample i in the order of time is stored in its curve. */
 static size_t place_of(const nanoscope_file *f, size_t i)
 {
-    const size_t n = samples(f);
+    const size_t n = samples_of_curve(f);
     if (f->sinusoid)
         i = (i + f->shift + n - f->n_in) % n;
     return i < f->n_in ? f->n_in - 1 - i : i;
@@ -267,7 +267,7 @@ static size_t place_of(const nanoscope_file *f, size_t i)
 wt_status nanoscope_stored(const nanoscope_file *f, const nanoscope_channel *channel, size_t curve,
                            const unsigned char **stored, wt_error *err)
 {
-    const size_t n = channel->width * samples(f);
+    const size_t n = channel->width * samples_of_curve(f);
     return window_bytes(&f->windows[channel - f->channels], channel->offset + curve * n, n, stored,
                         err);
 }

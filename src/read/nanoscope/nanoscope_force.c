@@ -55,7 +55,7 @@ force_facts nanoscope_facts(const nanoscope_file *f, size_t s)
 }
 
 /* Sample i in the order of time: the piezo rises away from the turn, or swings. */
-static double ramp(const nanoscope_file *f, size_t i)
+static double ramp_height(const nanoscope_file *f, size_t i)
 {
     const double n = (double)(f->n_in + f->n_out);
     if (f->sinusoid)
@@ -80,8 +80,9 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     /* None of these signals has an offset. */
     for (size_t i = 0; i < n; i++) {
         const size_t at = source->from + i;
-        values[i] = scaling.multiplier *
-                    (is_ramp ? ramp(f, at) : nanoscope_count(f, signal->channel, stored, at));
+        values[i] =
+            scaling.multiplier *
+            (is_ramp ? ramp_height(f, at) : nanoscope_count(f, signal->channel, stored, at));
     }
     /* The same words for each curve, so that the log counts them in one line. */
     if (samples_mend(values, n) > 0)

@@ -294,16 +294,13 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
     (void)self;
     (void)options;
     nid_file file = {0};
-    wt_image *list = NULL;
     size_t n = 0;
     wt_status status = nid_file_open(input, &file, err);
     if (status != WT_OK)
         return status;
-    list = calloc(file.n, sizeof *list);
-    if (list == NULL) {
+    wt_image *list = calloc(file.n, sizeof *list);
+    if (list == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the images");
-        goto done;
-    }
     for (size_t i = 0; i < file.n && status == WT_OK; i++)
         if (!nid_is_spectroscopy(&file.channels[i]))
             status = read_image(&file, &file.channels[i], log, &list[n++], err);
@@ -314,7 +311,6 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
         *n_images = n;
         list = NULL;
     }
-done:
     for (size_t i = 0; list != NULL && i < n; i++)
         wt_image_clear(&list[i]);
     free(list);

@@ -51,45 +51,28 @@ const nid_channel *nid_tune(const nid_file *file)
     return NULL;
 }
 
-wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+/* What it took stands in the spectrum, also on failure. */
+static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_noise_spectrum *spectrum,
+                           wt_error *err)
 {
-    (void)self;
-    (void)options;
-    (void)log;
-    nid_file file = {0};
-    wt_status status = nid_file_open(input, &file, err);
-    if (status != WT_OK)
-        return status;
-    const nid_channel *c = nid_tune(&file);
-    const nid_header *h = &file.header;
-    if (c == NULL) {
-        status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
-        wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "
-                               "m/sqrt(Hz)");
-        goto done;
-    }
+    const nid_header *const h = &file->header;
     const double range = nid_number(h, c->section, "Dim0Range"),
                  first = nid_number(h, c->section, "Dim0Min");
     const char *unit = nid_get(h, c->section, "Dim0Unit");
     if (!(range > 0) || !(first >= 0) || unit == NULL || strcmp(unit, "Hz") != 0) {
-        status = wt_fail(err, WT_E_CORRUPT, "the frequencies of the spectrum are not known");
+        wt_fail(err, WT_E_CORRUPT, "the frequencies of the spectrum are not known");
         wt_error_place(err, "[%s]", c->section);
         wt_error_expected(err, "Dim0Range above 0, Dim0Min and Dim0Unit=Hz");
-        goto done;
+        return WT_E_CORRUPT;
     }
     wt_noise_spectrum made = {.n = c->points, .amplitudes = true};
     made.frequency = malloc(c->points * sizeof *made.frequency);
     made.density = malloc(c->points * sizeof *made.density);
     *spectrum = made;
-    if (made.frequency == NULL || made.density == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
-        goto done;
-    }
-    status = nid_decode(&file, c, 0, c->points, 1, made.density, err);
-    if (status != WT_OK)
-        goto done;
-    for (size_t i = 0; i < c->points; i++) {
+    if (made.frequency == NULL || made.density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+    const wt_status status = nid_decode(file, c, 0, c->points, 1, made.density, err);
+    for (size_t i = 0; status == WT_OK && i < c->points; i++) {
         made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
         made.density[i] *= made.density[i];
     }
@@ -99,7 +82,25 @@ wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read
     spectrum->resonance = value_of(h, "Frequency:", WT_Q_FREQUENCY);
     spectrum->quality = value_of(h, "Q Factor:", WT_Q_NONE);
     spectrum->sensitivity = (double)NAN;
-done:
+    return status;
+}
+
+wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    (void)self;
+    (void)options;
+    (void)log;
+    nid_file file = {0};
+    wt_status status = nid_file_open(input, &file, err);
+    const nid_channel *const c = status == WT_OK ? nid_tune(&file) : NULL;
+    if (c != NULL) {
+        status = read_tune(&file, c, spectrum, err);
+    } else if (status == WT_OK) {
+        status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
+        wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "
+                               "m/sqrt(Hz)");
+    }
     nid_file_close(&file);
     return status;
 }

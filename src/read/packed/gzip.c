@@ -22,7 +22,7 @@ typedef struct unpacking {
     spool content;
 } unpacking;
 
-static wt_status fail(wt_error *err, const unpacking *u, const char *what)
+static wt_status fail_unpacking(wt_error *err, const unpacking *u, const char *what)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", what);
     wt_error_place(err, "gzip archive, after %zu bytes of its content", u->content.length);
@@ -50,7 +50,7 @@ static wt_status put_piece(unpacking *u, wt_error *err)
     u->z.next_out = u->out;
     u->z.avail_out = (uInt)PIECE;
     if (status == WT_OK && u->content.length > MOST_BYTES)
-        return fail(err, u, "the archive unpacks to more than 8 GiB");
+        return fail_unpacking(err, u, "the archive unpacks to more than 8 GiB");
     return status;
 }
 
@@ -64,13 +64,15 @@ static wt_status end_member(unpacking *u, bool *more, wt_error *err)
     wt_status status = wt_input_at(u->input, from, head, n, err);
     *more = status == WT_OK && gzip_is(head, n);
     if (*more)
-        return inflateReset(&u->z) == Z_OK ? WT_OK : fail(err, u, "the archive cannot be unpacked");
+        return inflateReset(&u->z) == Z_OK
+                   ? WT_OK
+                   : fail_unpacking(err, u, "the archive cannot be unpacked");
     while (status == WT_OK && from < u->n) {
         const size_t left = u->n - from, step = left < PIECE ? left : PIECE;
         status = wt_input_at(u->input, from, u->in, step, err);
         for (size_t i = 0; status == WT_OK && i < step; i++)
             if (u->in[i] != 0)
-                status = fail(err, u, "something else stands behind the archive");
+                status = fail_unpacking(err, u, "something else stands behind the archive");
         from += step;
     }
     return status;
@@ -96,9 +98,9 @@ static wt_status unpack(unpacking *u, wt_error *err)
         else if (what == Z_MEM_ERROR)
             status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
         else if (what == Z_BUF_ERROR && at_end)
-            status = fail(err, u, "the end of the archive is missing");
+            status = fail_unpacking(err, u, "the end of the archive is missing");
         else if (what != Z_OK && what != Z_BUF_ERROR)
-            status = fail(err, u, "the archive is damaged");
+            status = fail_unpacking(err, u, "the archive is damaged");
     }
     return status;
 }

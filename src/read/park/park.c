@@ -145,7 +145,8 @@ static void read_channel(const unsigned char *slot, size_t number, park_channel 
             c->quantity = known[i].quantity;
 }
 
-static wt_status fail(wt_error *err, wt_status status, const char *message, const char *expected)
+static wt_status fail_expected(wt_error *err, wt_status status, const char *message,
+                               const char *expected)
 {
     wt_fail(err, status, "%s", message);
     wt_error_expected(err, "%s", expected);
@@ -157,7 +158,7 @@ static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
     const unsigned char *header = NULL;
     const size_t block = tags->samples.n;
     if (tags->header.n < HEADER || !tags->samples.there)
-        return fail(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
+        return fail_expected(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
     const wt_status status = window_bytes(&f->window, tags->header.from, HEADER, &header, err);
     if (status != WT_OK)
         return status;
@@ -168,8 +169,8 @@ static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
     if (f->n_channels == 0 || f->n_channels > CHANNELS || f->n_samples < 2 || f->n_curves == 0 ||
         block / 4 / f->n_channels / f->n_samples != f->n_curves ||
         block != 4 * f->n_channels * f->n_samples * f->n_curves) {
-        fail(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
-             "four bytes for each sample");
+        fail_expected(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
+                      "four bytes for each sample");
         wt_error_found(err, "%zu bytes for %zu curves of %zu channels of %zu samples", block,
                        f->n_curves, f->n_channels, f->n_samples);
         return WT_E_CORRUPT;
@@ -189,10 +190,11 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
     if (status != WT_OK)
         return status;
     if (!is_park(&tags))
-        return fail(err, WT_E_CORRUPT, "damaged directory of tags", "a TIFF file of Park Systems");
+        return fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
+                             "a TIFF file of Park Systems");
     if (!tags.header.there)
-        return fail(err, WT_E_EMPTY, "the picture holds no force curve",
-                    "the tag 50438 of spectroscopy");
+        return fail_expected(err, WT_E_EMPTY, "the picture holds no force curve",
+                             "the tag 50438 of spectroscopy");
     return read_header(f, &tags, err);
 }
 
@@ -373,8 +375,8 @@ static wt_status read_picture_header(const unsigned char *header, const park_tag
     if (number >= sizeof types / sizeof *types || head->n_columns == 0 || head->n_rows == 0 ||
         size / sample_width(*type) / head->n_columns != head->n_rows ||
         size != sample_width(*type) * head->n_columns * head->n_rows) {
-        fail(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
-             "16 bits, 32 bits or a float for each pixel");
+        fail_expected(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
+                      "16 bits, 32 bits or a float for each pixel");
         wt_error_found(err, "%zu bytes for %zu x %zu pixels of type %zu", size, head->n_columns,
                        head->n_rows, number);
         return WT_E_CORRUPT;
@@ -429,14 +431,14 @@ static wt_status park_images(const file_reader *self, wt_input *input,
     if (status == WT_OK)
         status = find_tags(&window, &tags, err);
     if (status == WT_OK && !is_park(&tags))
-        status =
-            fail(err, WT_E_CORRUPT, "damaged directory of tags", "a TIFF file of Park Systems");
+        status = fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
+                               "a TIFF file of Park Systems");
     if (status == WT_OK && !(tags.picture.there && tags.picture_header.there))
-        status = fail(err, WT_E_EMPTY, "the file holds no picture of measured values",
-                      "the tags 50434 and 50435");
+        status = fail_expected(err, WT_E_EMPTY, "the file holds no picture of measured values",
+                               "the tags 50434 and 50435");
     if (status == WT_OK && tags.picture_header.n < PICTURE_LEAST)
-        status =
-            fail(err, WT_E_CORRUPT, "the header of the picture is cut off", "260 bytes or more");
+        status = fail_expected(err, WT_E_CORRUPT, "the header of the picture is cut off",
+                               "260 bytes or more");
     if (status == WT_OK)
         status = read_picture(&window, &tags, &list, err);
     window_close(&window);

@@ -218,7 +218,7 @@ void text_log_columns(const text_file *file, wt_parselog *log);
 void text_log_unknown(const text_file *file, wt_parselog *log);
 void text_log_assumed(const text_file *file, wt_parselog *log);
 /* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
-wt_status text_nothing(const text_file *file, const char *what, wt_error *err);
+wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err);
 
 /* ---- the names row ------------------------------------------------------------------------ */
 

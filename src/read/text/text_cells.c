@@ -38,7 +38,7 @@ static void trim_cell(text_span *cell)
         cell->length--;
 }
 
-static bool append(text_cells *cells, const char *text, size_t length)
+static bool append_characters(text_cells *cells, const char *text, size_t length)
 {
     if (cells->n == cells->capacity) {
         size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
@@ -86,7 +86,7 @@ static bool split_at(text_cells *cells, const char *line, size_t length, char ma
 {
     for (size_t from = 0;;) {
         size_t end = cell_end(line, from, length, mark);
-        if (!append(cells, line + from, end - from))
+        if (!append_characters(cells, line + from, end - from))
             return false;
         if (end >= length)
             return true;
@@ -114,14 +114,14 @@ static bool split_whitespace(text_cells *cells, const char *line, size_t length)
         size_t from = i;
         const size_t quoted = i < length ? quoted_end(line, i, length) : 0;
         if (quoted > 0) {
-            if (!append(cells, line + from + 1, quoted - from - 2))
+            if (!append_characters(cells, line + from + 1, quoted - from - 2))
                 return false;
             i = quoted;
             continue;
         }
         while (i < length && !is_blank(line[i]))
             i++;
-        if (i > from && !append(cells, line + from, i - from))
+        if (i > from && !append_characters(cells, line + from, i - from))
             return false;
     }
     return true;
@@ -140,7 +140,7 @@ static bool split_fixed(text_cells *cells, const char *line, size_t length,
             while (i < length && ((unsigned char)line[i] & 0xc0u) == 0x80u)
                 i++;
         }
-        if (!append(cells, line + from, i - from))
+        if (!append_characters(cells, line + from, i - from))
             return false;
         column++;
     }

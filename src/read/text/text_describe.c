@@ -32,7 +32,8 @@ static const force_stream *stream_of(const text_reading *r)
     return r->piece == SIZE_MAX ? r->self->force : &text_force_first;
 }
 
-static wt_status begin(const text_reading *r, wt_parselog *log, text_parts **parts, wt_error *err)
+static wt_status begin_parts(const text_reading *r, wt_parselog *log, text_parts **parts,
+                             wt_error *err)
 {
     return text_parts_begin(r->self, r->input, r->piece, r->kinds, r->options, log, parts, err);
 }
@@ -227,7 +228,7 @@ static wt_status add_tables(const text_reading *r, const text_parts *parts, tabl
     size_t n = 0;
     wt_status status = WT_OK;
     if (file->n_tables < file->n_seen) {
-        status = begin(r, NULL, &again, facts->err);
+        status = begin_parts(r, NULL, &again, facts->err);
         if (status == WT_OK) {
             file = text_parts_file(again);
             status = text_parts_next(again, facts->err);
@@ -307,7 +308,7 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog 
     }
     status = add_layout(r, parts, facts);
     if (status == WT_OK && file->n_seen == 0) {
-        (void)text_nothing(file, "table that is understood", &problem);
+        (void)text_fail_empty(file, "table that is understood", &problem);
         add_problem(&problem, facts);
     }
     if (status == WT_OK && text_has(file, WT_KIND_SWEEP) && file->n_seen > 0)
@@ -327,7 +328,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
     facts_add(facts, "description version", "", "", "%s", description->version);
     wt_status status = text_piece(description, input, &r.piece, facts->err);
     if (status == WT_OK)
-        status = begin(&r, log, &parts, facts->err);
+        status = begin_parts(&r, log, &parts, facts->err);
     if (status == WT_OK)
         status = describe_parts(&r, parts, log, &has, facts);
     text_parts_free(parts);

@@ -21,7 +21,7 @@ static size_t whole_lines(const unsigned char *bytes, size_t n)
     return 0;
 }
 
-static wt_status add(text_feed *feed, const unsigned char *bytes, size_t n, wt_error *err)
+static wt_status add_bytes(text_feed *feed, const unsigned char *bytes, size_t n, wt_error *err)
 {
     feed_piece *const piece = calloc(1, sizeof *piece);
     if (piece == NULL)
@@ -52,7 +52,7 @@ static wt_status read_all(text_feed *feed, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     const wt_status status = wt_input_bytes(feed->input, &bytes, &feed->size, err);
-    return status == WT_OK ? add(feed, bytes, feed->size, err) : status;
+    return status == WT_OK ? add_bytes(feed, bytes, feed->size, err) : status;
 }
 
 /* A line that is longer than a piece makes it longer. */
@@ -73,7 +73,7 @@ static wt_status read_piece(text_feed *feed, wt_error *err)
             return status;
         const size_t whole = n == left ? n : whole_lines(feed->buffer, n);
         if (whole > 0)
-            return add(feed, feed->buffer, whole, err);
+            return add_bytes(feed, feed->buffer, whole, err);
     }
 }
 

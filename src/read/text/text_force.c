@@ -28,7 +28,7 @@ typedef struct text_source {
     size_t index;
 } text_source;
 
-static double header(const text_table *t, header_value value)
+static double header_number(const text_table *t, header_value value)
 {
     return t->header.value[value];
 }
@@ -80,7 +80,7 @@ static double duration_of(const text_table *t, wt_segment_kind kind, span rows)
 {
     const double n = (double)(rows.end - rows.first);
     const text_column *time = text_table_column(t, WT_Q_TIME, (int)kind);
-    const double said = header(t, HEADER_DURATION);
+    const double said = header_number(t, HEADER_DURATION);
     if (!isnan(said) || time == NULL || n < 2)
         return said;
     return (text_table_value(t, rows.end - 1, time) - text_table_value(t, rows.first, time)) * n /
@@ -97,11 +97,11 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
         .kind = kind,
         .index = curve->n_segments,
         .place = place,
-        .velocity = header(t, HEADER_VELOCITY),
-        .setpoint = header(t, HEADER_SETPOINT),
+        .velocity = header_number(t, HEADER_VELOCITY),
+        .setpoint = header_number(t, HEADER_SETPOINT),
         .setpoint_quantity = WT_Q_FORCE,
-        .cantilever = {.spring_constant = force_positive(header(t, HEADER_SPRING_CONSTANT)),
-                       .sensitivity = force_positive(header(t, HEADER_SENSITIVITY))}};
+        .cantilever = {.spring_constant = force_positive(header_number(t, HEADER_SPRING_CONSTANT)),
+                       .sensitivity = force_positive(header_number(t, HEADER_SENSITIVITY))}};
     if (!force_wants_segment(&s->base, kind))
         return WT_OK;
     find_signals(s, t, kind, &facts);
@@ -202,8 +202,8 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
         return status;
     const text_table *t = &file->tables[s->next.table];
     const size_t block = t->blocks[s->next.first];
-    curve->x = header(t, HEADER_POSITION_X);
-    curve->y = header(t, HEADER_POSITION_Y);
+    curve->x = header_number(t, HEADER_POSITION_X);
+    curve->y = header_number(t, HEADER_POSITION_Y);
     while (s->next.table < file->n_tables) {
         t = &file->tables[s->next.table];
         span rows = s->next;
@@ -244,8 +244,8 @@ size_t text_count_curves(const text_file *file, unsigned kinds)
     return n;
 }
 
-static wt_status begin(text_source *s, const file_reader *self, wt_input *text, size_t piece,
-                       wt_parselog *log, wt_error *err)
+static wt_status begin_text(text_source *s, const file_reader *self, wt_input *text, size_t piece,
+                            wt_parselog *log, wt_error *err)
 {
     text_parts_free(s->parts);
     s->parts = NULL;
@@ -267,7 +267,7 @@ static wt_status read_through(text_source *s, wt_error *err)
     if (status != WT_END)
         return status;
     if (s->file->n_seen == 0)
-        return text_nothing(s->file, "force curve", err);
+        return text_fail_empty(s->file, "force curve", err);
     text_log_unknown(s->file, s->base.log);
     return WT_OK;
 }
@@ -283,12 +283,12 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
     if (status == WT_OK)
         status = text_piece(self->description, text, &piece, err);
     if (status == WT_OK)
-        status = begin(s, self, text, piece, source->log, err);
+        status = begin_text(s, self, text, piece, source->log, err);
     if (status == WT_OK)
         status = read_through(s, err);
     /* Unless all tables are at hand they come again, and have nothing more to say. */
     if (status == WT_OK && s->file->n_tables < s->file->n_seen)
-        status = begin(s, self, text, piece, NULL, err);
+        status = begin_text(s, self, text, piece, NULL, err);
     return status;
 }
 
@@ -299,7 +299,7 @@ static wt_status open_first(wt_force_source *source, const file_reader *self, wt
     size_t piece = 0;
     wt_status status = text_piece(self->description, input, &piece, err);
     s->base.n_curves = SIZE_MAX;
-    return status == WT_OK ? begin(s, self, input, piece, source->log, err) : status;
+    return status == WT_OK ? begin_text(s, self, input, piece, source->log, err) : status;
 }
 
 const force_stream text_force_first = {.size = sizeof(text_source),

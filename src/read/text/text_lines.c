@@ -91,8 +91,8 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
 }
 
 /* NULL when out of memory or when the system cannot convert. */
-static char *convert(const encoding_choice *c, const unsigned char *bytes, size_t length,
-                     size_t *n_out, size_t *n_replaced)
+static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                          size_t *n_out, size_t *n_replaced)
 {
     const size_t unit = c->utf_16 ? 2 : 1;
     /* Two bytes of UTF-16 become at most three, one of Latin-1 at most two. */
@@ -101,16 +101,16 @@ static char *convert(const encoding_choice *c, const unsigned char *bytes, size_
     const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
     char *text = malloc(capacity);
     iconv_t converter = iconv_open("UTF-8", c->iconv);
-    if (text == NULL || converter == (iconv_t)-1)
-        goto fail;
+    bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = length, room = capacity - 1;
     char *out = text;
-    while (left >= unit) {
+    while (good && left >= unit) {
         if (iconv(converter, &in, &left, &out, &room) != (size_t)-1)
             break;
-        if (errno == E2BIG || room < 3)
-            goto fail;
+        good = errno != E2BIG && room >= 3;
+        if (!good)
+            break;
         memcpy(out, replacement, 3);
         out += 3;
         room -= 3;
@@ -118,12 +118,12 @@ static char *convert(const encoding_choice *c, const unsigned char *bytes, size_
         left -= unit;
         (*n_replaced)++;
     }
-    iconv_close(converter);
-    *n_out = (size_t)(out - text);
-    return text;
-fail:
     if (converter != (iconv_t)-1)
         iconv_close(converter);
+    if (good) {
+        *n_out = (size_t)(out - text);
+        return text;
+    }
     free(text);
     return NULL;
 }
@@ -166,7 +166,7 @@ static wt_status decode(const encoding_choice *c, const unsigned char *bytes, si
     if (c->iconv == NULL)
         made.text = clean_utf_8((const char *)bytes, length, &n, &made.n_replaced);
     else
-        made.text = convert(c, bytes, length, &n, &made.n_replaced);
+        made.text = text_to_utf8(c, bytes, length, &n, &made.n_replaced);
     if (made.text == NULL || !find_lines(&made, n)) {
         lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");

@@ -28,8 +28,8 @@ static const struct {
                  {WT_Q_VOLTAGE_DENSITY, true, true}};
 
 /* Rows without a place in the spectrum are left out with a warning. */
-static wt_status collect(const text_file *file, wt_parselog *log, point *points,
-                         wt_noise_spectrum *spectrum, wt_error *err)
+static wt_status collect_points(const text_file *file, wt_parselog *log, point *points,
+                                wt_noise_spectrum *spectrum, wt_error *err)
 {
     const text_table *const t = &file->tables[0];
     size_t n_left_out = 0, line = 0;
@@ -70,7 +70,7 @@ static wt_status collect(const text_file *file, wt_parselog *log, point *points,
     return WT_OK;
 }
 
-static wt_status sorted(point *points, wt_noise_spectrum *spectrum, wt_error *err)
+static wt_status fill_sorted(point *points, wt_noise_spectrum *spectrum, wt_error *err)
 {
     const size_t n = spectrum->n;
     qsort(points, n, sizeof *points, by_frequency);
@@ -108,11 +108,11 @@ wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_rea
     if (status == WT_OK && file.n_tables == 1 && points == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK && points != NULL)
-        status = collect(&file, log, points, spectrum, err);
+        status = collect_points(&file, log, points, spectrum, err);
     if (status == WT_OK && spectrum->n < 2)
-        status = text_nothing(&file, "spectrum of thermal noise", err);
+        status = text_fail_empty(&file, "spectrum of thermal noise", err);
     if (status == WT_OK)
-        status = sorted(points, spectrum, err);
+        status = fill_sorted(points, spectrum, err);
     free(points);
     text_file_free(&file);
     return status;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool grow(text_table *t)
+static bool grow_rows(text_table *t)
 {
     const size_t width = t->n_columns > 0 ? t->n_columns : 1;
     double *values = array_grow(t->values, t->n_rows, width * sizeof *values);
@@ -28,7 +28,7 @@ static bool grow(text_table *t)
 
 bool scan_split_row(text_scanner *s)
 {
-    if (cells_split(&s->row, s->line, s->table->separator, s->d) && grow(s->table))
+    if (cells_split(&s->row, s->line, s->table->separator, s->d) && grow_rows(s->table))
         return true;
     scan_no_memory(s);
     return false;

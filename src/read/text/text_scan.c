@@ -53,7 +53,8 @@ static void new_table(text_scanner *s)
     s->blank = false;
 }
 
-static bool split(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
+static bool split_cells(text_scanner *s, text_cells *cells, text_span line,
+                        cell_separator separator)
 {
     if (cells_split(cells, line, separator, s->d))
         return true;
@@ -98,7 +99,7 @@ static void find_units(text_scanner *s)
     for (size_t i = s->i + 1; i <= s->i + 4 && line_at(s, i, &line); i++) {
         if (s->comment_names)
             (void)line_uncomment(s->d, &line);
-        if (!split(s, &s->names.units, line, s->names.separator))
+        if (!split_cells(s, &s->names.units, line, s->names.separator))
             return;
         if (cells_blank(&s->names.units))
             continue;
@@ -129,7 +130,7 @@ static char choose_decimal(text_scanner *s)
     if (s->table->separator == SEPARATOR_COMMA)
         return '.';
     for (size_t i = s->i + 1; i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
-        if (!split(s, &s->row, line, s->table->separator))
+        if (!split_cells(s, &s->row, line, s->table->separator))
             return '.';
         cells_count_marks(&s->row, &commas, &points);
     }
@@ -289,7 +290,7 @@ static void units_line(text_scanner *s)
 {
     text_span units = s->line;
     if (pattern_part(&s->d->units_line, &units)) {
-        if (split(s, &s->names.units, units, s->names.separator))
+        if (split_cells(s, &s->names.units, units, s->names.separator))
             begin_rows(s);
     } else if (s->comment) {
         header_line(s);

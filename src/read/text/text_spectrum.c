@@ -41,8 +41,8 @@ static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err
     return WT_E_CORRUPT;
 }
 
-static wt_status collect(const text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
-                         wt_parselog *log, wt_error *err)
+static wt_status collect_points(const text_file *file, point *points, size_t *n,
+                                wt_spectrum_kind *kind, wt_parselog *log, wt_error *err)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
@@ -88,7 +88,6 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
 {
     text_file file;
     wt_power_spectrum made = {.n = 0};
-    point *points = NULL;
     size_t rows = 0, n = 0;
     wt_status status = text_scan(self, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
@@ -96,40 +95,31 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     text_log_columns(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
-    points = malloc((rows + 1) * sizeof *points);
-    if (points == NULL) {
+    point *points = malloc((rows + 1) * sizeof *points);
+    made.wavenumber = malloc((rows + 1) * sizeof *made.wavenumber);
+    made.density = malloc((rows + 1) * sizeof *made.density);
+    if (points == NULL || made.wavenumber == NULL || made.density == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
-        goto done;
-    }
-    status = collect(&file, points, &n, &made.kind, log, err);
-    if (status != WT_OK)
-        goto done;
-    if (n < 2) {
-        status = text_nothing(&file, "power spectrum", err);
-        goto done;
-    }
-    qsort(points, n, sizeof *points, by_wavenumber);
-    made.wavenumber = malloc(n * sizeof *made.wavenumber);
-    made.density = malloc(n * sizeof *made.density);
-    if (made.wavenumber == NULL || made.density == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
-        goto done;
-    }
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0 && !(points[i].wavenumber > points[i - 1].wavenumber)) {
+    if (status == WT_OK)
+        status = collect_points(&file, points, &n, &made.kind, log, err);
+    if (status == WT_OK && n < 2)
+        status = text_fail_empty(&file, "power spectrum", err);
+    if (status == WT_OK)
+        qsort(points, n, sizeof *points, by_wavenumber);
+    for (made.n = 0; status == WT_OK && made.n < n; made.n++) {
+        const point *const p = &points[made.n];
+        if (made.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {
             status = wt_fail(err, WT_E_CORRUPT, "a wavenumber stands twice");
             wt_error_expected(err, "one density for each wavenumber");
-            wt_error_found(err, "two for %g rad/m", points[i].wavenumber);
-            goto done;
+            wt_error_found(err, "two for %g rad/m", p->wavenumber);
         }
-        made.wavenumber[i] = points[i].wavenumber;
-        made.density[i] = points[i].density;
+        made.wavenumber[made.n] = p->wavenumber;
+        made.density[made.n] = p->density;
     }
-    made.n = n;
-    *spectrum = made;
-    made = (wt_power_spectrum){.n = 0};
-done:
-    wt_power_spectrum_clear(&made);
+    if (status == WT_OK)
+        *spectrum = made;
+    else
+        wt_power_spectrum_clear(&made);
     free(points);
     text_file_free(&file);
     return status;

@@ -35,7 +35,7 @@ static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
 }
 
 /* The rows collected so far become an isotherm, if their frequency was swept. */
-static wt_status flush(sweep_builder *b)
+static wt_status end_isotherm(sweep_builder *b)
 {
     double low = (double)INFINITY, high = 0;
     const char *title = b->table->title;
@@ -92,7 +92,7 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
             const size_t row = rows[i], last = b->rows[b->n - 1];
             const int way = sweep_way(b, last, row);
             if (way * direction < 0 || !goes_on(b, last, row)) {
-                status = flush(b);
+                status = end_isotherm(b);
                 direction = 0;
             } else if (way != 0) {
                 direction = way;
@@ -100,7 +100,7 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
         }
         b->rows[b->n++] = rows[i];
     }
-    return status == WT_OK ? flush(b) : status;
+    return status == WT_OK ? end_isotherm(b) : status;
 }
 
 /* Amplitudes of one set strain are held better than this. */
@@ -303,7 +303,7 @@ static wt_status read_table(sweep_builder *b)
 }
 
 /* Moves isotherms and other sweeps; all or none. */
-static wt_status append(wt_sweep *to, wt_sweep *from, wt_error *err)
+static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
 {
     const size_t n = to->n_isotherms, n_ramps = to->n_ramps, n_strain = to->n_strain_sweeps;
     if (n_sweeps(to) > 0 && to->deformation != from->deformation) {
@@ -355,9 +355,9 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps.items[i]);
     if (status == WT_OK && n_sweeps(&made) == 0)
-        status = text_nothing(file, "sweep of frequency, temperature or strain", err);
+        status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
     if (status == WT_OK)
-        status = append(sweep, &made, err);
+        status = move_sweeps(sweep, &made, err);
     wt_sweep_clear(&made);
     return status;
 }

@@ -212,7 +212,7 @@ static const char *other_test_of(const text_file *file)
     return NULL;
 }
 
-wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
+wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err)
 {
     const char *const other = other_test_of(file);
     char steps[160] = "";

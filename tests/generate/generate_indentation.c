@@ -1,0 +1,99 @@
+/* A tip at the end of a lever that goes into rubber with memory and out again at one rate: the
+ * integrals of Lee and Radok (J. Appl. Mech. 27 (1960) 438) on the way in and of Ting (J. Appl.
+ * Mech. 33 (1966) 845) on the way out as sums over the whole past, with the mean of E(t) over each
+ * step of time, of which a curve has so many that what they leave is far below the noise.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "generate.h"
+
+#include <math.h>
+
+/* E(t) at the temperature of the curves, as its mean from one time to another. */
+static double mean_relaxation(const wt_rubber *rubber, double from, double to)
+{
+    const double a = pow(10, wt_wlf_log_shift(&rubber->law.wlf, TRUTH_TEMPERATURE));
+    double shear = rubber->prony.equilibrium_modulus;
+    for (size_t k = 0; k < rubber->prony.n; k++) {
+        const double tau = a * rubber->prony.relaxation_time[k];
+        shear += rubber->prony.modulus[k] * tau / (to - from) * exp(-from / tau) *
+                 -expm1((from - to) / tau);
+    }
+    return 2 * (1 + rubber->poisson_ratio) * shear / truth_vertical(TRUTH_TEMPERATURE);
+}
+
+static double force_at(const truth_press *p, double depth)
+{
+    double g, slope;
+    wt_contact_function(p->tip, depth, &g, &slope);
+    return g;
+}
+
+/* k (travel - depth) = past + now f(depth) */
+static double depth_at(const truth_press *p, double travel, double past, double now)
+{
+    double low = 0, high = fmax(travel, 0);
+    for (int i = 0; i < 60; i++) {
+        const double middle = (low + high) / 2;
+        *(p->spring_constant * (travel - middle) > past + now * force_at(p, middle) ? &low
+                                                                                    : &high) =
+            middle;
+    }
+    return (low + high) / 2;
+}
+
+/* Integral of E dx over the steps after `from` up to `to`, as it is at the end of step `to_time`.
+ */
+static double integral(const double *e, const double *x, int from, int to, int to_time)
+{
+    double sum = 0;
+    for (int m = from + 1; m <= to; m++)
+        sum += e[to_time - m] * (x[m] - x[m - 1]);
+    return sum;
+}
+
+/* The force on the way out: that of the contact at t1, from which on the integral of E ddepth is
+ * zero. *t1, which falls: the last end of a step where it is not negative; -1: the tip is free. */
+static double way_out(const truth_press *p, const double *e, const double *f, double *depth,
+                      double travel, int i, int *t1)
+{
+    double later = 0, force_later = 0;
+    for (; *t1 >= 0; --*t1) {
+        const double force = integral(e, f, 0, *t1, i);
+        depth[i] = travel - force / p->spring_constant;
+        const double open = integral(e, depth, *t1, i, i);
+        if (open >= 0) {
+            const double share = later < 0 ? open / (open - later) : 0;
+            const double met = force + share * (force_later - force);
+            depth[i] = travel - met / p->spring_constant;
+            return met;
+        }
+        later = open;
+        force_later = force;
+    }
+    depth[i] = travel;
+    return 0;
+}
+
+void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 * TRUTH_STEPS + 1])
+{
+    double e[2 * TRUTH_STEPS], depth[2 * TRUTH_STEPS + 1] = {0}, f[2 * TRUTH_STEPS + 1] = {0};
+    const double factor = p->factor / (1 - rubber->poisson_ratio * rubber->poisson_ratio);
+    const double step = p->travel / p->rate / TRUTH_STEPS;
+    int top = 0, t1 = 0; /* steps of the way in, once that is over */
+    for (int i = 0; i < 2 * TRUTH_STEPS; i++)
+        e[i] = factor * mean_relaxation(rubber, i * step, (i + 1) * step);
+    force[0] = 0;
+    for (int i = 1; i <= 2 * TRUTH_STEPS; i++) {
+        const double travel = p->travel * (1 - fabs(1 - (double)i / TRUTH_STEPS));
+        if (top == 0) { /* the lever takes it deeper for a while after the piezo has turned */
+            const double past = integral(e, f, 0, i - 1, i) - e[0] * f[i - 1];
+            depth[i] = depth_at(p, travel, past, e[0]);
+            f[i] = force_at(p, depth[i]);
+            force[i] = past + e[0] * f[i];
+            if (depth[i] >= depth[i - 1])
+                continue;
+            t1 = top = i - 1;
+        }
+        force[i] = way_out(p, e, f, depth, travel, i, &t1);
+        t1 = t1 < 0 || t1 == top ? t1 : t1 + 1; /* where the next one begins to look */
+    }
+}
