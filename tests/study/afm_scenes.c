@@ -3,7 +3,9 @@
  * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
  * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen;
  * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges, IB9 to IB12 and
- * II1 to II8 with what they try.
+ * II1 to II8 with what they try; IM1 to IM17 with the error of a misfit, IC9, IC10 and IM0 after
+ * it.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 

@@ -13,14 +13,23 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double snap_noise = 6.0;    /* a pull, in noise of the baseline */
-static const double snap_rest = 1.5;     /* and against the deepest pull elsewhere */
-static const double gap_tolerance = 0.5; /* of the indentation: how far a snap-on may lie */
-static const double work_errors = 3.0;   /* a work of adhesion, in its standard errors */
-static const double better_chi2 = 9.0;   /* 2 ln(likelihood ratio) against no adhesion */
-static const double least_tabor = 1.0;   /* far below 5 the law is another */
-static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
-static const double most_loss = 2.0;     /* rubber loses of what the lever gives back, too */
+/* A pull, in noise of the baseline: white noise gets there once in 1e9 samples, and maps have 1e8.
+ */
+static const double snap_noise = 6.0;
+/* And against the deepest pull elsewhere: two waves of one drift differ by less. */
+static const double snap_rest = 1.5;
+/* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
+ * beyond it is an event of the baseline. */
+static const double gap_tolerance = 0.5;
+static const double work_errors = 3.0; /* a work of adhesion, in its standard errors: 0.3 % */
+static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) against no adhesion: the same */
+/* Halfway, as a logarithm, from DMT (0.1) to JKR (5) is 0.7 (Johnson and Greenwood, J. Colloid
+ * Interface Sci. 192 (1997) 326). */
+static const double least_tabor = 1.0;
+/* Of the retract: in it half of a pull-off is over, which is a jump but for the samples in it. */
+static const double let_go = 0.02;
+/* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
+static const double most_loss = 2.0;
 enum {
     MAX_ROUNDS = 3,
     LEVER_ROUNDS = 50,
@@ -331,7 +340,7 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
 
 /* How much larger than the noise the residual is, and so the errors are: any parameter more lowers
  * the cost of a law that does not describe the curve. */
-static double misfit_of(const curve_solution *s)
+static double residual_over_noise(const curve_solution *s)
 {
     return sqrt(fmax(1.0, s->lack.statistic));
 }
@@ -341,13 +350,14 @@ static bool is_adhesive(const curve_fitting *f)
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
     const adhesion law = {f->table, s->p[CURVE_E], root * root};
-    return s->converged && root > work_errors * misfit_of(s) * s->standard_error[CURVE_W] &&
+    return s->converged &&
+           root > work_errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
 
 /* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
  * a jump before the contact point without adhesion. The solution is that of the kind then. */
-static bool try_from(curve_fitting *f, curve_solution start, double depth, size_t jump)
+static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double depth, size_t jump)
 {
     static const double depths[] = {2.0, 1.0, 4.0};
     const curve_samples *samples = &f->input.samples;
@@ -366,7 +376,7 @@ static bool try_from(curve_fitting *f, curve_solution start, double depth, size_
     return false;
 }
 
-static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
+static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
 {
     const double k = f->input.samples.spring_constant;
     curve_solution start = f->solution;
@@ -380,15 +390,15 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
     const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
-    return try_from(f, start, depth, jump);
+    return fit_adhesion_from(f, start, depth, jump);
 }
 
-static bool try_pull(curve_fitting *f, double pull, size_t jump)
+static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
 {
     curve_solution start = f->solution;
     start.p[CURVE_W] = pull;
     f->kind.adhesive = f->kind.constant_pull = true;
-    return try_from(f, start, pull / f->input.samples.spring_constant, jump);
+    return fit_adhesion_from(f, start, pull / f->input.samples.spring_constant, jump);
 }
 
 /* A fit, and the kind that it is of. */
@@ -400,14 +410,14 @@ typedef struct outcome {
 
 /* The better one of two laws of adhesion; what the other would give is in the error, as far as it
  * is likely. False if there is none: then all is as it was. */
-static bool fit_pull(curve_fitting *f, double pull, size_t jump)
+static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
 {
     const outcome before = {f->solution, f->kind, true};
     outcome law[2] = {{.found = false}, {.found = false}};
     for (int i = 0; i < 2; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
-        const bool found = i == 0 ? try_pull(f, pull, jump) : try_adhesive(f, pull, jump);
+        const bool found = i == 0 ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
         law[i] = (outcome){f->solution, f->kind, found};
     }
     const int best = law[1].found && (!law[0].found || law[1].solution.cost < law[0].solution.cost);
@@ -440,7 +450,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (fit_pull(f, found.pull, found.start))
+            if (fit_adhesion_laws(f, found.pull, found.start))
                 return true;
             found.end -= found.deepest + 1 - found.start;
             found.deepest = found.start;
@@ -453,7 +463,7 @@ bool curve_fit_adhesion(curve_fitting *f)
     /* Where the law without adhesion describes the curve it has none to speak of. */
     if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
         return true;
-    if (fit_pull(f, f->pull_off, 0) &&
+    if (fit_adhesion_laws(f, f->pull_off, 0) &&
         f->solution.effective_n * log(elastic.cost / f->solution.cost) >
             better_chi2 * fmax(1.0, f->solution.lack.statistic))
         return true;

@@ -46,13 +46,15 @@ static const wt_param rows[] = {
      .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
     {PARAM("least-chance", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "P",
-     .help = "chance by noise below which a residual is a misfit; 0: plain least squares, in which "
-             "no misfit is looked for"},
+     .help = "residuals that noise makes with a smaller chance are called a misfit; larger calls "
+             "more curves so, moduli stay; 0: no misfit is looked for, errors are those of noise "
+             "alone"},
     {PARAM("doubtful-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .help = "call a modulus doubtful to which a misfit gives a larger error, as a share of it"},
+     .help = "mark a modulus as doubtful to which a misfit gives a larger error, as a share of it; "
+             "it stays in all means; larger marks fewer"},
     {PARAM("largest-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .help = "reject a modulus with a larger standard error, as a share of it; at 0.5 its 95 % "
-             "interval reaches twice the modulus"},
+     .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "
+             "0.5 its 95 % interval reaches twice the modulus; smaller keeps fewer, surer curves"},
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
      .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
      .help = "do not fit the contact point: take this tip position"},
@@ -230,8 +232,9 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
-    fit->modulus.standard_error = e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) +
-                                           pow(f->loss_error, 2) + pow(f->other_contact, 2));
+    fit->modulus.standard_error =
+        e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) + pow(f->loss_error, 2) +
+                 pow(f->other_contact, 2) + pow(f->other_law, 2));
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
     fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];

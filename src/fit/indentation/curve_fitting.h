@@ -27,11 +27,11 @@ typedef struct curve_fitting {
     double loss_shift, loss_error; /* of the modulus: what other spectra have more, and its error */
     size_t n_snap;                 /* samples left out because of a snap-on */
     bool range_settled;
-    bool range_empty;     /* too few samples in it: the fit is that of all */
-    bool another_rubber;  /* than that of the spectrum */
-    bool unknown_loss;    /* it loses work, and the law of the fit does not describe it */
-    double other_law;     /* the same by another law of adhesion */
-    double other_contact; /* error of the modulus by a second contact point, over it */
+    bool range_empty;    /* too few samples in it: the fit is that of all */
+    bool another_rubber; /* than that of the spectrum */
+    bool unknown_loss;   /* it loses work, and the law of the fit does not describe it */
+    /* Errors of the modulus, over it: by another law of adhesion, by a second contact point. */
+    double other_law, other_contact;
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
 } curve_fitting;
 

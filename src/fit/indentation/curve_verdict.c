@@ -12,19 +12,25 @@
 #include <string.h>
 
 /* Limits of plausibility; every verdict names the number and the limit. */
-static const double contact_noise = 5.0; /* force in contact, in noise of the baseline */
-static const double baseline_bend = 0.1; /* departure from a line, of the largest force */
-static const double rigid_gain = 50.0;   /* % of modulus per % of sensitivity */
-static const double told_gain = 1000.0;  /* of it, in words */
-static const double reverse_ratio = 0.5; /* cost of the fit in reverse against the fit */
+/* Force in contact, in noise of the baseline: the largest of 2,000 samples is 3.5. */
+static const double contact_noise = 5.0;
+/* Departure from a line, of the largest force: in contact it would be an error of the modulus of
+ * that size and more. */
+static const double baseline_bend = 0.1;
+/* % of modulus per % of sensitivity: sensitivities are known to 1 % at best, and the modulus then
+ * to largest_error. */
+static const double rigid_gain = 50.0;
+static const double told_gain = 1000.0;  /* of it, in words: more digits say nothing */
+static const double reverse_ratio = 0.5; /* cost of the fit in reverse: no near tie */
 enum { BEND_BLOCKS = 16 };
-static const double least_bias = 0.005; /* of a modulus by loss, to be said */
+static const double least_bias = 0.005; /* of a modulus by loss, to be said: a digit of it */
 /* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
  * a pyramid was up to 12 % off, a cone 17 %. */
 static const double most_tried = 0.85;
-static const double flat_chance = 0.001; /* of a top of the force that flattens by noise */
-static const double most_flat = 0.5;     /* loss: much of it flattens the force, too */
-static const double large_error = 0.2;   /* of a modulus that is accepted, to be said */
+/* Of a top of the force that flattens by noise: a map of a thousand has one. */
+static const double flat_chance = 0.001;
+static const double most_flat = 0.5;   /* loss: much of it flattens the force, too */
+static const double large_error = 0.2; /* of a modulus, to be said: only its order is known then */
 
 static const struct {
     const char *id, *text;
@@ -129,8 +135,8 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
 }
 
 /* What is against the contact point; accepted if nothing is. */
-static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fit *fit,
-                                      char reason[160])
+static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                        char reason[160])
 {
     const curve_solution *s = &f->solution;
     const curve_samples *samples = &f->input.samples;
@@ -183,14 +189,14 @@ bool curve_unknown_loss(const curve_fitting *f)
 }
 
 /* Forces of a punch do not rise ever steeper. */
-static bool flattens(const curve_fitting *f)
+static bool force_flattens(const curve_fitting *f)
 {
     return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
            contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
 }
 
 /* Whether the contact law holds so deep. */
-static bool is_too_deep(const curve_fitting *f, char reason[160])
+static bool beyond_contact_law(const curve_fitting *f, char reason[160])
 {
     const double depth = f->solution.max_indentation;
     const wt_tip *tip = contact_table_tip(f->table);
@@ -229,8 +235,8 @@ static const char *cause_of_misfit(const curve_fitting *f)
 }
 
 /* A modulus with too wide an interval: what makes it wide. */
-static wt_curve_verdict judge_width(const curve_fitting *f, const wt_indent_fit *fit,
-                                    char reason[160])
+static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                         char reason[160])
 {
     const double e = fit->modulus.value, error = fit->modulus.standard_error / e;
     if (!(error > f->options->largest_error))
@@ -257,12 +263,12 @@ static wt_curve_verdict judge_width(const curve_fitting *f, const wt_indent_fit 
 }
 
 /* A modulus, and what is against it. */
-static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
-                                  char reason[160])
+static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                    char reason[160])
 {
     const curve_solution *s = &f->solution;
     const double departure = baseline_departure(f);
-    if (flattens(f)) {
+    if (force_flattens(f)) {
         curve_say(
             reason,
             "the force flattens towards its top (chance %s by noise): detector, or the sample "
@@ -274,10 +280,10 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         curve_say(reason, "the least-squares fit found no minimum within its iterations");
         return WT_CURVE_POOR_FIT;
     }
-    const wt_curve_verdict verdict = judge_width(f, fit, reason);
+    const wt_curve_verdict verdict = interval_verdict(f, fit, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
-    if (is_too_deep(f, reason))
+    if (beyond_contact_law(f, reason))
         return WT_CURVE_DOUBTFUL;
     if (curve_unknown_loss(f)) {
         curve_say(reason,
@@ -291,6 +297,13 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));
         return WT_CURVE_DOUBTFUL;
     }
+    const double pull = fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0);
+    if (departure > baseline_bend * fit->max_force && pull > 0.0) {
+        curve_say(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
+                  curve_si(pull, "N").words, curve_si(departure, "N").words,
+                  "a longer baseline would tell them apart");
+        return WT_CURVE_DOUBTFUL;
+    }
     if (departure > baseline_bend * fit->max_force) {
         curve_say(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
                   curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
@@ -302,7 +315,7 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
 }
 
 /* Whole, or not at all. */
-static void append(char reason[160], const char *text)
+static void append_note(char reason[160], const char *text)
 {
     if (strlen(reason) + strlen(text) < 160)
         strcat(reason, text);
@@ -315,54 +328,54 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     if (f->kind.adhesive && f->kind.constant_pull) {
         curve_say(text, "; with a constant pull of %s",
                   curve_si(fit->contact_pull.value, "N").words);
-        append(reason, text);
+        append_note(reason, text);
     } else if (f->kind.adhesive) {
         curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
-        append(reason, text);
+        append_note(reason, text);
     } else if (f->snap_on > 0.0) {
         curve_say(text, "; snap-on of %s left out (%zu samples)", curve_si(f->snap_on, "N").words,
                   f->n_snap);
-        append(reason, text);
+        append_note(reason, text);
     }
     if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
         !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
         curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
                   curve_si(f->pull_off, "N").words);
-        append(reason, text);
+        append_note(reason, text);
     }
     if (f->another_rubber && !f->kind.adhesive)
-        append(reason, "; not of the spectrum of the DMA");
+        append_note(reason, "; not of the spectrum of the DMA");
     if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
         curve_say(text, "; misfit: %s", misfit_text(fit).words);
-        append(reason, text);
+        append_note(reason, text);
     }
     if (f->unknown_loss && f->kind.memory) {
-        append(reason, "; the spectrum of the DMA does not describe its loss");
+        append_note(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= least_bias) {
         curve_say(
             text,
             "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
             100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
             f->loss_bias > 0.0 ? "less" : "more");
-        append(reason, text);
+        append_note(reason, text);
     } else if (f->unknown_loss) {
         curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
                   fit->loss > most_tried ? "how near |E*| is not known"
                                          : "|E*| at 1/(loading time) within 20 %");
-        append(reason, text);
+        append_note(reason, text);
     }
     if (fit->interference_amplitude > 0.0) {
         curve_say(text, "; interference of %s and a period of %s fitted",
                   curve_si(fit->interference_amplitude, "N").words,
                   curve_si(fit->interference_period, "m").words);
-        append(reason, text);
+        append_note(reason, text);
     }
     if (f->solution.bent)
-        append(reason, "; baseline bent, which the error holds");
+        append_note(reason, "; baseline bent, which the error holds");
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > large_error) {
         curve_say(text, "; standard error %.0f %%", 100.0 * error);
-        append(reason, text);
+        append_note(reason, text);
     }
     const struct {
         size_t n;
@@ -373,18 +386,18 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
         if (left_out[i].n > 0) {
             curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
-            append(reason, text);
+            append_note(reason, text);
         }
     if (!f->range_settled)
-        append(reason, "; the range of the fit did not settle");
+        append_note(reason, "; the range of the fit did not settle");
 }
 
 wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
 {
-    wt_curve_verdict verdict = judge_contact(f, fit, fit->reason);
+    wt_curve_verdict verdict = contact_verdict(f, fit, fit->reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
-    verdict = judge_law(f, fit, fit->reason);
+    verdict = law_verdict(f, fit, fit->reason);
     if (wt_curve_usable(verdict))
         add_notes(f, fit, fit->reason);
     return verdict;

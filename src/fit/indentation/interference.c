@@ -30,14 +30,15 @@ enum {
 };
 static const double shortest = 150e-9;    /* a period [m] */
 static const double longest = 1.5e-6;     /* slower ones are drift, whose shape nobody knows */
-static const double another = 2.0;        /* a fitted wave of so many times the amplitude */
+static const double wave_again = 2.0;     /* a fitted wave of so many times the amplitude */
 static const double worth_a_look = 0.25;  /* a peak, of the height that it would need */
 static const double false_alarms = 0.001; /* of baselines without a sine */
 static const double least_half = 0.25;    /* of the gain, from either half */
 static const double bent = 0.01;          /* chance of the baseline if it were straight */
-static const double few = 3.0;          /* cycles, of which a cubic leaves little to the spectrum */
+static const double few_cycles = 3.0;   /* cycles, of which a cubic leaves little to the spectrum */
 static const double per_freedom = 10.0; /* blocks */
-static const double nothing = 2e-5;     /* of the force: an amplitude that does not matter */
+static const double negligible_amplitude =
+    2e-5;                                 /* of the force: an amplitude that does not matter */
 static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
 
 typedef struct baseline {
@@ -210,7 +211,7 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
     double peak = find_peak(&b);
     if (f->solution.lack.baseline_chance < bent) { /* by few cycles? */
         double most = peak > 0.0 ? fit_sine(&b, peak, wave, NULL) : 0.0;
-        for (double number = b.lowest; number < few * b.cycle && number < b.highest;
+        for (double number = b.lowest; number < few_cycles * b.cycle && number < b.highest;
              number += 0.25 * b.cycle) {
             const double gain = fit_sine(&b, number, wave, NULL);
             if (gain > most) {
@@ -226,9 +227,9 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
     for (size_t i = 0; i < b.n; i++)
         rest[i] = b.x[i] - fitted[i];
     const double top = f->solution.p[CURVE_E] * f->workspace->g[f->input.samples.n - 1];
-    *slow = wave->p[WAVE_NUMBER] < few * b.cycle;
+    *slow = wave->p[WAVE_NUMBER] < few_cycles * b.cycle;
     return (*slow || fmin(half, gain - half) > least_half * gain) &&
-           curve_wave_amplitude(wave) > nothing * top &&
+           curve_wave_amplitude(wave) > negligible_amplitude * top &&
            chance_of(&b, rest, wave->p[WAVE_NUMBER], gain) < false_alarms;
 }
 
@@ -254,7 +255,7 @@ bool curve_fit_interference(curve_fitting *f)
         return true;
     curve_begin_wave(f, &wave);
     if (curve_scan_and_refine(f) && f->solution.converged &&
-        curve_wave_amplitude(&f->solution.wave) < another * curve_wave_amplitude(&wave) &&
+        curve_wave_amplitude(&f->solution.wave) < wave_again * curve_wave_amplitude(&wave) &&
         (!slow || !(f->solution.lack.baseline_chance < bent)))
         return true;
     s->force = f->workspace->force;

@@ -31,7 +31,7 @@ enum {
     WINDOW = BLOCKS_WINDOW,
     MAX_ORDER = BLOCKS_MAX_ORDER,
 };
-static const double least_bend = 3.0;      /* innovations: less is not looked at */
+static const double least_bend = 3.0;      /* innovations: less is noise in 1 of 400 */
 static const double less_steep = 0.9;      /* at the end than at the steepest */
 static const double still_straight = 0.75; /* of the force where it is steepest */
 
@@ -52,7 +52,7 @@ static void make_waves(const blocks *b, waves to)
     }
 }
 
-WIDE_REGISTERS static double judge_contact(const blocks *b, waves wave, double *statistic)
+WIDE_REGISTERS static double contact_residual_chance(const blocks *b, waves wave, double *statistic)
 {
     double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
     size_t n = 0, counted;
@@ -71,7 +71,7 @@ WIDE_REGISTERS static double judge_contact(const blocks *b, waves wave, double *
     return gsl_cdf_fdist_Q(*statistic, (double)counted, b->freedom);
 }
 
-static double judge_baseline(const blocks *b)
+static double baseline_residual_chance(const blocks *b)
 {
     double power[4][BEFORE], store[4][BEFORE], r[BEFORE];
     double *const columns[4] = {store[0], store[1], store[2], store[3]};
@@ -111,8 +111,8 @@ WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, doubl
 }
 
 /* Against the height, for samples may be left out and a piezo may slow down. */
-WIDE_REGISTERS static void judge_top(const curve_law *m, const double p[N], const blocks *b,
-                                     curve_lack *lack)
+WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], const blocks *b,
+                                         curve_lack *lack)
 {
     enum { ALL = MAX_ORDER + WINDOW };
     const curve_samples *s = m->samples;
@@ -164,11 +164,11 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
     const size_t history = b.n_before < MAX_ORDER ? b.n_before : MAX_ORDER;
     lack.window = b.travel;
     if (b.n_before >= BLOCKS_LEAST)
-        lack.baseline_chance = judge_baseline(&b);
+        lack.baseline_chance = baseline_residual_chance(&b);
     if (history == MAX_ORDER)
-        judge_top(m, p, &b, &lack);
+        find_flat_top(m, p, &b, &lack);
     make_waves(&b, wave);
-    lack.chance = judge_contact(&b, wave, &lack.statistic);
+    lack.chance = contact_residual_chance(&b, wave, &lack.statistic);
     for (size_t j = 0; j < CURVE_WAVES; j++)
         lack.wave[j] = 2.0 / (double)b.n * curve_dot(b.r + b.n_before, wave[j] + MAX_ORDER, b.n);
     return lack;

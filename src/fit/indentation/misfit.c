@@ -11,8 +11,9 @@
  * be others is in their errors, as is how they scatter: where the misfit is large its shape is not
  * known well enough to correct for it, and a linear model not good enough to say by how much.
  *
- * Tips that are as likely as the stated one (tip_moved of the workspace) are further columns, of a
- * standard deviation of 1: a misfit that they explain is not one of the law.
+ * Tips that are as likely as the stated one (tip_moved of the workspace), and a pull that is seen
+ * and that no law has, are further columns, of a standard deviation of 1: a misfit that they
+ * explain is not one of the law.
  *
  * What a discrepancy shares with the derivatives leaves no residual: a bow of the piezo, a modulus
  * that changes with depth. No residual tells them.
@@ -28,8 +29,8 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    LEGENDRE = 10, /* carry lengths from 0.175 on to 1 % of the variance */
-    MOVES = CURVE_TIP_MOVES,
+    LEGENDRE = 10,               /* carry lengths from 0.175 on to 1 % of the variance */
+    MOVES = CURVE_TIP_MOVES + 1, /* and a pull */
     M = LEGENDRE + MOVES,
     LENGTHS = 3,
     SIZES = 16, /* most */
@@ -40,8 +41,16 @@ static const double length_median = 0.5, length_sd = 0.7;
 /* Of a discrepancy, of the largest force: beyond it there is no law left to speak of. One that the
  * parameters imitate has no likelihood of its own, and the prior is all that limits it. */
 static const double largest_size = 0.3;
+/* And of the rms of the residual. What is worst to see of what is known is the size of a tip: a
+ * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
+ * that it leaves; a pull by 3 times. */
+static const double most_hidden = 60.0;
 static const double size_ratio = 2.5; /* of two sizes that are tried: likelihoods are wider */
 static const double no_size = 0.01;   /* of a likelihood: the size is none */
+static const double interval = 1.959963984540054, outside = 0.05; /* of an interval of 95 % */
+static const double moved_chi2 = 3.84; /* of a move that is not 0, by its 95 % */
+static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
+static const double error_step = 0.01; /* of an error: to be said with two digits */
 
 /* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
  * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
@@ -140,9 +149,10 @@ static void make_kernels(void)
 /* Whitened and in units of the noise: the discrepancy's columns without what the parameters can
  * imitate. */
 typedef struct data_sums {
-    size_t n_free, n_moves, which[N]; /* the free parameters */
-    double imitated[N][M];            /* of the parameters, by a coefficient of 1 */
-    double mm[M][M], my[M];           /* sums of the columns with each other and the residual */
+    size_t n_free, which[N]; /* the free parameters */
+    size_t n_tips, n_moves;  /* moves of the tip; with a pull */
+    double imitated[N][M];   /* of the parameters, by a coefficient of 1 */
+    double mm[M][M], my[M];  /* sums of the columns with each other and the residual */
 } data_sums;
 
 typedef struct columns {
@@ -195,12 +205,27 @@ static void add_baseline(const curve_law *m, const double p[N], const double *e,
     }
 }
 
-/* Of one block of the history or window: Legendre functions, in units of the largest force, and
- * what a moved tip changes. */
+/* A pull that is seen before contact and no law of the fit has: in contact it is there or is not,
+ * as far as the residual does not tell. That of a pull-off is no measure of it: rubber lets go with
+ * far more than it is touched with. */
+static double pull_without_law(const curve_fitting *f)
+{
+    return f->kind.adhesive ? 0.0 : f->snap_on;
+}
+
+/* Of one block of the history or window: Legendre functions, in units of the largest force, what a
+ * moved tip changes, and a pull. */
 static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
-                         const residual_blocks *b, double force, size_t n_moves, columns *to)
+                         const residual_blocks *b, double force, columns *to, data_sums *d)
 {
     double raw[M][BLOCKS_HISTORY];
+    const double pull = pull_without_law(f);
+    size_t n_tips = 0;
+    while (n_tips < CURVE_TIP_MOVES && f->workspace->tip_moved[n_tips] != NULL)
+        n_tips++;
+    const size_t n_moves = n_tips + (pull > 0.0);
+    d->n_tips = n_tips;
+    d->n_moves = n_moves;
     const double deepest = f->solution.max_indentation;
     for (size_t i = 0; i < BLOCKS_MAX_ORDER + b->n; i++) {
         double at[LEGENDRE] = {0.0};
@@ -208,7 +233,7 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             legendre(b->depth[i], at);
         for (size_t k = 0; k < LEGENDRE; k++)
             raw[k][i] = at[k] * b->touch[i] * force;
-        for (size_t k = 0; k < n_moves; k++) {
+        for (size_t k = 0; k < n_tips; k++) {
             double depth = b->depth[i] * deepest, now = 0.0, moved = 0.0;
             if (b->touch[i] > 0.0) {
                 wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
@@ -216,6 +241,8 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             }
             raw[LEGENDRE + k][i] = p[CURVE_E] * (moved - now) * b->touch[i];
         }
+        if (pull > 0.0)
+            raw[LEGENDRE + n_tips][i] = -pull * b->touch[i];
     }
     for (size_t k = 0; k < LEGENDRE + n_moves; k++)
         residual_blocks_whiten(b, raw[k], BLOCKS_MAX_ORDER, b->n, to->b[k]);
@@ -265,10 +292,8 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
     columns of;
     double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
     *to = (data_sums){0};
-    while (to->n_moves < MOVES && f->workspace->tip_moved[to->n_moves] != NULL)
-        to->n_moves++;
+    fill_columns(f, m, p, b, force, &of, to);
     const size_t n = b->n, columns_b = LEGENDRE + to->n_moves;
-    fill_columns(f, m, p, b, force, to->n_moves, &of);
     for (size_t i = 0; i < N; i++)
         if (m->free[i])
             to->which[to->n_free++] = i;
@@ -330,101 +355,166 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
 
 /* ---- sizes and lengths ----------------------------------------------------------------------- */
 
+/* What the parameters would be, and how sure that is. */
 typedef struct candidate {
-    double log_likelihood, log_prior, shift[N], variance[N];
+    double log_likelihood, chance, shift[N], variance[N];
 } candidate;
 
-/* With a discrepancy of size s and length number l; s = 0: with the moves of the tip alone. */
-static candidate try_size(const data_sums *d, double s, int l, double most, double freedom,
-                          double *explained)
+/* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
+ * alone make of the others is the candidate without a discrepancy. Where they fit better than the
+ * stated tip all of its deviation counts: forces are not linear in sizes of a tip, and which of
+ * them is off the residual does not say. False if there is no solution. */
+static bool take_out_moves(data_sums *d, candidate *none)
 {
-    const size_t from = s > 0.0 ? 0 : LEGENDRE, all = LEGENDRE + d->n_moves, n = all - from;
-    double root[M][M] = {{0.0}}, t[M][M], with[M], x[M], half[M][M];
-    candidate c = {.log_likelihood = 0.0};
-    /* rows of root': how each unit normal number enters the coefficients */
-    for (size_t k = 0; k < LEGENDRE && s > 0.0; k++)
-        for (size_t j = 0; j <= k; j++)
-            root[j][k] = s * kernels.root[l][k][j];
-    for (size_t k = 0; k < d->n_moves; k++)
-        root[LEGENDRE + k][LEGENDRE + k] = 1.0;
-    for (size_t i = 0; i < n; i++) {
-        with[i] = dot(root[from + i], d->my, all);
-        for (size_t k = 0; k < all; k++)
-            half[i][k] = dot(root[from + i], d->mm[k], all);
-    }
+    const size_t n = d->n_moves;
+    double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M];
+    *none = (candidate){.log_likelihood = 0.0};
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++)
-            t[i][j] = dot(half[i], root[from + j], all) + (i == j ? 1.0 : 0.0);
-    if (!decompose(t, n)) {
-        c.log_likelihood = -(double)INFINITY;
-        return c;
+        for (size_t j = 0; j < n; j++)
+            t[i][j] = d->mm[LEGENDRE + i][LEGENDRE + j] + (i == j ? 1.0 : 0.0);
+    if (!decompose(t, n))
+        return false;
+    forward((const double(*)[M])t, n, d->my + LEGENDRE, of_y);
+    const bool fit_better = dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
+    for (size_t k = 0; k < LEGENDRE; k++)
+        forward((const double(*)[M])t, n, d->mm[k] + LEGENDRE, by[k]);
+    for (size_t k = 0; k < LEGENDRE; k++) {
+        d->my[k] -= dot(by[k], of_y, n);
+        for (size_t l = 0; l < LEGENDRE; l++)
+            d->mm[k][l] -= dot(by[k], by[l], n);
     }
-    forward((const double(*)[M])t, n, with, x);
-    *explained = dot(x, x, n);
-    for (size_t i = 0; i < n; i++)
-        c.log_likelihood -= log(t[i][i]);
-    c.log_likelihood -=
-        0.5 * (freedom + LEGENDRE) * log(1.0 + fmax(most - *explained, 0.0) / freedom);
     for (size_t a = 0; a < d->n_free; a++) {
-        double by[M], y[M];
-        for (size_t i = 0; i < n; i++)
-            by[i] = dot(root[from + i], d->imitated[a], all);
-        forward((const double(*)[M])t, n, by, y);
-        c.shift[a] = -dot(y, x, n);
-        c.variance[a] = dot(y, y, n);
+        double y[M];
+        forward((const double(*)[M])t, n, d->imitated[a] + LEGENDRE, y);
+        none->shift[a] = -dot(y, of_y, n);
+        none->variance[a] = dot(y, y, n);
+        const double *moved = d->imitated[a] + LEGENDRE;
+        if (fit_better) {
+            none->shift[a] = 0.0;
+            none->variance[a] = fmax(dot(y, y, n), dot(moved, moved, d->n_tips));
+        }
+        for (size_t k = 0; k < LEGENDRE; k++)
+            d->imitated[a][k] -= dot(by[k], y, n);
     }
-    return c;
+    return true;
 }
 
-typedef struct mixture {
-    double shift[N], variance[N]; /* of the free parameters */
-    double none;                  /* chance that there is no discrepancy */
-} mixture;
+/* The sums for the unit normal numbers behind a discrepancy of size 1 and one of the lengths. */
+typedef struct length_sums {
+    double with[LEGENDRE][LEGENDRE], residual[LEGENDRE], imitated[N][LEGENDRE];
+} length_sums;
 
-/* The candidates by their likelihood. */
-static mixture mix(candidate *all, size_t n)
+static length_sums sums_of_length(const data_sums *d, int length)
 {
-    mixture to = {.none = 0.0};
-    double best = -(double)INFINITY, sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        best = fmax(best, all[i].log_likelihood + all[i].log_prior);
-    for (size_t i = 0; i < n; i++) {
-        const double share = exp(all[i].log_likelihood + all[i].log_prior - best);
-        sum += share;
-        all[i].log_prior = share;
+    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE]; /* the root transposed */
+    length_sums to;
+    for (size_t i = 0; i < LEGENDRE; i++)
+        for (size_t k = 0; k < LEGENDRE; k++)
+            root[i][k] = kernels.root[length][k][i];
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        to.residual[i] = dot(root[i] + i, d->my + i, LEGENDRE - i);
+        for (size_t a = 0; a < d->n_free; a++)
+            to.imitated[a][i] = dot(root[i] + i, d->imitated[a] + i, LEGENDRE - i);
+        for (size_t k = 0; k < LEGENDRE; k++)
+            half[i][k] = dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
     }
-    for (size_t i = 0; i < n; i++)
-        for (size_t a = 0; a < N; a++)
-            to.shift[a] += all[i].log_prior / sum * all[i].shift[a];
-    for (size_t i = 0; i < n; i++)
-        for (size_t a = 0; a < N; a++) {
-            const double off = all[i].shift[a] - to.shift[a];
-            to.variance[a] += all[i].log_prior / sum * (all[i].variance[a] + off * off);
-        }
-    to.none = all[0].log_prior / sum;
+    for (size_t i = 0; i < LEGENDRE; i++)
+        for (size_t j = 0; j <= i; j++)
+            to.with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
     return to;
 }
 
-static mixture weigh_sizes(const data_sums *d, double freedom)
+/* With a discrepancy of size s; returns what it explains of the residual. */
+static double try_size(const data_sums *d, const length_sums *l, double s, const candidate *none,
+                       candidate *c)
 {
-    candidate all[1 + LENGTHS * SIZES];
-    double most = 0.0, explained;
-    size_t n = 1, sizes = 1;
-    (void)try_size(d, 1.0, 0, 0.0, freedom, &most);
-    all[0] = try_size(d, 0.0, 0, most, freedom, &explained);
-    all[0].log_prior = log(holds);
+    double t[M][M], with[LEGENDRE], x[LEGENDRE], y[LEGENDRE];
+    *c = (candidate){.log_likelihood = -(double)INFINITY};
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        with[i] = s * l->residual[i];
+        for (size_t j = 0; j <= i; j++)
+            t[i][j] = s * s * l->with[i][j] + (i == j ? 1.0 : 0.0);
+    }
+    if (!decompose(t, LEGENDRE))
+        return 0.0;
+    forward((const double(*)[M])t, LEGENDRE, with, x);
+    c->log_likelihood = 0.0;
+    for (size_t i = 0; i < LEGENDRE; i++)
+        c->log_likelihood -= log(t[i][i]);
+    for (size_t a = 0; a < d->n_free; a++) {
+        forward((const double(*)[M])t, LEGENDRE, l->imitated[a], y);
+        c->shift[a] = none->shift[a] - s * dot(y, x, LEGENDRE);
+        c->variance[a] = none->variance[a] + s * s * dot(y, y, LEGENDRE);
+    }
+    return dot(x, x, LEGENDRE);
+}
+
+/* Of the residual with what is left unexplained, for the variance of the noise is estimated. */
+static double student(double unexplained, double freedom)
+{
+    return -0.5 * (freedom + LEGENDRE) * log(1.0 + fmax(unexplained, 0.0) / freedom);
+}
+
+typedef struct mixture {
+    size_t n;
+    candidate part[1 + LENGTHS * SIZES]; /* the first one is that there is no discrepancy */
+} mixture;
+
+static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *to)
+{
+    candidate *const none = &to->part[0];
+    double explained[1 + LENGTHS * SIZES] = {0.0}, most = 0.0, best, sum = 0.0;
+    length_sums of[LENGTHS];
+    if (!take_out_moves(d, none))
+        return false;
+    for (int l = 0; l < LENGTHS; l++)
+        of[l] = sums_of_length(d, l);
+    to->n = 1;
     bool matters = true;
-    for (double s = largest_size; sizes <= SIZES && matters; s /= size_ratio, sizes++) {
+    for (double s = largest; to->n + LENGTHS <= 1 + LENGTHS * SIZES && matters; s /= size_ratio) {
         matters = false;
-        for (int l = 0; l < LENGTHS; l++, n++) {
-            all[n] = try_size(d, s, l, most, freedom, &explained);
-            all[n].log_prior = log((1.0 - holds) * kernels.chance[l]);
-            matters = matters || !(fabs(all[n].log_likelihood - all[0].log_likelihood) < no_size);
+        for (int l = 0; l < LENGTHS; l++, to->n++) {
+            candidate *c = &to->part[to->n];
+            explained[to->n] = try_size(d, &of[l], s, none, c);
+            most = fmax(most, explained[to->n]); /* that of the largest size */
+            matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
+            c->chance = kernels.chance[l];
         }
     }
-    for (size_t i = 1; i < n; i++)
-        all[i].log_prior -= log((double)(sizes - 1));
-    return mix(all, n);
+    best = none->log_likelihood = log(holds) + student(most, freedom);
+    for (size_t i = 1; i < to->n; i++) {
+        candidate *c = &to->part[i];
+        c->log_likelihood += student(most - explained[i], freedom) +
+                             log((1.0 - holds) * c->chance * LENGTHS / (double)(to->n - 1));
+        best = fmax(best, c->log_likelihood);
+    }
+    for (size_t i = 0; i < to->n; i++)
+        sum += to->part[i].chance = exp(to->part[i].log_likelihood - best);
+    for (size_t i = 0; i < to->n; i++)
+        to->part[i].chance /= sum;
+    return true;
+}
+
+/* Half of the interval about 0 that holds 95 % of parameter a, in the 1.96 of a normal one. A shift
+ * counts as a deviation, for the direction in which a misfit is corrected is surer than how far. */
+static double error_of(const mixture *m, size_t a, double standard_error)
+{
+    double low = standard_error, high = standard_error, sd[1 + LENGTHS * SIZES];
+    for (size_t i = 0; i < m->n; i++) {
+        const candidate *c = &m->part[i];
+        sd[i] = sqrt(c->variance[a] + c->shift[a] * c->shift[a] + standard_error * standard_error);
+        if (c->chance > no_chance)
+            high = fmax(high, sd[i]);
+    }
+    while (high - low > error_step * high) {
+        const double error = 0.5 * (low + high);
+        double beyond = 0.0;
+        for (size_t i = 0; i < m->n; i++)
+            if (m->part[i].chance > no_chance)
+                beyond += m->part[i].chance * erfc(interval * error / (M_SQRT2 * sd[i]));
+        *(beyond > outside ? &low : &high) = error;
+    }
+    return high;
 }
 
 /* ---- the error ------------------------------------------------------------------------------- */
@@ -446,6 +536,7 @@ void curve_add_misfit(curve_fitting *f)
     curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
     residual_blocks b;
     data_sums d;
+    mixture found;
     double *const e = f->workspace->scratch;
     if (f->kind.plain || !(f->options->least_chance > 0.0) || !s->converged)
         return;
@@ -455,16 +546,15 @@ void curve_add_misfit(curve_fitting *f)
     if (!(force > 0.0) || !residual_blocks_average(&m, s->p, e, &b) ||
         !residual_blocks_find_noise(&m, s->p, &b) || !sum_up(f, &m, s->p, e, &b, force, &d))
         return;
-    const mixture found = weigh_sizes(&d, b.freedom);
-    s->no_misfit = found.none;
-    /* a pull before contact, where no law of it describes the rest, is there in contact or is not
-     */
-    const double pull =
-        f->snap_on > 0.0 && !f->kind.adhesive && !curve_fits(f) ? f->snap_on / force : 0.0;
+    const double *residual = b.r + b.n_before;
+    const double seen = sqrt(curve_dot(residual, residual, b.n) / (double)b.n) / force;
+    if (!weigh_sizes(&d, fmin(largest_size, most_hidden * seen), b.freedom, &found))
+        return;
+    s->no_misfit = found.part[0].chance;
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
-        s->misfit_error[i] =
-            hypot(hypot(sqrt(found.variance[a]), found.shift[a]), pull * d.imitated[a][0]);
-        s->standard_error[i] = hypot(s->standard_error[i], s->misfit_error[i]);
+        const double noise = s->standard_error[i], error = error_of(&found, a, noise);
+        s->misfit_error[i] = sqrt(error * error - noise * noise);
+        s->standard_error[i] = error;
     }
 }

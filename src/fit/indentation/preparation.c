@@ -15,13 +15,16 @@
 #include <string.h>
 
 /* Tests of plausibility; each is named in the reason that it gives. */
-static const double missing_share = 0.1;
+static const double missing_share = 0.1; /* of the samples: with more the file is damaged */
 static const double travel_share = 0.5;  /* of the range of the height that must be net travel */
-static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
+/* Least advance of the tip per bending of the lever: 1 % of sensitivity is half of it. */
+static const double rigid_share = 0.02;
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
-static const size_t plateau_samples = 5;
-static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
+static const size_t plateau_samples = 5; /* fewer are a turning point */
+/* A spike beyond its neighbours, in noise: next to the 6 of a pull, which must not be one. */
+static const double spike_noise = 8.0;
 static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
+static const double end_step = 3.0;    /* of the last sample, in the step before it */
 static const double spike_share = 0.2; /* of the samples: with more it is no spike */
 enum {
     SPIKE_SIDE = 7, /* neighbours on each side */
@@ -256,6 +259,19 @@ static bool above_most(const double side[SPIKE_SIDE], double x)
     return 2 * n > SPIKE_SIDE;
 }
 
+/* Does the force go on from sample i as a contact does at its end? Most of what follows is not
+ * below it then, and the last step grows by less than a factor 3 (the second one of a force that
+ * goes with the square of the depth). */
+static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
+{
+    const double x = s->force[i], step = s->force[kept - 1] - s->force[kept - 2];
+    size_t above = 0;
+    for (size_t j = i + 1; j < s->n; j++)
+        above += s->force[j] > x - 0.5 * far;
+    return i + 1 < s->n ? 2 * above > s->n - i - 1
+                        : x - s->force[kept - 1] < far + end_step * fabs(step);
+}
+
 /* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
  * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
  * one side only, and how that goes on. */
@@ -269,7 +285,7 @@ static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
     if (start || i + SPIKE_SIDE >= s->n) {
         const double level = median_of(start ? right : left, SPIKE_SIDE);
         const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
-        return x - level > far + 2.0 * fabs(level - next);
+        return x - level > far + 2.0 * fabs(level - next) && (start || !goes_on(s, i, kept, far));
     }
     const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
     if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
@@ -378,7 +394,7 @@ WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char 
 }
 
 /* A tip that hardly goes in, or backwards. */
-static wt_curve_verdict judge_advance(const curve_input *input, char reason[160])
+static wt_curve_verdict advance_verdict(const curve_input *input, char reason[160])
 {
     const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
     if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
@@ -454,7 +470,7 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
-    return judge_advance(input, reason);
+    return advance_verdict(input, reason);
 }
 
 void curve_reverse(curve_samples *s)

@@ -10,7 +10,7 @@
 enum { N = CURVE_N_PARAMETERS, POWERS = 4, SLOW = 8, MOST = BLOCKS_BEFORE + BLOCKS_WINDOW };
 static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
 /* Of the force: a residual that rounding in files and tables makes. */
-static const double nothing = 2e-5;
+static const double rounding_share = 2e-5;
 static const double same = 1e-9; /* of a column: it lies in those before it, but for rounding */
 
 /* Sample j, of block i of the history and window. */
@@ -218,7 +218,7 @@ bool residual_blocks_find_noise(const curve_law *m, const double p[N], residual_
         return false;
     autoregress(&of, b);
     b->freedom = ((double)of.n - (is_short ? of.taken : 0.0)) / BLOCKS_PER_FREEDOM;
-    const double top = nothing * p[CURVE_E] * m->workspace->g[m->samples->n - 1];
+    const double top = rounding_share * p[CURVE_E] * m->workspace->g[m->samples->n - 1];
     b->innovation = fmax(b->innovation, top * top);
     return b->innovation > 0.0 && isfinite(b->innovation);
 }
