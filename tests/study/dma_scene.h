@@ -48,6 +48,8 @@ extern const int n_dma_scenes;
 double dma_part_of_e(const dma_scene *s);
 /* lg b that the material has at a temperature, the error of the geometry left out. */
 double dma_vertical(const dma_scene *s, double temperature);
+/* That of the second process. */
+shift_law dma_second_law(const dma_scene *s);
 /* The material at a temperature, its shift relative to the reference of the scene. */
 rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature);
 

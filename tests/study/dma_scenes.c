@@ -172,7 +172,8 @@ const dma_scene dma_scenes[] = {
     {NAMED("two_laws", "V2 by the default"), .rubber = RUBBER_TWO,
      .law = {900, -90, 300, NONE, 1, 0}, .reference = 20, G13, NOISE(.015), BAD},
     {NAMED("narrow", "V7 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, .first = -30,
-     .last = 60, .step = 10, .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), OPEN},
+     .last = 60, .step = 10, .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), OPEN,
+     .contact = &contact_d1},
     {NAMED("half_decade", "half a decade in steps of 3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
      .first = -28, .last = 50, .step = 3, .lg_first = 0, .lg_last = .5, .frequencies = 8,
      NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
@@ -189,7 +190,7 @@ const dma_scene dma_scenes[] = {
      FREQUENCIES10, NOISE(.01), OPEN},
     {NAMED("glass", "Arrhenius below -5 degC"), .rubber = RUBBER_BROAD,
      .law = {900, -90, 0, -5, .35, 0}, .reference = 20, .first = -40, .last = 60, .step = 5,
-     FREQUENCIES10, NOISE(.01), GOOD},
+     FREQUENCIES10, NOISE(.01), GOOD, .contact = &contact_d1},
     {NAMED("temperature_geometry", "0.2 K and 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
      NOISE(.01), .temperature_error = .2, .geometry_error = .02, GOOD},
     {NAMED("scatter_little", "0.05 K and 0.5 %, about what 1 % of noise hides"),
@@ -234,6 +235,28 @@ const dma_scene dma_scenes[] = {
      .temperature_error = .1, .shear = true, GOOD, .contact = &contact_d6},
     {NAMED("exact", "next to no errors: are estimates and truth the same thing?"),
      .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.0002), .vertical = "physical", GOOD,
+     .contact = &contact_d6},
+
+    /* much is not measured: an end of the spectrum, or the law */
+    {NAMED("short", "four cold isotherms: the slow end of the spectrum four to five decades away"),
+     .rubber = RUBBER_BROAD, BASE_LAW, .first = -10, .last = 20, .step = 10, FREQUENCIES10,
+     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+    {NAMED("short_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = 0,
+     .last = 40, .step = 10, FREQUENCIES10, NOISE(.01),
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+    {NAMED("three", "three isotherms, and friction beyond them"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = 5, .last = 35, .step = 15, FREQUENCIES10, NOISE(.01),
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .contact = &contact_d1},
+    {NAMED("three_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = 10,
+     .last = 30, .step = 10, FREQUENCIES10, NOISE(.01),
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .contact = &contact_d1},
+    {NAMED("coarse", "five isotherms of five points, 2 %, 0.3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = -10, .last = 50, .step = 15, .lg_first = -1, .lg_last = 1.4, .frequencies = 5,
+     NOISE(.02), .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     .contact = &contact_d1},
+    {NAMED("coarse_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = -10,
+     .last = 50, .step = 15, .lg_first = -1, .lg_last = 1.4, .frequencies = 5, NOISE(.02),
+     .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
      .contact = &contact_d6},
 
     /* a second process with a law less and less its own: what is missed grows with the shift */
@@ -300,13 +323,19 @@ double dma_vertical(const dma_scene *s, double temperature)
     return log10(293.15 / (temperature + 273.15)) + s->departure * sin((temperature - 20) / 25);
 }
 
-rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature)
+shift_law dma_second_law(const dma_scene *s)
 {
     shift_law second = s->law;
     if (second.b_second > 0)
         second.b = second.b_second;
     if (second.t_inf_second < 0)
         second.t_inf = second.t_inf_second;
+    return second;
+}
+
+rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature)
+{
+    const shift_law second = dma_second_law(s);
     return (rubber_state){.rubber = r,
                           .a = {pow(10, law_shift(&s->law, s->reference, temperature)),
                                 pow(10, law_shift(&second, s->reference, temperature))},

@@ -39,6 +39,7 @@ typedef struct master_work {
                               all fails, by `whole` */
     size_t first, last;
     lack_of_fit whole;
+    double missed_whole[MODULI]; /* what that is off */
 } master_work;
 
 /* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
@@ -81,11 +82,17 @@ void master_keep_own(master_work *work);
 /* Where superposition fails: the errors of the shifts of the spectrum hold what the overlaps
  * disagree by, too. */
 wt_status master_doubt(master_work *work, wt_error *err) WT_NODISCARD;
+/* Whether that leaves no shift of the spectrum. */
+bool master_doubts_all(const master_work *work);
+/* A shift with a larger error is not determined [decade]. */
+extern const double master_largest_sigma;
 /* Whether the shifts of the spectrum are what the overlaps say, with the vertical shift of rubber
  * elasticity or with none. */
 wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
 /* Whether the lack of fit is real and matters. */
 bool master_misfit_is_real(const lack_of_fit *lack);
+/* Whether a factor on all E'' is real and matters. */
+bool master_loss_is_off(const lack_of_fit *lack);
 
 /* For the reference of the options. *better: where the fit failed for want of overlap, NaN or the
  * temperature of an isotherm that changes much more than the one it was started from. */

@@ -39,10 +39,14 @@ static const double far = 0.5;
  * but the one that is held, by more than their errors. */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
 /* What one spectrum is off a modulus by, beyond the noise within the isotherms, from which on its
- * shifts mean nothing [ln]: isotherms of which superposition holds or nearly holds miss by 0.3 to 3
- * %, those of glassy polymers by 5 to 20 % of E''. */
+ * shifts mean nothing [ln]: over the slope of a plateau, d ln E'/d ln w = 0.1, that is 0.17 decade,
+ * about what a shift may be off by to be determined (master_links.c). Isotherms of which
+ * superposition holds or nearly holds miss by 0.3 to 3 %, those of glassy polymers by 5 to 20 % of
+ * E''. Below the limit the errors of the shifts grow with the misfit (master_overlap.c), so that
+ * nothing jumps there but the route. */
 static const double gross_misfit = 0.04;
-/* The same from which on it may be in the shifts. */
+/* The same from which on it may be in the shifts: 0.04 decade, twice the error that 1 % of noise
+ * leaves of them. */
 static const double may_move = 0.01;
 /* Bends of lines, to start from: free, a factor 150 from one term to the next. Noise over what
  * lines leave of it, and by how many of its standard errors that is more than none. Six are one

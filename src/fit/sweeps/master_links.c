@@ -3,6 +3,10 @@
 
 #include "fit/pool_gsl.h"
 
+/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
+ * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
+const double master_largest_sigma = 0.2;
+
 /* The overlaps with the vertical shift of rubber elasticity, or with none. */
 wt_status master_links(const master_work *work, bool physical, double *b, overlap_link *link,
                        wt_error *err)

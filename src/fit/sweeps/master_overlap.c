@@ -79,13 +79,52 @@ static double common_steps(const master_work *work, size_t one, size_t other)
     return sum;
 }
 
+/* What a misfit of E' is as a shift, over the slope of the isotherms: it may add up from one to the
+ * next, as with a material that changes with temperature. */
+static double missed_shift(const master_work *work, double missed, size_t from, size_t i)
+{
+    double sum = 0.0;
+    for (; i != from; i = i < from ? i + 1 : i - 1) {
+        const shift_curve *c = &work->set.curves[i];
+        sum += missed / M_LN10 * (c->x[c->n - 1] - c->x[0]) / shift_change(&work->set, i);
+    }
+    return sum;
+}
+
+/* Where one spectrum misses the isotherms, its shifts are none of one process: slow and fast times
+ * part from them, which way is not told. */
+static double doubt_of_spectrum(const master_work *work, size_t i)
+{
+    bool given = false;
+    for (size_t k = 0; k < work->set.n; k++)
+        given = given || work->set.curves[k].given;
+    if (given || master_loss_is_off(&work->lack))
+        return 0.0; /* what is given may be what misses; a factor on all E'' leaves the shifts */
+    return hypot(work->lack.parted * work->own_a[i],
+                 missed_shift(work, work->missed[STORAGE], work->anchor, i));
+}
+
+/* Of one shift, by both. Where the overlaps tell little they are no reason to doubt a spectrum. */
+static double squared_doubt(const master_work *work, size_t i)
+{
+    const overlap_link *link = &work->link[i];
+    const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
+    const double own = by_overlap ? 0.0 : pow(doubt_of_spectrum(work, i), 2);
+    if (!link->placed)
+        return own;
+    const double square = common_steps(work, i, i) + link->error * link->error;
+    double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
+    if (!by_overlap)
+        off = fmax(off - agree * sqrt(square), 0.0);
+    return (by_overlap ? square : own) + link->spread * link->spread + off * off;
+}
+
 /* The error of a shift where superposition fails: what the places of the overlaps disagree by, and
  * what spectrum and overlaps do. The law takes it as that of steps that err one by one, larger by
  * so much that the errors are as large together: that all err in the same way leaves its form
  * alone. */
 static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
-    const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
     const size_t n = work->set.n;
     wt_posterior *p = work->posterior;
     double all = 0.0, steps = 0.0;
@@ -94,25 +133,22 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
-        const overlap_link *link = &work->link[i];
-        if (!work->placed[i] || !link->placed)
+        if (!work->placed[i])
             continue;
-        const double by_steps = common_steps(work, i, i);
-        double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
-        double square = by_steps + link->error * link->error;
-        if (!by_overlap) { /* where the overlaps tell little they are no reason to doubt */
-            off = fmax(off - agree * sqrt(square), 0.0);
-            square = 0.0;
-        }
-        square += link->spread * link->spread + off * off;
+        const double square = squared_doubt(work, i);
         p->doubt[work->curve[i]] = sqrt(square);
-        all += square;
-        steps += by_steps;
+        all += work->link[i].placed ? square : 0.0;
+        steps += work->link[i].placed ? common_steps(work, i, i) : 0.0;
         for (size_t k = 0; k < n; k++)
-            if (work->placed[k] && work->link[k].placed && (i < work->anchor) == (k < work->anchor))
+            if (work->placed[k] && work->link[i].placed && work->link[k].placed &&
+                (i < work->anchor) == (k < work->anchor))
                 gsl_matrix_set(p->doubts, work->curve[i], work->curve[k], common_steps(work, i, k));
     }
     gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
+    for (size_t i = 0; i < n; i++) /* without an overlap it errs alone */
+        if (work->placed[i] && !work->link[i].placed)
+            gsl_matrix_set(p->doubts, work->curve[i], work->curve[i],
+                           pow(p->doubt[work->curve[i]], 2));
     return WT_OK;
 }
 
@@ -136,6 +172,15 @@ wt_status master_doubt(master_work *work, wt_error *err)
     master_keep_own(work);
     const wt_status status = overlap_chain(&work->set, work->anchor, b, work->link, err);
     return status == WT_OK ? doubt_shifts(work, err) : status;
+}
+
+bool master_doubts_all(const master_work *work)
+{
+    const double *doubt = work->posterior->doubt;
+    bool all = doubt != NULL;
+    for (size_t i = 0; all && i < work->set.n; i++)
+        all = i == work->anchor || !work->placed[i] || doubt[work->curve[i]] > master_largest_sigma;
+    return all;
 }
 
 wt_status master_by_overlap(master_work *work, wt_error *err)
@@ -174,8 +219,9 @@ bool master_beside_part(const master_work *work, size_t i, double *a, double *er
     const wt_interval at = posterior_a(work->posterior, work->curve[end]);
     const double alike = hypot(link[i].spread - link[end].spread, link[i].error - link[end].error);
     const double own = work->own_a[i] - work->own_a[end], by_overlap = link[i].a - link[end].a;
+    const double missed = missed_shift(work, work->missed_whole[STORAGE], end, i);
     *a = at.value + by_overlap;
-    *error = sqrt(at.standard_error * at.standard_error + alike * alike +
+    *error = sqrt(at.standard_error * at.standard_error + alike * alike + missed * missed +
                   fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0) +
                   (isnan(own) ? 0.0 : (own - by_overlap) * (own - by_overlap)));
     return true;

@@ -269,20 +269,38 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     return WT_OK;
 }
 
-/* The series of unknowns of the spectrum, at the reference temperature. */
+/* The series of unknowns of the spectrum, at the reference temperature; reached: [n_terms] how
+ * probable it is that the spectrum reaches a term, what it does not is left at long times. */
 static wt_status prony_of_terms(const wt_posterior *p, const double *value, double offset,
-                                wt_prony *prony, wt_error *err)
+                                double (*reached)(const spectrum *s, size_t term, size_t place),
+                                size_t place, wt_prony *prony, wt_error *err)
 {
     const spectrum *s = &p->frame;
     wt_status status = wt_prony_alloc(prony, s->n_terms, err);
     if (status != WT_OK)
         return status;
-    for (size_t j = 0; j < s->n_terms; j++) {
-        prony->relaxation_time[j] = exp(s->log_tau + (double)j * s->step + offset * M_LN10);
-        prony->modulus[j] = exp(value[j]);
-    }
     prony->equilibrium_modulus = s->liquid ? 0.0 : exp(value[s->n_terms]);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double share = s->liquid ? 1.0 : reached(s, j, place);
+        prony->relaxation_time[j] = exp(s->log_tau + (double)j * s->step + offset * M_LN10);
+        prony->modulus[j] = share * exp(value[j]);
+        prony->equilibrium_modulus += (1.0 - share) * exp(value[j]);
+    }
     return WT_OK;
+}
+
+static double reached_by(const spectrum *s, size_t term, size_t place)
+{
+    return term < spectrum_end(s, place) ? 1.0 : 0.0;
+}
+
+static double reached_in_mean(const spectrum *s, size_t term, size_t unused)
+{
+    double sum = 0.0;
+    (void)unused;
+    for (size_t place = 0; place < SPECTRUM_ENDS; place++)
+        sum += reached_by(s, term, place) / SPECTRUM_ENDS;
+    return sum;
 }
 
 /* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more, by the rise of
@@ -322,7 +340,8 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
     wt_status status =
-        has_level(p->by) ? prony_of_terms(p, value, unknown[0], &m->prony, err) : WT_OK;
+        has_level(p->by) ? prony_of_terms(p, value, unknown[0], reached_in_mean, 0, &m->prony, err)
+                         : WT_OK;
     free(value);
     if (status != WT_OK)
         return status;
@@ -346,7 +365,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     double limit;
     status = limit_equilibrium(work, &limit, err);
     m->equilibrium.low = 0.0;
-    m->equilibrium.high = exp(limit);
+    m->equilibrium.high = fmax(exp(limit), m->equilibrium.high);
     m->equilibrium.standard_error = (double)NAN;
     return status;
 }
@@ -469,7 +488,8 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     double *b = value + p->frame.n_unknowns;
     wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
     if (status == WT_OK)
-        status = prony_of_terms(p, value, unknown[0], prony, err);
+        status = prony_of_terms(p, value, unknown[0], reached_by, posterior_place(seed, index),
+                                prony, err);
     if (status == WT_OK) {
         prony->deformation = master->deformation;
         prony->reference_temperature = master->reference_temperature;

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Change along the steepest isotherm over that along the one to start from: from there on the other
  * tells shifts with half the error, for that is noise over slope. */
@@ -165,15 +166,23 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
     if (!overlap && status == WT_OK && work->tested && master_misfit_is_real(&work->lack) &&
         work->set.used[STORAGE])
         status = master_doubt(work, &failure);
+    if (!overlap && status == WT_OK && master_doubts_all(work)) {
+        status = master_may_overlap(work, &overlap, err);
+        if (status != WT_OK)
+            return status;
+    }
     if (!overlap) {
         if (status != WT_OK && err != NULL)
             *err = failure;
         return status;
     }
     master_keep_own(work);
+    work->posterior->doubt = NULL; /* that of the spectrum of all */
+    work->posterior->doubts = NULL;
     status = find_part(work, err);
     if (status == WT_OK && work->part) {
         work->whole = work->lack;
+        memcpy(work->missed_whole, work->missed, sizeof work->missed);
         return fit_own(work, err);
     }
     if (status == WT_OK)

@@ -7,9 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
- * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
-static const double largest_sigma = 0.2;
 /* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %:
  * the cross section to 2 %, and the free length between the clamps. */
 static const double clamping = 0.02;
@@ -35,19 +32,19 @@ static bool is_undetermined(const master_work *work, size_t i, const wt_interval
                                : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_OF_OVERLAP)
         return false; /* each step is */
-    else if (!(a->standard_error <= largest_sigma) && work->posterior->doubt != NULL &&
-             work->posterior->doubt[work->curve[i]] > largest_sigma)
+    else if (!(a->standard_error <= master_largest_sigma) && work->posterior->doubt != NULL &&
+             work->posterior->doubt[work->curve[i]] > master_largest_sigma)
         master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
                     a->standard_error);
-    else if (!(a->standard_error <= largest_sigma))
+    else if (!(a->standard_error <= master_largest_sigma))
         master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
                     a->standard_error);
     else if (work->options.vertical == WT_VERTICAL_FREE &&
-             fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > largest_sigma)
+             fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > master_largest_sigma)
         master_note(shift,
                     "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
                     "aT",
-                    clamping, largest_sigma);
+                    clamping, master_largest_sigma);
     return shift->note[0] != '\0';
 }
 
@@ -176,12 +173,12 @@ wt_status master_check_reference(const master_work *work, const wt_master *m, wt
                  warmest = m->shifts[m->n_shifts - 1].temperature;
     const bool inside = m->reference_temperature > coldest && m->reference_temperature < warmest;
     if (work->measured_reference || (inside && m->law.kind != WT_LAW_NONE) ||
-        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= largest_sigma))
+        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= master_largest_sigma))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
             m->reference_temperature - WT_ZERO_CELSIUS);
     wt_error_expected(err, "a temperature that the law of the shifts reaches within %.1f decade",
-                      largest_sigma);
+                      master_largest_sigma);
     wt_error_advice(err, "choose one of the measured temperatures");
     return WT_E_RANGE;
 }

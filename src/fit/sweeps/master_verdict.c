@@ -51,6 +51,12 @@ bool master_misfit_is_real(const lack_of_fit *lack)
     return lack->p_sure < significant && lack->misfit_low > matters;
 }
 
+bool master_loss_is_off(const lack_of_fit *lack)
+{
+    return lack->kk < loss_significant &&
+           fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters;
+}
+
 /* A bound in per cent, which rounding does not make smaller. */
 static double at_most(double share)
 {
@@ -63,6 +69,7 @@ static void because_gross(const master_work *work, wt_master *m)
     const shift_curve *c = work->set.curves;
     char where[128] = "", *at = where;
     const double zero = WT_ZERO_CELSIUS;
+    const double *missed = work->part ? work->missed_whole : work->missed;
     if (work->part) {
         const bool cold = work->first > 0, warm = work->last + 1 < work->set.n;
         m->holds_from = c[work->first].temperature;
@@ -79,14 +86,16 @@ static void because_gross(const master_work *work, wt_master *m)
         m->because, sizeof m->because,
         "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
         "other processes, as in a glass, or a change of the material",
-        where, 100.0 * work->missed[STORAGE], 100.0 * work->missed[LOSS]);
+        where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
 }
 
 void master_judge(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
+    const bool failed = work->posterior->doubt != NULL; /* why shifts are withheld */
     for (size_t i = 0; i < m->n_shifts; i++)
-        determined += m->shifts[i].determined && work->overlap[i] >= least_overlap;
+        determined += (m->shifts[i].determined || (failed && work->placed[i])) &&
+                      work->overlap[i] >= least_overlap;
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
     const double window = widest_of_half(work);
@@ -109,8 +118,7 @@ void master_judge(const master_work *work, wt_master *m)
     } else if (work->part || work->route == WT_SHIFTS_OF_OVERLAP) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         because_gross(work, m);
-    } else if (determined >= 2 && lack->kk < loss_significant &&
-               fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
+    } else if (determined >= 2 && master_loss_is_off(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->because, sizeof m->because,
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A step with a larger error is none [decade]: as for the shifts of the fit (master_shifts.c). */
+/* A step with a larger error is none [decade]: as for the shifts of the fit (master_links.c). */
 static const double largest_sigma = 0.2;
 /* Slopes are those of lines over so much to either side [decade]. */
 static const double slope_reach = 0.3;

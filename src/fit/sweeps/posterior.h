@@ -80,7 +80,10 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
 /* ln E', ln E'' and ln tan delta at ln w and the reference temperature. */
 enum { LOSS_FACTOR = MODULI, WITH_LOSS_FACTOR };
 void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR]);
-wt_interval posterior_equilibrium(const wt_posterior *p); /* ln */
+/* ln of the equilibrium modulus, wherever the spectrum ends. */
+wt_interval posterior_equilibrium(const wt_posterior *p);
+/* Where it does in a draw. */
+size_t posterior_place(uint64_t seed, size_t index);
 /* ln of the spectrum at the time that a term has by the mean offset of the law; slope: d ln/d ln
  * tau. */
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope);

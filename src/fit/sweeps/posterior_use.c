@@ -206,7 +206,24 @@ wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    return of_unknown(p, (long)p->frame.n_terms, 0.0, 0.0, 1.0, 0.0);
+    mixture_part part[SPECTRUM_ENDS * MOST_PARTS];
+    const spectrum *s = &p->frame;
+    double *by_unknown = p->scratch + s->n_curves;
+    size_t n = 0;
+    memset(by_unknown, 0, s->n_unknowns * sizeof *by_unknown);
+    for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
+        const size_t end = spectrum_end(s, place);
+        for (size_t i = 0; i < p->n_parts; i++) {
+            const double *value = p->parts[i].cell->value;
+            const double rest = spectrum_rest(s, value, end);
+            for (size_t j = s->n_measured; j <= s->n_terms; j++)
+                by_unknown[j] = j >= end ? exp(value[j]) / rest : 0.0;
+            const struct quantity x = {.value = log(rest), .by_unknown = by_unknown};
+            part[n] = of_part(p, &p->parts[i], &x, p->scratch);
+            part[n++].weight /= SPECTRUM_ENDS;
+        }
+    }
+    return mixture_interval(part, n);
 }
 
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
@@ -301,6 +318,15 @@ static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, 
         at -= p->parts[i].weight;
     }
     return &p->parts[p->n_parts - 1];
+}
+
+/* Where the spectrum of a draw ends, evenly, too: of one part the draws have all places. */
+size_t posterior_place(uint64_t seed, size_t index)
+{
+    struct stream start = {mix64(mix64(seed))};
+    const double at =
+        fmod(draw_uniform(&start) + (double)index * 0.7548776662466927, 1.0); /* plastic number */
+    return (size_t)(at * SPECTRUM_ENDS);
 }
 
 /* Unknowns of the law from their distribution. */

@@ -19,6 +19,11 @@ typedef struct spectrum_prior {
     double log_det;        /* of the covariance */
 } spectrum_prior;
 
+/* Second differences beyond an end of the measured range: their law is given. */
+typedef struct spectrum_beyond {
+    double weight[3], mean, precision;
+} spectrum_beyond;
+
 typedef struct spectrum {
     pool memory; /* of all below */
     /* data: the curves that take part, point by point */
@@ -49,12 +54,14 @@ typedef struct spectrum {
 
     /* noise and smoothness */
     double noise[MODULI];
-    double *kappa;          /* [n_curves] factor on the noise of an isotherm */
-    double *spread[MODULI]; /* [n] the same of a point */
-    double *bend;           /* [n_terms] weight of a second difference */
-    double smooth;          /* standard deviation of the second differences */
-    double smooth_move;     /* its last step, ln */
-    double rho;             /* correlation of neighbouring points */
+    double *kappa;               /* [n_curves] factor on the noise of an isotherm */
+    double *spread[MODULI];      /* [n] the same of a point */
+    double *bend;                /* [n_terms] weight of a second difference */
+    size_t bend_first, bend_end; /* those that are as in the measured range */
+    spectrum_beyond beyond[2];   /* before and behind them */
+    double smooth;               /* standard deviation of the second differences */
+    double smooth_move;          /* its last step, ln */
+    double rho;                  /* correlation of neighbouring points */
 
     bool settled;       /* the last fit ended by itself */
     size_t evaluations; /* so far */
@@ -87,6 +94,7 @@ void spectrum_free(spectrum *s);
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
 double spectrum_a(const spectrum *s, size_t curve);
 double spectrum_b(const spectrum *s, size_t curve);
+double spectrum_b_of(const spectrum *s, const double *value, size_t curve);
 
 /* ln E', ln E'' at x of the spectrum, and their derivatives; slope: by x. gradient: [n_linear]. */
 void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
@@ -99,13 +107,26 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
 double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
-/* precision and gradient for the present noise and smoothness. */
-void spectrum_assemble(spectrum *s);
 /* What a residual in ln of a point is multiplied by; 0: left out. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
+double spectrum_squares(const spectrum *s, int q); /* of the whitened residuals */
+
+/* ---- spectrum_ends.c */
+/* How far the terms go beyond the measured range [decade]. */
+extern const double spectrum_fast_margin, spectrum_slow_margin;
+void spectrum_set_bends(spectrum *s);
+/* Where a spectrum ends that is slower than what was measured is open: at any of so many places,
+ * from the first decade behind the measured range on, alike. The terms from spectrum_end() on are
+ * then not there, and what is left at long times is spectrum_rest(). */
+enum { SPECTRUM_ENDS = 6 };
+size_t spectrum_end(const spectrum *s, size_t place);
+double spectrum_rest(const spectrum *s, const double *value, size_t end);
+
+/* ---- spectrum_prior.c */
+/* precision and gradient for the present noise and smoothness. */
+void spectrum_assemble(spectrum *s);
 /* Of the residuals evaluated last. */
 double spectrum_objective(const spectrum *s, const double *value);
-double spectrum_squares(const spectrum *s, int q);                 /* of the whitened residuals */
 double spectrum_roughness(const spectrum *s, const double *value); /* squared second differences */
 double spectrum_roughness_trace(const spectrum *s); /* what the covariance adds to them */
 double spectrum_prior_log_det(const spectrum *s);

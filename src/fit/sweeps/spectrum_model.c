@@ -10,16 +10,6 @@
 /* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: a factor
  * 20 either way, so that it holds what the data leave open, and is nothing beside what they say. */
 static const double equilibrium_spread = 3.0;
-/* How far the relaxation times go beyond the measured range [decade]. E'' of a term that is slower
- * by d decades is 10^-d of its modulus at the lowest frequency, and what its E' lacks 10^-2d: at
- * 2.5 it is no different from an equilibrium modulus, to 0.3 % and 1e-5. One that is faster by 1.5
- * has 3 % of its modulus in E'' and 0.1 % in E', and those beyond are all alike to E''. */
-static const double fast_margin = 1.5, slow_margin = 2.5;
-/* Weight of the second differences of terms slower than the measured range: beyond it a spectrum
- * rather goes on as it did, but does not have to. Chosen, for no data are there: 1 is the belief
- * within the range, and leaves the equilibrium modulus wider than it need be; at 4 it is narrower
- * than what a slower process, which may begin there, does to it. */
-static const double slow_stiffness = 2.0;
 /* Isotherms that span more once shifted have frequencies or shifts of another unit [decade]: from
  * vibrations of molecules, 1e13 Hz, to a century, 1e-10 Hz, are 23, and WLF of universal constants
  * gives 17 above the glass transition. It bounds the terms, too. */
@@ -158,11 +148,11 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
         return WT_E_RANGE;
     }
-    s->n_terms = 1 + (size_t)ceil((high - low + fast_margin + slow_margin) * terms_per_decade);
+    s->n_fast = (size_t)ceil(spectrum_fast_margin * terms_per_decade);
+    s->n_measured = (size_t)ceil((high + spectrum_fast_margin - low) * terms_per_decade);
+    s->n_terms = 1 + s->n_measured + (size_t)ceil(spectrum_slow_margin * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
-    s->log_tau = -(high + fast_margin) * M_LN10;
-    s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
-    s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
+    s->log_tau = -(high + spectrum_fast_margin) * M_LN10;
     wt_status status = allocate_spectrum(s, err);
     if (status != WT_OK) {
         spectrum_free(s);
@@ -195,6 +185,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->smooth = 0.3;
     for (size_t j = 0; j < s->n_terms; j++)
         s->bend[j] = 1.0;
+    spectrum_set_bends(s);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
     /* until a prior is set: shifts lie behind the terms, the anchor's among them */
@@ -213,7 +204,7 @@ double spectrum_a(const spectrum *s, size_t curve)
     return s->column_a[curve] < 0 ? s->given_a[curve] : s->value[s->column_a[curve]];
 }
 
-static double b_of(const spectrum *s, const double *value, size_t curve)
+double spectrum_b_of(const spectrum *s, const double *value, size_t curve)
 {
     if (s->column_b[curve] >= 0)
         return value[s->column_b[curve]];
@@ -222,7 +213,7 @@ static double b_of(const spectrum *s, const double *value, size_t curve)
 
 double spectrum_b(const spectrum *s, size_t curve)
 {
-    return b_of(s, s->value, curve);
+    return spectrum_b_of(s, s->value, curve);
 }
 
 void spectrum_terms(const spectrum *s, const double *value, double *term)
@@ -350,7 +341,7 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
         const double a = s->column_a[i] < 0 ? s->given_a[i] : value[s->column_a[i]];
-        const double b = b_of(s, value, i);
+        const double b = spectrum_b_of(s, value, i);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
             double modulus[MODULI], slope[MODULI];
@@ -429,143 +420,10 @@ void spectrum_normal(spectrum *s)
     }
 }
 
-/* ---- priors ---------------------------------------------------------------------------------- */
-
-/* Weight of a second difference, of terms j to j + 2. */
-static double bend_stiffness(const spectrum *s, size_t j)
-{
-    return s->bend[j] * (j + 1 < s->n_measured ? 1.0 : slow_stiffness);
-}
-
-static double b_departure(const spectrum *s, const double *value, size_t curve)
-{
-    return b_of(s, value, curve) - s->prior->mean[curve];
-}
-
-/* By tan delta alone the level is held, loosely: it is no part of what is told. */
-static double off_level(const spectrum *s, const double *value)
-{
-    double sum = -s->level;
-    for (size_t j = 0; j < s->n_terms; j++)
-        sum += value[j] / (double)s->n_terms;
-    return sum;
-}
-
-double spectrum_objective(const spectrum *s, const double *value)
-{
-    double sum = spectrum_roughness(s, value) / (s->smooth * s->smooth);
-    for (int q = 0; q < MODULI; q++)
-        sum += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
-    if (!s->liquid) {
-        const double off = (value[s->n_terms] - s->equilibrium_mean) / s->equilibrium_spread;
-        sum += off * off;
-    }
-    if (s->ratio)
-        sum += pow(off_level(s, value), 2);
-    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
-        for (size_t k = 0; k < s->n_curves; k++)
-            sum += gsl_matrix_get(s->prior->precision, i, k) * b_departure(s, value, i) *
-                   b_departure(s, value, k);
-    return sum;
-}
-
 double spectrum_squares(const spectrum *s, int q)
 {
     double sum = 0.0;
     for (size_t k = 0; k < s->n; k++)
         sum += s->residual[q][k] * s->residual[q][k];
     return sum;
-}
-
-double spectrum_roughness(const spectrum *s, const double *value)
-{
-    double sum = 0.0;
-    for (size_t j = 1; j + 1 < s->n_terms; j++) {
-        const double bend = value[j - 1] - 2.0 * value[j] + value[j + 1];
-        sum += bend_stiffness(s, j - 1) * bend * bend;
-    }
-    return sum;
-}
-
-double spectrum_roughness_trace(const spectrum *s)
-{
-    static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
-    double sum = 0.0;
-    for (size_t j = 0; j + 2 < s->n_terms; j++)
-        for (size_t i = 0; i < 3; i++)
-            for (size_t k = 0; k < 3; k++)
-                sum += bend_stiffness(s, j) * weight[i] * weight[k] *
-                       gsl_matrix_get(s->covariance, j + i, j + k);
-    return sum;
-}
-
-static void add_priors(spectrum *s)
-{
-    static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
-    for (size_t j = 0; j + 2 < s->n_terms; j++) {
-        const double rough = bend_stiffness(s, j) / (s->smooth * s->smooth);
-        const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
-        for (size_t i = 0; i < 3; i++) {
-            *gsl_vector_ptr(s->gradient, j + i) -= rough * weight[i] * bend;
-            for (size_t k = 0; k < 3; k++)
-                *gsl_matrix_ptr(s->precision, j + i, j + k) += rough * weight[i] * weight[k];
-        }
-    }
-    if (!s->liquid) {
-        const double w = 1.0 / (s->equilibrium_spread * s->equilibrium_spread);
-        *gsl_matrix_ptr(s->precision, s->n_terms, s->n_terms) += w;
-        *gsl_vector_ptr(s->gradient, s->n_terms) -=
-            w * (s->value[s->n_terms] - s->equilibrium_mean);
-    }
-    const double share = 1.0 / (double)s->n_terms, off = s->ratio ? off_level(s, s->value) : 0.0;
-    for (size_t j = 0; s->ratio && j < s->n_terms; j++) {
-        *gsl_vector_ptr(s->gradient, j) -= share * off;
-        for (size_t i = 0; i < s->n_terms; i++)
-            *gsl_matrix_ptr(s->precision, j, i) += share * share;
-    }
-    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
-        for (size_t k = 0; k < s->n_curves; k++) {
-            const double w = gsl_matrix_get(s->prior->precision, i, k);
-            if (s->column_b[i] < 0)
-                continue;
-            *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * b_departure(s, s->value, k);
-            if (s->column_b[k] >= 0)
-                *gsl_matrix_ptr(s->precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) += w;
-        }
-}
-
-/* Adds J'r of a modulus times `scale`. */
-static void add_gradient(spectrum *s, int q, double scale)
-{
-    const size_t m = s->n_linear, width = m + 2;
-    double *gradient = gsl_vector_ptr(s->gradient, 0);
-    for (size_t i = 0; i < s->n_curves; i++)
-        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-            const double *row = s->row[q] + k * width, r = scale * s->residual[q][k];
-            for (size_t j = 0; j < m; j++)
-                gradient[j] += r * row[j];
-            if (s->column_a[i] >= 0)
-                gradient[s->column_a[i]] += r * row[m];
-            if (s->column_b[i] >= 0)
-                gradient[s->column_b[i]] += r * row[m + 1];
-        }
-}
-
-void spectrum_assemble(spectrum *s)
-{
-    gsl_vector_set_zero(s->gradient);
-    gsl_matrix_set_zero(s->precision);
-    for (int q = 0; q < MODULI; q++) {
-        const double scale = 1.0 / (s->noise[q] * s->noise[q]);
-        for (size_t i = 0; i < s->n_unknowns; i++)
-            for (size_t k = 0; k < s->n_unknowns; k++)
-                *gsl_matrix_ptr(s->precision, i, k) += scale * gsl_matrix_get(s->normal[q], i, k);
-        add_gradient(s, q, scale);
-    }
-    add_priors(s);
-}
-
-double spectrum_prior_log_det(const spectrum *s)
-{
-    return 2.0 * (double)(s->n_terms - 2) * log(s->smooth) + s->prior->log_det;
 }

@@ -55,7 +55,7 @@ double spectrum_noise_update(spectrum *s)
         change = fmax(change, fabs(log(next / s->noise[q])));
         s->noise[q] = next;
     }
-    const double rank = (double)(s->n_terms - 2);
+    const double rank = (double)(s->bend_end - s->bend_first);
     const double used = rank - spectrum_roughness_trace(s) / (s->smooth * s->smooth);
     const double rough = spectrum_roughness(s, s->value);
     const double next = fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth);
@@ -100,21 +100,21 @@ static double bend_known(const spectrum *s, size_t j, double *square)
 
 void spectrum_bends(spectrum *s)
 {
-    const size_t reach = (size_t)ceil(bend_reach * M_LN10 / s->step), n = s->n_terms - 2;
+    const size_t reach = (size_t)ceil(bend_reach * M_LN10 / s->step);
     const size_t first = s->n_fast + reach;
     const size_t last = s->n_measured > first + reach ? s->n_measured - reach : first;
     double *next = s->term; /* scratch */
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = s->bend_first; j < s->bend_end; j++) {
         const size_t at = j < first ? first : j > last ? last : j;
         double sum = bend_belief, known = bend_belief;
-        for (size_t i = at - reach; i <= at + reach && i < n; i++) {
+        for (size_t i = at - reach; i <= at + reach && i < s->bend_end; i++) {
             double square;
             known += bend_known(s, i, &square);
             sum += square;
         }
         next[j] = j > last ? fmin(known / sum, 1.0) : known / sum;
     }
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = s->bend_first; j < s->bend_end; j++)
         s->bend[j] = next[j];
 }
 

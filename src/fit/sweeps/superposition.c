@@ -10,6 +10,8 @@
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 
 /* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
@@ -49,6 +51,8 @@ struct extra {
     gsl_matrix *matrix; /* [n * n] what the model leaves of them */
     gsl_vector *right;  /* [n] with the residuals */
     size_t *from, *to;  /* [n] where a column is not zero */
+    double *length;     /* [n] of a column before it is 1 */
+    double *share;      /* [PARTINGS * n_terms] how much a term follows a parting */
     double squares, points, freedom;
     double uncertainty; /* variance of ln of the variance of what columns explain */
 };
@@ -116,7 +120,7 @@ static void add_parted(struct extra *x, size_t curve, size_t k, const double *sh
 static wt_status part_columns(struct extra *x, wt_error *err)
 {
     const spectrum *s = x->s;
-    double *share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
+    double *share = x->share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
     double *const part[MODULI] = {pool_numbers(&x->memory, s->n_linear),
                                   pool_numbers(&x->memory, s->n_linear)};
     if (x->memory.failed)
@@ -208,7 +212,7 @@ static wt_status take_out_spectrum(struct extra *x, wt_error *err)
     gsl_matrix_view columns = gsl_matrix_submatrix(x->column, 0, 0, n, 2 * s->n);
     for (size_t c = 0; c < n; c++) {
         gsl_vector_view column = gsl_matrix_row(&columns.matrix, c);
-        const double length = gsl_blas_dnrm2(&column.vector);
+        const double length = x->length[c] = gsl_blas_dnrm2(&column.vector);
         if (length > 0.0)
             gsl_vector_scale(&column.vector, 1.0 / length);
         add_product(s, column.vector.data, gsl_matrix_ptr(by, c, 0));
@@ -250,6 +254,31 @@ static double explained_squares(struct extra *x, size_t *rank)
         }
     }
     return sum;
+}
+
+/* How far the times of the measured range part from the shifts, as a share of those: half of the
+ * range of what the partings, fitted together, make of the terms. */
+static double parted_share(const struct extra *x)
+{
+    const spectrum *s = x->s;
+    double matrix[PARTINGS * PARTINGS], by[PARTINGS], low = HUGE_VAL, high = -HUGE_VAL;
+    gsl_matrix_view m = gsl_matrix_view_array(matrix, PARTINGS, PARTINGS);
+    gsl_matrix_const_view of = gsl_matrix_const_submatrix(x->matrix, 0, 0, PARTINGS, PARTINGS);
+    gsl_vector_const_view right = gsl_vector_const_subvector(x->right, 0, PARTINGS);
+    gsl_vector_view solution = gsl_vector_view_array(by, PARTINGS);
+    gsl_matrix_memcpy(&m.matrix, &of.matrix);
+    gsl_vector_memcpy(&solution.vector, &right.vector);
+    if (gsl_linalg_cholesky_decomp1(&m.matrix) != GSL_SUCCESS)
+        return 0.0; /* too little is left of them to tell */
+    gsl_linalg_cholesky_svx(&m.matrix, &solution.vector);
+    for (size_t j = s->n_fast; j < s->n_measured; j++) {
+        double sum = 0.0;
+        for (size_t p = 0; p < PARTINGS; p++)
+            sum += by[p] / x->length[p] * x->share[p * s->n_terms + j];
+        low = fmin(low, sum);
+        high = fmax(high, sum);
+    }
+    return high > low ? 0.5 * (high - low) : 0.0;
 }
 
 /* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
@@ -310,6 +339,8 @@ static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *er
     wt_status status = take_out_spectrum(x, err);
     if (status != WT_OK)
         return status;
+    if (x->share != NULL)
+        result->parted = parted_share(x);
     const double q = explained_squares(x, &rank), k = (double)rank;
     if (rank == 0)
         return WT_OK;
@@ -359,6 +390,7 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
     x.right = pool_vector(&x.memory, most);
     x.from = pool_alloc(&x.memory, most, sizeof *x.from);
     x.to = pool_alloc(&x.memory, most, sizeof *x.to);
+    x.length = pool_numbers(&x.memory, most);
     wt_status status = x.memory.failed
                            ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
                            : WT_OK;

@@ -10,6 +10,7 @@ typedef struct lack_of_fit {
     double p_sure;                   /* the same with what is not known of the noise */
     double misfit_low, misfit_high;  /* relative, 95 %: the larger of the two */
     double factor, factor_error, kk; /* ln of a common factor on E'' and p of it */
+    double parted; /* share of a shift by which slow and fast times part from it */
 } lack_of_fit;
 
 /* From a fit with free vertical shifts; uncertainty: that of its noise (spectrum_within). */
