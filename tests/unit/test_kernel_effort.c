@@ -78,7 +78,7 @@ static void nodes_follow_the_tolerance(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(12), table()};
-    const double most[][3] = {{45, 90, 135}, {135, 255, 355}};
+    const double most[][3] = {{55, 100, 145}, {180, 270, 370}};
     for (size_t m = 0; m < 2; m++) {
         wt_friction_point tight[VELOCITIES];
         const double tolerances[] = {1e-2, 1e-6, 1e-10};
@@ -87,6 +87,29 @@ static void nodes_follow_the_tolerance(void **state)
             const double nodes = nodes_at(materials[m], tolerances[i], tight);
             if (!(nodes <= most[m][i]))
                 fail_msg("material %zu, tolerance %g: %g nodes", m, tolerances[i], nodes);
+        }
+        wt_material_free(materials[m]);
+    }
+}
+
+/* ---- what stands beside -----------------------------------------------------------------------*/
+
+/* The digits of a velocity are its own: those of other velocities and their number, 0 among them,
+ * move nothing. */
+static void neighbours_move_nothing(void **state)
+{
+    (void)state;
+    wt_material *const materials[] = {prony(5), prony(12), prony(40), table()};
+    for (size_t m = 0; m < 4; m++) {
+        wt_friction_point alone, many[VELOCITIES];
+        compute(materials[m], 1e-10, VELOCITIES, many);
+        for (size_t n = 1; n < 12; n += 5) {
+            wt_friction_point some[VELOCITIES];
+            compute(materials[m], 1e-10, n, some);
+            alone = some[n - 1];
+            assert_true(alone.hysteresis.value == many[n - 1].hysteresis.value);
+            assert_true(alone.stress_variance.value == many[n - 1].stress_variance.value);
+            assert_true(alone.hysteresis.numerical_error == many[n - 1].hysteresis.numerical_error);
         }
         wt_material_free(materials[m]);
     }
@@ -130,7 +153,8 @@ static void many_terms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_follow_the_tolerance),
-                                       cmocka_unit_test(many_terms)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_follow_the_tolerance), cmocka_unit_test(knots_on_a_line),
+        cmocka_unit_test(neighbours_move_nothing), cmocka_unit_test(many_terms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
