@@ -3,6 +3,8 @@
 
 #include "weartrack/kernel.h"
 
+#include <stdlib.h>
+
 enum { VELOCITIES = 100, KNOTS = 107, MOST = 100 };
 
 static wt_material *prony(size_t terms)
@@ -90,6 +92,54 @@ static void nodes_follow_the_tolerance(void **state)
         }
         wt_material_free(materials[m]);
     }
+}
+
+/* ---- knots ----------------------------------------------------------------------------------- */
+
+enum { DENSE = 20000 };
+
+/* A power law over eight decades, with the same end values held. */
+static void power_law(size_t knots, wt_friction_point *point)
+{
+    double *omega = calloc(knots, sizeof *omega), *storage = calloc(knots, sizeof *storage),
+           *loss = calloc(knots, sizeof *loss);
+    wt_material *material = NULL;
+    assert_true(omega != NULL && storage != NULL && loss != NULL);
+    for (size_t i = 0; i < knots; i++) {
+        const double part = (double)i / (double)(knots - 1);
+        omega[i] = pow(10, -1 + 8 * part);
+        storage[i] = 1e6 * pow(10, 2 * part);
+        loss[i] = 2e5 * pow(10, 2.5 * part);
+    }
+    assert_int_equal(
+        wt_material_table(omega, storage, loss, knots, 0.5, WT_EXTRAPOLATE_HOLD, &material, NULL),
+        WT_OK);
+    compute(material, 1e-10, 1, point);
+    assert_true(point->reached);
+    wt_material_free(material);
+    free(omega);
+    free(storage);
+    free(loss);
+}
+
+static void assert_same(wt_estimate a, wt_estimate b)
+{
+    /* knots are rounded, each moduli by an ulp */
+    const double rounding = 1e-14 * fabs(a.value);
+    assert_true(fabs(a.value - b.value) <= a.numerical_error + b.numerical_error + rounding);
+}
+
+/* Knots on a line change nothing, and as many as this do not make the time grow with their square:
+ * half a minute where they did. */
+static void knots_on_a_line(void **state)
+{
+    (void)state;
+    wt_friction_point few, many;
+    power_law(2, &few);
+    power_law(DENSE, &many);
+    assert_same(few.stress_variance, many.stress_variance);
+    assert_same(few.hysteresis, many.hysteresis);
+    assert_same(few.area_ratio, many.area_ratio);
 }
 
 /* ---- what stands beside -----------------------------------------------------------------------*/
