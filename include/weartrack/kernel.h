@@ -53,9 +53,9 @@ WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
 
 /* At one velocity. numerical_error is a bound that tells whether the tolerance is met, and no
- * estimate: the true error is a thousandth of it as a rule, and more of it nowhere in 40,000 checks
- * against quad precision (tests/docs/accuracy.md). It is stated whether or not the tolerance was
- * met. */
+ * estimate: the true error is some hundreds of times smaller as a rule, and was larger in none of
+ * 30,000 checks against quad precision (tests/docs/accuracy.md). It is stated whether or not the
+ * tolerance was met. */
 typedef struct wt_friction_point {
     double velocity;             /* [m/s] */
     wt_estimate stress_variance; /* G(q1) */
