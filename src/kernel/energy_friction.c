@@ -6,8 +6,6 @@
 #include "kernel/friction.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* Depths at which two sources are compared, from 0.1 / q1 to where nothing is left that a number
  * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
@@ -36,24 +34,6 @@ static double compare_sources(const wt_energy_source *a, const wt_energy_source 
             worst = fmax(worst, fabs(of_a[k] - of_b[k])); /* NaN: both without power */
     }
     return worst;
-}
-
-void friction_record_add(friction_record *record, const double *q, const double *mu, size_t n)
-{
-    if (record->n + n > record->room) {
-        const size_t room = 2 * record->room + 8 * RULE_MOST;
-        double *more_q = realloc(record->q, room * sizeof *more_q);
-        record->q = more_q != NULL ? more_q : record->q;
-        double *more_mu = realloc(record->mu, room * sizeof *more_mu);
-        record->mu = more_mu != NULL ? more_mu : record->mu;
-        record->failed |= more_q == NULL || more_mu == NULL;
-        if (record->failed)
-            return;
-        record->room = room;
-    }
-    memcpy(record->q + record->n, q, n * sizeof *q);
-    memcpy(record->mu + record->n, mu, n * sizeof *mu);
-    record->n += n;
 }
 
 wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
