@@ -227,6 +227,95 @@ static void sum_panels(angular_panels *a)
     }
 }
 
+/* ---- groups ---------------------------------------------------------------------------------- */
+
+/* A group is taken for w twice its width above it or further: the ellipse through w has half axes
+ * that sum up to 9.9 of its half width, and 9.9^-16 is 1e-16. No wider one is ever that close below
+ * w and above w / 2. */
+static const double group_apart = 2, group_widest = 0.25;
+
+/* Spreads n numbers at frequencies over the nodes of a group that reaches from one edge to the
+ * other: barycentric interpolation. */
+static void spread(const gauss_rule *rule, double from, double to, size_t n, const double *omega,
+                   const double *value1, const double *value2, panel_group *group)
+{
+    double weight[GROUP_NODES];
+    for (size_t j = 0; j < GROUP_NODES; j++)
+        weight[j] =
+            (j % 2 ? -1 : 1) * sqrt((1 - rule->node[j]) * (1 + rule->node[j]) * rule->weight[j]);
+    for (size_t i = 0; i < n; i++) {
+        double part[GROUP_NODES], sum = 0;
+        const double z = (2 * log(omega[i]) - from - to) / (to - from);
+        for (size_t j = 0; j < GROUP_NODES; j++) {
+            const double off = z - rule->node[j];
+            part[j] = weight[j] / (off != 0 ? off : DBL_MIN);
+            sum += part[j];
+        }
+        for (size_t j = 0; j < GROUP_NODES; j++) {
+            group->value[0][j] += value1[i] * (part[j] / sum);
+            group->value[1][j] += value2[i] * (part[j] / sum);
+        }
+    }
+}
+
+/* One of level k, from its panels or from the two groups below it. */
+static void fill_group(const angular_panels *a, const gauss_rule *rule, size_t k, size_t i)
+{
+    panel_group *group = &a->group[k][i];
+    const size_t size = (size_t)GROUP_LEAST << k, nodes = i * size * PANEL_NODES;
+    const double from = a->edge[i * size], to = a->edge[(i + 1) * size];
+    if (!(to - from <= group_widest))
+        return;
+    for (size_t j = 0; j < GROUP_NODES; j++)
+        group->omega[j] = exp(from + 0.5 * (to - from) * (1 + rule->node[j]));
+    if (k == 0)
+        spread(rule, from, to, size * PANEL_NODES, a->omega + nodes, a->value[0] + nodes,
+               a->value[1] + nodes, group);
+    for (size_t half = 0; k > 0 && half < 2; half++) {
+        const panel_group *part = &a->group[k - 1][2 * i + half];
+        spread(rule, from, to, GROUP_NODES, part->omega, part->value[0], part->value[1], group);
+    }
+}
+
+/* So that what one frequency costs grows with the logarithm of their number, where panels are so
+ * narrow that many are close to it. */
+static wt_status group_panels(angular_panels *a, wt_error *err)
+{
+    const gauss_rule *rule;
+    const wt_status status = rule_of(GROUP_NODES, &rule, err);
+    bool dense = false;
+    for (size_t p = 0; !dense && p + 4 * GROUP_LEAST <= a->n; p += GROUP_LEAST)
+        dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_widest;
+    for (size_t k = 0; status == WT_OK && dense && k < GROUP_LEVELS; k++) {
+        const size_t n = a->n / ((size_t)GROUP_LEAST << k);
+        if (n == 0)
+            break;
+        a->group[k] = calloc(n, sizeof *a->group[k]);
+        if (a->group[k] == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+        for (size_t i = 0; i < n; i++)
+            fill_group(a, rule, k, i);
+    }
+    return status;
+}
+
+/* How many panels from p on a group stands for that is far enough below x; 0: none. */
+static size_t group_at(const angular_panels *a, size_t p, double x, const panel_group **group)
+{
+    size_t size = 0;
+    for (size_t k = 0; k < GROUP_LEVELS && a->group[k] != NULL; k++) {
+        const size_t next = (size_t)GROUP_LEAST << k;
+        if (p % next != 0 || p + next > a->n)
+            break;
+        const double from = a->edge[p], to = a->edge[p + next];
+        if (!(to - from <= group_widest && to + group_apart * (to - from) <= x))
+            break;
+        size = next;
+        *group = &a->group[k][p / next];
+    }
+    return size;
+}
+
 wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
                              double high, double goal, angular_panels *panels, wt_error *err)
 {
@@ -265,12 +354,17 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
         evaluate_panel(&a, p);
     sum_panels(&a);
     *panels = a;
-    return WT_OK;
+    const wt_status status = group_panels(panels, err);
+    if (status != WT_OK)
+        angular_panels_clear(panels);
+    return status;
 }
 
 void angular_panels_clear(angular_panels *panels)
 {
     free(panels->numbers);
+    for (size_t k = 0; k < GROUP_LEVELS; k++)
+        free(panels->group[k]);
     *panels = (angular_panels){0};
 }
 
@@ -375,8 +469,16 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
         size_t p = edge_before(a, x - M_LN2);
         add_far(a, p, w, j1, j2);
         while (p < a->n && a->edge[p] < x) {
+            const panel_group *group;
+            const size_t grouped = group_at(a, p, x, &group);
+            if (grouped > 0) {
+                add_middle(GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1, j2);
+                p += grouped;
+                continue;
+            }
             size_t from = p * PANEL_NODES;
-            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p])
+            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p] &&
+                   (p * PANEL_NODES == from || group_at(a, p, x, &group) == 0))
                 p++;
             for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
                 add_middle(end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,

@@ -13,6 +13,13 @@
 
 enum { PANEL_NODES = 10 }; /* see `widest` in angular_panels.c */
 
+/* Many narrow panels as one: numbers at its own nodes, with which any kernel that is a polynomial
+ * over the group is integrated as by all of them. */
+enum { GROUP_NODES = 16, GROUP_LEAST = 8, GROUP_LEVELS = 20 };
+typedef struct panel_group {
+    double omega[GROUP_NODES], value[2][GROUP_NODES];
+} panel_group;
+
 /* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
  *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */
 typedef struct angular_panels {
@@ -29,6 +36,7 @@ typedef struct angular_panels {
     double start_error[2]; /* of `below` at the first edge, m = 0 */
     double *moved[2];      /* [n + 1] error of `below`, m = 0, from the rounding of ln omega */
     double *numbers;       /* all of them */
+    panel_group *group[GROUP_LEVELS]; /* of dense panels, GROUP_LEAST 2^k of them each */
 } angular_panels;
 
 /* For w from `low` to `high` > 0 and relative errors of about `goal`. The rule is borrowed. */

@@ -6,7 +6,6 @@
 #include "kernel/friction.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* Depths at which two sources are compared, from 0.1 / q1 to where nothing is left that a number
  * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
@@ -16,6 +15,8 @@ static const double last_depth = 710;
  * at the last depth, are resolved.
  */
 static const size_t least_level = 6;
+/* Sources of panels halved so many times are compared at most. */
+enum { MOST_HALVES = 4 };
 
 /* Largest relative difference of w and of int w, for both profiles. */
 static double compare_sources(const wt_energy_source *a, const wt_energy_source *b,
@@ -35,17 +36,6 @@ static double compare_sources(const wt_energy_source *a, const wt_energy_source 
     return worst;
 }
 
-static wt_status source_alloc(wt_energy_source *source, size_t room, wt_error *err)
-{
-    *source = (wt_energy_source){.profile = WT_PROFILE_PERSSON};
-    source->wavenumber = calloc(room, sizeof *source->wavenumber);
-    source->power = calloc(room, sizeof *source->power);
-    if (source->wavenumber && source->power)
-        return WT_OK;
-    wt_energy_source_clear(source);
-    return wt_fail(err, WT_E_MEMORY, "out of memory for an energy source");
-}
-
 wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
                                     double velocity, wt_energy_source *source, wt_error *err)
 {
@@ -59,28 +49,28 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     pool memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
     status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
-    const size_t room = (scratch.plan.capacity + 1) * FRICTION_MAX_NODES;
-    for (size_t i = 0; status == WT_OK && i < 2; i++)
-        status = source_alloc(&pair[i], room, err);
-
     const panel_plan *plan =
         status == WT_OK ? friction_plan(workspace, &scratch, at.speed, NULL, 0) : NULL;
     size_t now = 0;
     double error = (double)INFINITY;
-    for (size_t k = 0; plan != NULL && k < FRICTION_STEPS && error > workspace->options.tolerance;
-         k += 2) {
+    for (size_t k = 0; status == WT_OK && k < MOST_HALVES && error > workspace->options.tolerance;
+         k++) {
         now = 1 - now;
-        scratch.trail.n = 0; /* what is compared must not begin with the same rules */
-        wt_energy_source *s = &pair[now];
-        friction_record record = {.q = s->wavenumber, .mu = s->power};
+        friction_record record = {0};
         friction_pass pass;
-        const friction_effort effort = {
-            .step = k, .level = least_level, .share = FRICTION_SHARE, .all_along = true};
+        const friction_effort effort = {.level = least_level, .halves = k, .all_along = true};
         friction_evaluate(workspace, &scratch, plan, effort, at, false, &record, &pass);
-        s->n = record.n;
+        wt_energy_source *s = &pair[now];
+        wt_energy_source_clear(s);
+        *s = (wt_energy_source){.profile = WT_PROFILE_PERSSON,
+                                .n = record.n,
+                                .wavenumber = record.q,
+                                .power = record.mu};
+        if (record.failed)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory for an energy source");
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
-        if (k > 0)
+        if (k > 0 && status == WT_OK)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, &pass).hysteresis;

@@ -10,24 +10,13 @@
 
 #include <float.h>
 
-/* Rules of rising order, from the one for all panels to that for what is steep. */
-enum { FRICTION_STEPS = 7, FRICTION_MAX_NODES = RULE_MOST };
-
-/* Where one velocity ended, for the next one to begin at. */
-typedef struct friction_start {
-    double t_high;      /* of a panel */
-    size_t step, least; /* rule to begin with; the one before `least` did not suffice */
-} friction_start;
-typedef struct friction_trail {
-    size_t first, n;                /* of the starts, [first, n); n = 0: there was none */
-    size_t level;                   /* of the core to begin with */
-    friction_start *starts, *spare; /* [panels] */
-} friction_trail;
+/* The rule for all panels, and the one that checks those for which it may not suffice. */
+enum { RULE_FIRST, RULE_CHECK, FRICTION_RULES };
 
 /* What one thread needs. */
 typedef struct friction_scratch {
     panel_plan plan;                  /* of this velocity, where knots move with it */
-    scale_grid grids[FRICTION_STEPS]; /* of that, or of the plan of all velocities */
+    scale_grid grids[FRICTION_RULES]; /* of that, or of the plan of all velocities */
     size_t room;                      /* panels that there may be */
     double *knots;                    /* [n_knots] t */
     double *bounds;                   /* [room + 1] t */
@@ -36,12 +25,10 @@ typedef struct friction_scratch {
     double *rise, *full;        /* of G, and of the hysteresis at full contact */
     double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
-    double *error_mu, *error_g; /* and the errors of its rule in them */
-    /* [room + 1], by panel: G and the hysteresis at full contact by the first rule, what an error
-     * of G makes of the hysteresis, and the first node */
+    double *error_mu, *error_g; /* and the errors of its rules in them */
+    /* [room + 1], by panel: G and the hysteresis at full contact by the first rule, and what an
+     * error of G makes of the hysteresis */
     double *rough_g, *rough_mu, *of_variance;
-    size_t *from;
-    friction_trail trail;
     size_t nodes; /* at which J1 and J2 were evaluated so far */
 } friction_scratch;
 
@@ -58,11 +45,9 @@ struct wt_friction_workspace {
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
     double *slopes; /* [n_knots + 1] of the material between them */
-    const gauss_rule *rules[FRICTION_STEPS];
-    size_t first_step; /* the rule of a panel of which nothing is known */
-    rule_fall fall;    /* of integrands, */
-    double fastest;    /* and how fast at most, a degree */
-    panel_plan plan;   /* of every velocity, for materials without knots */
+    const gauss_rule *rules[FRICTION_RULES];
+    double seen;     /* by rule_error */
+    panel_plan plan; /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */
 };
@@ -77,15 +62,14 @@ friction_load friction_load_at(const wt_friction_workspace *ws, double pressure,
 
 /* What a pass begins with and how far it goes. */
 typedef struct friction_effort {
-    size_t step;    /* the first rule, at least */
     size_t level;   /* of the core, at least */
-    double share;   /* of the tolerance, that the rule may take in one panel */
+    size_t halves;  /* every panel is halved so many times */
     bool all_along; /* G up to each panel is to be as good as all of it, and no core taken in closed
                        form that could be resolved */
 } friction_effort;
 
-/* Of the tolerance. */
-#define FRICTION_SHARE 0.2
+/* Of the tolerance, for the rules; the rest is for J1 and J2. */
+#define FRICTION_SHARE 0.5
 
 /* One pass. Parts: 0 is the core, then the panels from the innermost cell used. */
 typedef struct friction_pass {
@@ -95,15 +79,17 @@ typedef struct friction_pass {
     double variance_moved, hysteresis_moved; /* errors that come from those of J1 and J2 */
     size_t level;                            /* of the core */
     size_t nodes;
-    size_t parts;
+    size_t parts;             /* those of the plan */
     size_t piece, loss_piece; /* where to look for errors of J1 and J2 */
 } friction_pass;
 
-/* Contributions of the nodes of a pass, for the energy source; arrays with room for all nodes. */
+/* Contributions of the nodes of a pass, for the energy source; arrays that grow. */
 typedef struct friction_record {
     double *q, *mu;
-    size_t n;
+    size_t n, room;
+    bool failed; /* for want of memory */
 } friction_record;
+void friction_record_add(friction_record *record, const double *q, const double *mu, size_t n);
 
 /* Room for `n_cuts` more cuts than roughness and material make themselves. */
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
@@ -118,8 +104,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
 /* Lays the plan of this speed with these extra cuts, or returns the common one. */
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts);
-/* Evaluates all panels with the first rule, or with that of the trail of the velocity before, and
- * those again with the next ones for which it does not suffice. The record may be NULL. */
+/* Evaluates all panels with the first rule, those again with the check for which it does not
+ * suffice, and halves where that does not either. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const panel_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass);

@@ -47,22 +47,26 @@ static double series_error(const wt_friction_workspace *ws, double low, double h
                      (error + angular_error(ws->loss, low, high, &pass->loss_piece));
 }
 
-/* What the errors of J1 and J2 make of the part of a pass whose n nodes are at ln omega = `x`; G so
- * far contains it. Errors of the series; and ln omega and the logarithms of the knots are rounded,
- * so what is steep there moves. */
-static void add_moved(const wt_friction_workspace *ws, const double *x, const double *j1,
-                      const double *j2, size_t n, double log_lowest, double variance,
-                      double hysteresis, double variance_so_far, friction_pass *pass)
+/* What the errors of J1 and J2 and rounding make of the part of a pass whose n nodes are at ln
+ * omega = `x`; G so far contains it. Errors of the series; ln(q / q0), ln omega and the logarithms
+ * of the knots are rounded, so what is steep there moves. */
+static void add_moved(const wt_friction_workspace *ws, const grid_panel *panel, const double *x,
+                      const double *j1, const double *j2, size_t n, double log_lowest,
+                      double variance, double hysteresis, double variance_so_far,
+                      friction_pass *pass)
 {
-    if (angular_closed(ws->angular, x[0], x[n - 1]) &&
-        (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1])))
-        return;
+    const bool closed = angular_closed(ws->angular, x[0], x[n - 1]) &&
+                        (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1]));
     /* ln omega is a sum of two */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
-    const double moved = 4 * DBL_EPSILON * (1 + far);
-    const double series = series_error(ws, x[0], x[n - 1], pass);
-    pass->variance_moved += variance * (series + moved * steepness(j2, n));
-    pass->hysteresis_moved += hysteresis * (series + moved * steepness(j1, n));
+    const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
+    const double series = closed ? 0 : series_error(ws, x[0], x[n - 1], pass);
+    const double steepest_closed = 2; /* of a term of a Prony series */
+    const double nodes =
+        DBL_EPSILON * (1 + panel->t_high) * (fabs(panel->power) + steepest_closed + 1);
+    pass->variance_moved += variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
+    pass->hysteresis_moved +=
+        hysteresis * (nodes + series + (closed ? 0 : moved * steepness(j1, n)));
     if (variance_so_far > 0)
         pass->hysteresis_moved +=
             hysteresis * area_power * (pass->variance_moved / variance_so_far);
@@ -172,13 +176,39 @@ static void fill_parts(const node_view *view, pass_scale scale)
     scale_parts(view->rule->n, view->half * scale.mu, view->factor1, view->j1, view->full);
 }
 
-static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const panel_plan *plan, size_t step, size_t level, friction_load at,
-                           pass_scale scale)
+/* So much of what the rules may still leave, one part may. */
+static const double one_part = 0.25;
+
+/* What the parts of one pass share. */
+typedef struct walk {
+    const wt_friction_workspace *ws;
+    friction_scratch *scratch;
+    const panel_plan *plan;
+    friction_effort effort;
+    friction_load at;
+    pass_scale scale;
+    bool with_outside;
+    friction_record *record; /* NULL: none */
+    friction_pass *pass;
+    double variance_left, hysteresis_left;   /* errors that the rules may still make, */
+    double variance_least, hysteresis_least; /* and what they may if there is nothing left */
+} walk;
+
+/* The parts of G and of the hysteresis at the nodes of one panel or core. */
+static void evaluate_view(const walk *w, const node_view *view)
 {
-    scale_grid *grid = &scratch->grids[step];
-    const size_t from = (scratch->room + 1) * FRICTION_MAX_NODES;
-    grid_fill_core(grid, plan, level, ws->roughness, &ws->options.layer);
+    place_omega(view, w->at);
+    evaluate_nodes(w->ws, w->scratch, view->omega, view->rule->n);
+    soften_moduli(w->scratch, view);
+    fill_parts(view, w->scale);
+}
+
+static node_view core_view(const walk *w, size_t rule, size_t level)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[rule];
+    const size_t from = (scratch->room + 1) * RULE_MOST;
+    grid_fill_core(grid, w->plan, level, w->ws->roughness, &w->ws->options.layer);
     node_view view = place_view(scratch, grid, from);
     const size_t first = level * grid->rule->n;
     view.t = grid->core_t + first;
@@ -190,10 +220,7 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
         view.f = grid->core_f + first;
         view.g = grid->core_g + first;
     }
-    place_omega(&view, at);
-    evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
-    soften_moduli(scratch, &view);
-    fill_parts(&view, scale);
+    evaluate_view(w, &view);
     return view;
 }
 
@@ -209,14 +236,8 @@ typedef struct pass_part {
     double variance, hysteresis;
     double variance_error, hysteresis_error; /* from the rule */
     double closed_error;                     /* of the hysteresis from the closed form in a core */
-    double share[FRICTION_MAX_NODES];        /* of the hysteresis, by node */
+    double share[RULE_MOST];                 /* of the hysteresis, by node */
 } pass_part;
-
-/* What a rule leaves of an integrand that is as smooth as the moduli are. */
-static double error_of(const wt_friction_workspace *ws, const gauss_rule *rule, const rule_top *top)
-{
-    return rule_error(rule, top, ws->fall, ws->fastest);
-}
 
 /* ---- about what there will be -----------------------------------------------------------------
  */
@@ -242,28 +263,6 @@ static double rough_hysteresis(const wt_friction_workspace *ws, const friction_s
     return hysteresis;
 }
 
-/* What the rules may leave in one panel. */
-typedef struct pass_allowed {
-    double variance, hysteresis;
-} pass_allowed;
-
-/* On top of a core; `of_variance` then tells what an error of G from a panel on makes of the
- * hysteresis: that of its P there and in all panels above it. */
-static pass_allowed allow_errors(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                 size_t first, size_t last, double share, const friction_pass *core)
-{
-    double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
-    for (size_t p = first; p < last; p++) {
-        const double part = rough_part(ws, scratch, p, variance);
-        variance += scratch->rough_g[p];
-        hysteresis += part;
-        scratch->of_variance[p] = variance > 0 ? area_power * part / variance : 0;
-    }
-    for (size_t p = last; p > first; p--)
-        scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];
-    return (pass_allowed){share * variance, share * hysteresis};
-}
-
 /* ---- core ------------------------------------------------------------------------------------ */
 
 /* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
@@ -276,7 +275,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
     rule_top top_g, top_mu;
     rule_tops(rule, g, mu, &top_g, &top_mu);
     part->variance = weighted_sum(rule, g);
-    part->variance_error = error_of(ws, rule, &top_g);
+    part->variance_error = rule_error(rule, &top_g, ws->seen);
     part->closed_error = 0;
     if (part->variance > CONTACT_FULL) {
         for (size_t i = 0; i < rule->n; i++)
@@ -289,7 +288,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->closed_error = (most - least) * integral;
     }
     part->hysteresis = contact * weighted_sum(rule, mu);
-    part->hysteresis_error = contact * error_of(ws, rule, &top_mu);
+    part->hysteresis_error = contact * rule_error(rule, &top_mu, ws->seen);
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
@@ -306,29 +305,21 @@ static double levels_short(const pass_part *part, double allowed)
 }
 
 /* The largest core, at no less than `*level`, in which P is 1 or the error of the closed form is no
- * more than `allowed` of the hysteresis; or one as deep as they go. That of the velocity before is
- * tried first. */
-static node_view find_core(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const panel_plan *plan, size_t step, friction_load at, pass_scale scale,
-                           double allowed, size_t *level, pass_part *part)
+ * more than `allowed` of the hysteresis; or one as deep as they go. */
+static node_view find_core(const walk *w, double allowed, size_t *level, pass_part *part)
 {
-    friction_trail *trail = &scratch->trail;
-    /* panels that move with knots have other cores each time */
-    if (plan == &ws->plan && trail->n > 0 && *level < trail->level)
-        *level = trail->level;
+    const panel_plan *plan = w->plan;
     if (*level > plan->levels)
         *level = plan->levels;
     for (;;) {
-        const node_view core = core_view(ws, scratch, plan, step, *level, at, scale);
-        core_pass(ws, &core, part);
+        const node_view core = core_view(w, RULE_FIRST, *level);
+        core_pass(w->ws, &core, part);
         const double cells = ldexp(part->variance, 2 * (int)*level); /* G up to the panels */
-        const double least = allowed > 0 ? allowed * rough_hysteresis(ws, scratch, plan, cells) : 0;
+        const double least =
+            allowed > 0 ? allowed * rough_hysteresis(w->ws, w->scratch, plan, cells) : 0;
         const double shorter = levels_short(part, least);
-        if (*level >= plan->levels || !(shorter < 0)) {
-            const double larger = floor(shorter) - 1;
-            trail->level = larger > 0 ? *level - (size_t)fmin(larger, (double)*level) : *level;
+        if (*level >= plan->levels || !(shorter < 0))
             return core;
-        }
         const double deeper = ceil(-shorter);
         const size_t left = plan->levels - *level;
         *level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
@@ -337,30 +328,26 @@ static node_view find_core(const wt_friction_workspace *ws, friction_scratch *sc
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
-/* A panel over which G rises by no more is as smooth to the rule as any. */
-static const double steep_rise = 2;
 /* From this G on all of P shows in the hysteresis: 1 - P is a fifth there, and no small difference
  * any more. */
 static const double area_begun = 0.3;
 
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
- * Where P leaves 1 the difference is too small to show in the last coefficients and too steep for
- * the rule, so it is looked at alone. */
+ * Where P leaves 1 the difference is too small to show in the last coefficients, so it is looked at
+ * alone. */
 static double hysteresis_error(const wt_friction_workspace *ws, const gauss_rule *rule,
                                const rule_top *full, const rule_top *part, double before,
                                double after)
 {
-    const bool steep = after > CONTACT_FULL && after > steep_rise * before;
-    const rule_fall fall = steep ? FALL_STEEP : ws->fall;
     rule_top gap;
     if (!(before < area_begun))
-        return rule_error(rule, part, fall, ws->fastest);
-    const double own = error_of(ws, rule, full);
+        return rule_error(rule, part, ws->seen);
+    const double own = rule_error(rule, full, ws->seen);
     if (!(after > CONTACT_FULL))
         return own;
     for (size_t k = 0; k < RULE_TOP; k++)
         gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
-    return own + rule_error(rule, &gap, fall, ws->fastest);
+    return own + rule_error(rule, &gap, ws->seen);
 }
 
 /* On top of a variance so far. */
@@ -369,8 +356,7 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
 {
     const gauss_rule *rule = view->rule;
     const double gamma = ws->options.gamma, *g = view->rise, *full = view->full;
-    double running[FRICTION_MAX_NODES + CONTACT_ROOM], area[FRICTION_MAX_NODES + CONTACT_ROOM],
-        mu[FRICTION_MAX_NODES];
+    double running[RULE_MOST + CONTACT_ROOM], area[RULE_MOST + CONTACT_ROOM], mu[RULE_MOST];
     rule_top top_g, top_full, top_mu;
     for (size_t j = 0; j < rule->n + CONTACT_ROOM; j++)
         running[j] = variance;
@@ -395,173 +381,212 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
         part->hysteresis += part->share[j];
     }
     rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance_error = error_of(ws, rule, &top_g);
+    part->variance_error = rule_error(rule, &top_g, ws->seen);
     if (variance < area_begun)
         rule_tops(rule, full, mu, &top_full, &top_mu);
     part->hysteresis_error =
         hysteresis_error(ws, rule, &top_full, &top_mu, variance, variance + part->variance);
 }
 
-/* Adds a part, from the nodes in view, to a pass. */
-static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
-                     const node_view *view, const pass_part *part, double log_lowest,
-                     bool with_outside, friction_record *record, friction_pass *pass)
+/* ---- one pass -------------------------------------------------------------------------------- */
+
+/* Adds a part, from the nodes in view, to a pass: of the core (place 0) or of a panel. */
+static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
+                     size_t place)
 {
-    const size_t n = view->rule->n, place = pass->parts++;
+    const wt_friction_workspace *ws = w->ws;
+    friction_scratch *scratch = w->scratch;
+    friction_pass *pass = w->pass;
+    const size_t n = view->rule->n;
     const double variance = pass->variance + part->variance;
-    for (size_t j = 0; record && j < n; j++) {
-        record->q[record->n] = view->q[j];
-        record->mu[record->n++] = part->share[j];
-    }
-    for (size_t j = 0; with_outside && j < n; j++)
+    if (w->record != NULL)
+        friction_record_add(w->record, view->q, part->share, n);
+    for (size_t j = 0; w->with_outside && j < n; j++)
         if (part->share[j] > 0) {
             const double j1 = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
             pass->outside +=
                 part->share[j] * (angular_outside(ws->angular, view->omega[j], j1) / j1);
         }
     pass->variance_error += part->variance_error;
-    add_moved(ws, view->log_omega, view->j1, view->j2, n, log_lowest, part->variance,
+    add_moved(ws, panel, view->log_omega, view->j1, view->j2, n, w->at.log_lowest, part->variance,
               part->hysteresis, variance, pass);
-    scratch->error_g[place] = part->variance_error;
-    scratch->error_mu[place] = part->hysteresis_error + part->closed_error;
+    double error = part->hysteresis_error + part->closed_error;
     if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
-        scratch->error_mu[place] +=
-            area_power * part->hysteresis * (pass->variance_error / variance);
-    scratch->panel_g[place] = part->variance;
-    scratch->panel_mu[place] = part->hysteresis;
+        error += area_power * part->hysteresis * (pass->variance_error / variance);
+    scratch->error_g[place] += part->variance_error;
+    scratch->error_mu[place] += error;
+    scratch->panel_g[place] += part->variance;
+    scratch->panel_mu[place] += part->hysteresis;
     pass->variance = variance;
     pass->hysteresis += part->hysteresis;
-    pass->hysteresis_error += scratch->error_mu[place];
+    pass->hysteresis_error += error;
     pass->nodes += n;
+    w->variance_left -= part->variance_error;
+    w->hysteresis_left -= part->hysteresis_error + part->closed_error;
 }
 
-/* ---- from one velocity to the next ------------------------------------------------------------
- */
-
-/* Of the panel of the velocity before that the middle of this one lies in; `k` is where to look
- * from. */
-static friction_start start_of(const wt_friction_workspace *ws, const friction_trail *trail,
-                               const grid_panel *panel, size_t step, size_t *k)
+/* The panels from the `first` up to the `last`, left out, by the first rule. */
+static void begin_panels(const walk *w, size_t first, size_t last)
 {
-    const double middle = 0.5 * (panel->t_low + panel->t_high);
-    while (*k < trail->n && trail->starts[*k].t_high < middle)
-        ++*k;
-    friction_start start = {.step = ws->first_step};
-    if (*k < trail->n)
-        start = trail->starts[*k];
-    if (start.step < step)
-        start.step = step;
-    start.t_high = panel->t_high;
-    return start;
-}
-
-/* The panels from the `first` up to the `last`, left out, with the rules to begin with: their nodes
- * go where there is room from `nodes` on. Returns where it ends. */
-static size_t begin_panels(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const panel_plan *plan, size_t first, size_t last, size_t step,
-                           size_t nodes, friction_load at, pass_scale scale)
-{
-    const size_t begin = nodes;
-    for (size_t p = first, k = scratch->trail.first; p < last; p++) {
-        friction_start *end = &scratch->trail.spare[p];
-        *end = start_of(ws, &scratch->trail, &plan->panels[p], step, &k);
-        scratch->from[p] = nodes;
-        scale_grid *grid = &scratch->grids[end->step];
-        grid_fill_panels(grid, plan, p, p + 1, ws->roughness, &ws->options.layer);
-        const node_view view = panel_view(scratch, grid, p, nodes);
-        place_omega(&view, at);
-        nodes += grid->rule->n;
-    }
-    evaluate_nodes(ws, scratch, scratch->omega + begin, nodes - begin);
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[RULE_FIRST];
+    const size_t n = grid->rule->n;
+    grid_fill_panels(grid, w->plan, first, last, w->ws->roughness, &w->ws->options.layer);
     for (size_t p = first; p < last; p++) {
-        const scale_grid *grid = &scratch->grids[scratch->trail.spare[p].step];
-        const node_view view = panel_view(scratch, grid, p, scratch->from[p]);
+        const node_view view = panel_view(scratch, grid, p, p * n);
+        place_omega(&view, w->at);
+    }
+    evaluate_nodes(w->ws, scratch, scratch->omega + first * n, (last - first) * n);
+    for (size_t p = first; p < last; p++) {
+        const node_view view = panel_view(scratch, grid, p, p * n);
         soften_moduli(scratch, &view);
-        fill_parts(&view, scale);
+        fill_parts(&view, w->scale);
         scratch->rough_g[p] = weighted_sum(view.rule, view.rise);
         scratch->rough_mu[p] = weighted_sum(view.rule, view.full);
     }
-    return nodes;
 }
 
-/* A panel with the next rule. */
-static node_view finer_view(const wt_friction_workspace *ws, friction_scratch *scratch,
-                            const panel_plan *plan, size_t p, size_t step, friction_load at,
-                            pass_scale scale)
+/* Part of a panel by a rule. */
+static node_view part_view(const walk *w, const grid_panel *panel, size_t rule)
 {
-    scale_grid *grid = &scratch->grids[step];
-    grid_fill_panels(grid, plan, p, p + 1, ws->roughness, &ws->options.layer);
-    const node_view view = panel_view(scratch, grid, p, scratch->room * FRICTION_MAX_NODES);
-    place_omega(&view, at);
-    evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
-    soften_moduli(scratch, &view);
-    fill_parts(&view, scale);
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[rule];
+    grid_fill_part(grid, w->plan, panel, w->ws->roughness, &w->ws->options.layer);
+    const node_view view = panel_view(scratch, grid, w->plan->capacity, scratch->room * RULE_MOST);
+    evaluate_view(w, &view);
     return view;
 }
 
-/* Whether what the rule leaves is so small a part of what is allowed. */
-static bool is_fine(const pass_part *part, double of_variance, pass_allowed allowed, double worth)
+/* A panel is halved no more often: what is no smoother on a thousandth of it is a jump. */
+enum { MOST_HALVES = 10 };
+
+/* Begins a pass on top of a core with what there will be, by the first rule, and what an error of G
+ * from a panel on makes of the hysteresis: that of its P there and in all panels above it. */
+static void begin_pass(walk *w, size_t level, const pass_part *core)
 {
-    return part->variance_error <= worth * allowed.variance &&
-           part->variance_error * of_variance <= worth * allowed.hysteresis &&
-           part->hysteresis_error <= worth * allowed.hysteresis;
+    friction_scratch *scratch = w->scratch;
+    const size_t first = w->plan->levels - level, last = w->plan->n_panels;
+    double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
+    for (size_t p = first; p < last; p++) {
+        const double part = rough_part(w->ws, scratch, p, variance);
+        variance += scratch->rough_g[p];
+        hysteresis += part;
+        scratch->of_variance[p] = variance > 0 ? area_power * part / variance : 0;
+    }
+    for (size_t p = last; p > first; p--)
+        scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];
+    const double share = FRICTION_SHARE * w->ws->options.tolerance;
+    w->variance_left = share * variance;
+    w->hysteresis_left = share * hysteresis;
+    w->variance_least = one_part * one_part * w->variance_left;
+    w->hysteresis_least = one_part * one_part * w->hysteresis_left;
+    *w->pass = (friction_pass){.level = level, .parts = last - first + 1};
+    for (size_t place = 0; place < w->pass->parts; place++)
+        scratch->error_g[place] = scratch->error_mu[place] = scratch->panel_g[place] =
+            scratch->panel_mu[place] = 0;
+}
+
+static double of_variance_after_core(const walk *w)
+{
+    const size_t first = w->plan->levels - w->pass->level;
+    return first < w->plan->n_panels ? w->scratch->of_variance[first] : 0;
+}
+
+/* Whether a rule suffices for part of a panel, halved `depth` times. */
+static bool is_fine(const walk *w, const pass_part *part, double of_variance, size_t depth)
+{
+    const double share = ldexp(1, -(int)depth), so_far = w->pass->variance + part->variance;
+    const double variance = share * fmax(one_part * w->variance_left, w->variance_least);
+    const double hysteresis = share * fmax(one_part * w->hysteresis_left, w->hysteresis_least);
+    return part->variance_error <=
+               (w->effort.all_along ? one_part * w->ws->options.tolerance * so_far : variance) &&
+           part->variance_error * of_variance + part->hysteresis_error <= hysteresis;
+}
+
+/* P = erf(1/(2 sqrt G)) has its next singular points at pi/2 beside a real ln G, as a Maxwell
+ * element has beside ln q, and the difference to 1 is steep next to 0: what the coefficients tell
+ * of it is not to be trusted where ln G rises by more over a panel than these. */
+static const double most_steep[FRICTION_RULES] = {2.5, 3.5};
+
+static bool is_steep(const walk *w, const pass_part *part, size_t rule)
+{
+    const double before = fmax(w->pass->variance, CONTACT_FULL);
+    return log((w->pass->variance + part->variance) / before) > most_steep[rule];
+}
+
+/* A whole panel by the check. */
+static node_view check_view(const walk *w, size_t p)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[RULE_CHECK];
+    grid_fill_panels(grid, w->plan, p, p + 1, w->ws->roughness, &w->ws->options.layer);
+    const node_view view = panel_view(scratch, grid, p, scratch->room * RULE_MOST);
+    evaluate_view(w, &view);
+    return view;
+}
+
+/* A panel or a part of it, from its nodes by the first rule. */
+static void add_panel(walk *w, const grid_panel *panel, node_view view, size_t p, size_t first,
+                      size_t depth)
+{
+    const double of_variance = w->scratch->of_variance[p];
+    bool halve = depth < w->effort.halves;
+    pass_part part;
+    if (!halve) {
+        panel_pass(w->ws, &view, w->pass->variance, &part);
+        if (is_steep(w, &part, RULE_FIRST) || !is_fine(w, &part, of_variance, depth)) {
+            view = depth == 0 ? check_view(w, p) : part_view(w, panel, RULE_CHECK);
+            panel_pass(w->ws, &view, w->pass->variance, &part);
+            halve = depth < MOST_HALVES &&
+                    (is_steep(w, &part, RULE_CHECK) || !is_fine(w, &part, of_variance, depth));
+        }
+    }
+    if (!halve) {
+        add_part(w, panel, &view, &part, p - first + 1);
+        return;
+    }
+    for (int upper = 0; upper < 2; upper++) {
+        const grid_panel half = grid_half(panel, upper);
+        add_panel(w, &half, part_view(w, &half, RULE_FIRST), p, first, depth + 1);
+    }
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const panel_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass)
 {
-    const pass_scale scale = scale_of(ws, at);
-    const double share = effort.share * ws->options.tolerance;
+    walk w = {.ws = ws,
+              .scratch = scratch,
+              .plan = plan,
+              .effort = effort,
+              .at = at,
+              .scale = scale_of(ws, at),
+              .with_outside = with_outside,
+              .record = record,
+              .pass = pass};
+    const double share = FRICTION_SHARE * ws->options.tolerance;
     const bool closed = !effort.all_along && ws->options.gamma == 1;
-    friction_trail *trail = &scratch->trail;
+    const size_t last = plan->n_panels, n = ws->rules[RULE_FIRST]->n;
+    size_t level = effort.level;
     pass_part part;
-    size_t level = effort.level, step = effort.step;
-    const size_t last = plan->n_panels;
-    const size_t nodes =
-        begin_panels(ws, scratch, plan, plan->levels, last, effort.step, 0, at, scale);
-    node_view view =
-        find_core(ws, scratch, plan, step, at, scale, closed ? share : 0, &level, &part);
-    const size_t first = plan->levels - level;
-    (void)begin_panels(ws, scratch, plan, first, plan->levels, effort.step, nodes, at, scale);
-    *pass = (friction_pass){.variance = part.variance, .hysteresis = part.hysteresis};
-    const pass_allowed total = allow_errors(ws, scratch, first, last, share, pass);
-    pass_allowed allowed = total;
-    if (effort.all_along)
-        allowed = (pass_allowed){share * part.variance, share * part.hysteresis};
-    while (!is_fine(&part, scratch->of_variance[first], allowed, 1) && ++step < FRICTION_STEPS) {
-        view = core_view(ws, scratch, plan, step, level, at, scale);
+    begin_panels(&w, plan->levels, last);
+    node_view view = find_core(&w, closed ? one_part * share : 0, &level, &part);
+    begin_panels(&w, plan->levels - level, plan->levels);
+    begin_pass(&w, level, &part);
+    while (!is_fine(&w, &part, of_variance_after_core(&w), 0)) {
+        view = core_view(&w, RULE_CHECK, level);
         core_pass(ws, &view, &part);
+        if (is_fine(&w, &part, of_variance_after_core(&w), 0) || level == plan->levels)
+            break;
+        level++; /* a cell more is what halves are to a panel */
+        view = core_view(&w, RULE_FIRST, level);
+        core_pass(ws, &view, &part);
+        begin_panels(&w, plan->levels - level, plan->levels - level + 1);
+        begin_pass(&w, level, &part);
     }
-    *pass = (friction_pass){.level = level};
-    add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
-    allowed = total;
-    for (size_t p = first; p < last; p++) {
-        friction_start *end = &trail->spare[p];
-        const double of_variance = scratch->of_variance[p];
-        for (view = panel_view(scratch, &scratch->grids[end->step], p, scratch->from[p]);;
-             view = finer_view(ws, scratch, plan, p, end->step, at, scale)) {
-            panel_pass(ws, &view, pass->variance, &part);
-            if (effort.all_along)
-                allowed.variance = share * (pass->variance + part.variance);
-            if (end->step + 1 == FRICTION_STEPS || is_fine(&part, of_variance, allowed, 1))
-                break;
-            end->least = ++end->step;
-        }
-        if (end->step > end->least) {
-            /* a node is worth two degrees, and each no more than the poles let it */
-            const size_t fewer = view.rule->n - ws->rules[end->step - 1]->n;
-            double worth = 1;
-            for (size_t i = 0; i < fewer; i++)
-                worth *= ws->fastest * ws->fastest;
-            if (is_fine(&part, of_variance, allowed, worth))
-                end->step--;
-        }
-        add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
-    }
-    friction_start *before = trail->starts;
-    trail->starts = trail->spare;
-    trail->spare = before;
-    trail->first = first;
-    trail->n = last;
+    const size_t first = plan->levels - level;
+    add_part(&w, &plan->core[level], &view, &part, 0);
+    for (size_t p = first; p < last; p++)
+        add_panel(&w, &plan->panels[p], panel_view(scratch, &scratch->grids[RULE_FIRST], p, p * n),
+                  p, first, 0);
 }

@@ -33,7 +33,7 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
     const panel_plan *plan = friction_plan(workspace, scratch, at.speed, cuts, n);
     friction_pass pass;
-    const friction_effort effort = {.share = FRICTION_SHARE, .all_along = true};
+    const friction_effort effort = {.all_along = true};
     friction_evaluate(workspace, scratch, plan, effort, at, false, NULL, &pass);
 
     const double relative = friction_relative_error(workspace, &pass).variance;

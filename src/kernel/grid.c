@@ -15,15 +15,18 @@
  * every rule. */
 static const double cell_ratio = 4;
 /* A panel right of a knot may be so many times longer than its distance from the knot before: in
- * the square root of the distance its singularity is then 1/8 of the panel away, for which `closer`
- * in rule.c allows. */
+ * the square root of the distance its singularity is then 1/8 of the panel away. */
 static const double grading = 8;
 /* Knots closer than this part of a panel are one: what lies between them weighs no more than the
  * power 3/2 of it. */
 static const double same_knot = 1e-11;
-/* ln |E|^2 rises by no more over one panel: P falls from 1 where G has hardly begun to rise, and a
- * polynomial that ends 10^12 times higher is all error there. */
-static const double most_rise = 5;
+/* ln(q^4 C |E|^2), which G is the integral of, rises by no more over one panel: P falls from 1
+ * where G has hardly begun to rise, and a polynomial that ends 10^12 times higher is all error
+ * there. */
+static const double most_rise = 2.9;
+/* |E|^2 of a closed form is taken to rise with the frequency; with its square at most, and there a
+ * panel is halved. */
+static const double closed_slope = 1;
 /* Outside a table it is taken for no steeper: so steep, a modulus leaves the numbers within three
  * decades. */
 static const double steepest_outside = 200;
@@ -64,6 +67,28 @@ void grid_slopes(const wt_material *material, const double *knots, size_t n_knot
     }
 }
 
+/* Slopes of ln(q^4 C) between the breaks of the spectrum; returns by how much it rises. */
+static double spectrum_powers(const wt_roughness *roughness, double *powers)
+{
+    size_t n = 0;
+    const double *breaks = roughness_breaks(roughness, &n);
+    double from = roughness->q0, before, sum = 0;
+    roughness->law->density(roughness, &from, 1, &before);
+    for (size_t k = 0; k <= n; k++) {
+        const double to = k < n ? breaks[k] : roughness->q1, length = log_ratio(to, from);
+        double density;
+        roughness->law->density(roughness, &to, 1, &density);
+        const double rise = 4 * length + log(density / before);
+        const bool counts = length > same_knot * PANEL_WIDTH && isfinite(rise);
+        if (powers != NULL)
+            powers[k] = counts ? rise / length : 0;
+        sum += counts ? fmax(0, rise) : 0;
+        from = to;
+        before = density;
+    }
+    return sum;
+}
+
 /* Panels more than one that the slopes make. */
 static size_t steep_most(const double *knots, const double *slopes, size_t n, double length)
 {
@@ -100,11 +125,16 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
                          .slopes = slopes,
                          .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
-    plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) +
-                     steep_most(knots, slopes, n_knots, length) + n_cuts + 32 +
-                     (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / PANEL_WIDTH);
+    plan->capacity =
+        levels + n_roughness + n_knots + graded_most(knots, n_knots) +
+        steep_most(knots, slopes, n_knots, length) + n_cuts + 32 +
+        (size_t)((spectrum_powers(roughness, NULL) + closed_slope * length) / most_rise) +
+        (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / PANEL_WIDTH);
     plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
     plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
+    plan->powers = pool_numbers(memory, n_roughness + 1);
+    if (plan->powers != NULL)
+        (void)spectrum_powers(roughness, plan->powers);
 }
 
 /* How many knots are at or below t. */
@@ -168,12 +198,15 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
 
     plan->n_panels = plan->levels;
     double from = 0;
-    for (size_t i = 1; i < n; i++) {
+    for (size_t i = 1, k = 0; i < n; i++) {
         const double width = bounds[i] - from;
         /* A knot that falls on a break up to rounding; the last bound always counts. */
         if (!(width > 0) || (i + 1 < n && n_knots && width < least))
             continue;
         double low = from;
+        const double inside = 0.5 * (from + bounds[i]);
+        while (k < n_roughness && log_ratio(breaks[k], plan->q0) <= inside)
+            k++;
         while (low < bounds[i]) {
             double high = bounds[i];
             if (low > 0 && high > cell_ratio * low)
@@ -181,12 +214,14 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
             const double usual = low > 0 ? plan->width : PANEL_WIDTH;
             const double middle = 0.5 * (low + bounds[i]);
             const double slope =
-                n_knots > 0 ? plan->slopes[knots_below(knots, n_knots, middle)] : 0;
+                fmax(0, plan->powers[k]) +
+                (n_knots > 0 ? plan->slopes[knots_below(knots, n_knots, middle)] : closed_slope);
             const double widest = slope * usual > most_rise ? most_rise / slope : usual;
             const double pieces = 1 + floor((bounds[i] - low) / widest);
             if (pieces > 1)
                 high = fmin(high, low + (bounds[i] - low) / pieces);
             plan->panels[plan->n_panels] = panel_at(low, high, knots, n_knots);
+            plan->panels[plan->n_panels].power = plan->powers[k];
             low = plan->panels[plan->n_panels++].t_high;
         }
         from = bounds[i];
@@ -202,30 +237,48 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
         plan->core[level] = first;
         plan->core[level].t_high = high;
         if (level < plan->levels)
-            plan->panels[plan->levels - 1 - level] =
-                (grid_panel){.t_low = high / cell_ratio, .t_high = high, .map = MAP_LOGARITHM};
+            plan->panels[plan->levels - 1 - level] = (grid_panel){.t_low = high / cell_ratio,
+                                                                  .t_high = high,
+                                                                  .power = first.power,
+                                                                  .map = MAP_LOGARITHM};
         high /= cell_ratio;
     }
+}
+
+grid_panel grid_half(const grid_panel *panel, bool upper)
+{
+    grid_panel half = *panel;
+    double middle = 0.5 * (panel->t_low + panel->t_high);
+    if (panel->map == MAP_LOGARITHM) {
+        middle = sqrt(panel->t_low * panel->t_high);
+    } else if (panel->map == MAP_SQUARE_ROOT) {
+        const double low = sqrt(panel->t_low - panel->anchor);
+        const double step =
+            0.5 * (panel->t_high - panel->t_low) / (low + sqrt(panel->t_high - panel->anchor));
+        middle = panel->t_low + step * (2 * low + step);
+    }
+    *(upper ? &half.t_low : &half.t_high) = middle;
+    return half;
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
 void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, pool *memory)
 {
-    const size_t nodes = plan->capacity * rule->n;
+    const size_t nodes = (plan->capacity + 1) * rule->n;
     const size_t core_nodes = (plan->levels + 1) * rule->n;
-    *grid = (scale_grid){.rule = rule,
-                         .t = pool_alloc(memory, nodes, sizeof *grid->t),
-                         .q = pool_alloc(memory, nodes, sizeof *grid->q),
-                         .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
-                         .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
-                         .half_width = pool_alloc(memory, plan->capacity, sizeof *grid->half_width),
-                         .core_t = pool_alloc(memory, core_nodes, sizeof *grid->core_t),
-                         .core_q = pool_alloc(memory, core_nodes, sizeof *grid->core_q),
-                         .core_factor1 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor1),
-                         .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
-                         .core_half_width =
-                             pool_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
+    *grid = (scale_grid){
+        .rule = rule,
+        .t = pool_alloc(memory, nodes, sizeof *grid->t),
+        .q = pool_alloc(memory, nodes, sizeof *grid->q),
+        .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
+        .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
+        .half_width = pool_alloc(memory, plan->capacity + 1, sizeof *grid->half_width),
+        .core_t = pool_alloc(memory, core_nodes, sizeof *grid->core_t),
+        .core_q = pool_alloc(memory, core_nodes, sizeof *grid->core_q),
+        .core_factor1 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor1),
+        .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
+        .core_half_width = pool_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
     if (plan->softening == NULL)
         return;
     grid->f = pool_alloc(memory, nodes, sizeof *grid->f);
@@ -290,20 +343,29 @@ void grid_begin(scale_grid *grid, const panel_plan *plan)
     memset(grid->core_half_width, 0, (plan->levels + 1) * sizeof *grid->core_half_width);
 }
 
+static void fill_place(scale_grid *grid, const panel_plan *plan, const grid_panel *panel, size_t p,
+                       const wt_roughness *roughness, const wt_layer_state *layer)
+{
+    const size_t n = grid->rule->n, at = p * n;
+    grid->half_width[p] =
+        place_nodes(plan, panel, grid->rule, grid->t + at, grid->q + at, grid->factor1 + at);
+    weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
+    if (plan->softening != NULL)
+        softening_at(plan->softening, grid->q + at, grid->t + at, n, grid->f + at, grid->g + at);
+}
+
 void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, size_t last,
                       const wt_roughness *roughness, const wt_layer_state *layer)
 {
-    for (size_t p = first; p < last; p++) {
-        const size_t n = grid->rule->n, at = p * n;
-        if (grid->half_width[p] > 0)
-            continue;
-        grid->half_width[p] = place_nodes(plan, &plan->panels[p], grid->rule, grid->t + at,
-                                          grid->q + at, grid->factor1 + at);
-        weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
-        if (plan->softening != NULL)
-            softening_at(plan->softening, grid->q + at, grid->t + at, n, grid->f + at,
-                         grid->g + at);
-    }
+    for (size_t p = first; p < last; p++)
+        if (!(grid->half_width[p] > 0))
+            fill_place(grid, plan, &plan->panels[p], p, roughness, layer);
+}
+
+void grid_fill_part(scale_grid *grid, const panel_plan *plan, const grid_panel *part,
+                    const wt_roughness *roughness, const wt_layer_state *layer)
+{
+    fill_place(grid, plan, part, plan->capacity, roughness, layer);
 }
 
 void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,

@@ -24,6 +24,7 @@ typedef enum panel_map {
 typedef struct grid_panel {
     double t_low, t_high;
     double anchor;
+    double power; /* d ln(q^4 C) / d ln q */
     panel_map map;
 } grid_panel;
 
@@ -33,6 +34,7 @@ typedef struct panel_plan {
     const strain_law *softening; /* borrowed, NULL = none */
     double width;                /* of panels in t, at most; the first one is no wider than usual */
     const double *slopes;        /* borrowed, [n_knots + 1]: see below */
+    double *powers;              /* [breaks of the roughness + 1] d ln(q^4 C) / d ln q */
     size_t levels;
     grid_panel *core;   /* [levels + 1] */
     size_t n_panels;    /* levels cells and the others */
@@ -60,13 +62,17 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
 void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
                     size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
 
+/* The lower or the upper half of a panel. */
+grid_panel grid_half(const grid_panel *panel, bool upper);
+
 /* Nodes of one rule on a plan, each panel and core made when it is asked for. The factors hold
  * q^4 C(q) dt/ds and the scale of a layered modulus:
  * int k^3 C J1 s dk -> sum of half_width weight factor1 J1, with s^2 in factor2. */
 typedef struct scale_grid {
     const gauss_rule *rule;
-    double *t, *q, *factor1, *factor2;                     /* [capacity * n] */
-    double *half_width;                                    /* [capacity] 0: not made yet */
+    /* [(capacity + 1) * n], the last one for a part of a panel */
+    double *t, *q, *factor1, *factor2;
+    double *half_width;                                    /* [capacity + 1] 0: not made yet */
     double *core_t, *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
     double *core_half_width;                               /* [levels + 1] likewise */
     /* at the same nodes, NULL without a softening */
@@ -81,6 +87,9 @@ void grid_begin(scale_grid *grid, const panel_plan *plan);
  * level. */
 void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, size_t last,
                       const wt_roughness *roughness, const wt_layer_state *layer);
+/* A panel that is not in the plan, in the last place. */
+void grid_fill_part(scale_grid *grid, const panel_plan *plan, const grid_panel *part,
+                    const wt_roughness *roughness, const wt_layer_state *layer);
 void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
                     const wt_roughness *roughness, const wt_layer_state *layer);
 

@@ -66,22 +66,6 @@ static void fill_running(gauss_rule *rule)
     }
 }
 
-/* The coefficients in pairs, of which one may be small by accident. Those that are left out fall
- * through the slower of the last two rates: from n to 2n like those before, or, where the fall may
- * be that of something too steep for the rule, no faster than a power of the degree: 2^-p, where
- * (1 - 2/n)^p is the rate of a pair, so rate^(0.35 n). No fall is trusted to be faster than the
- * poles next to a panel let it be. The last ones look smaller than they are where they fall slowly,
- * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
- * is enough where the fall goes no further. */
-static const double caution = 40;
-/* Of what is as smooth as a closed form, and of rules of few nodes. */
-static const double caution_smooth = 10, caution_few = 6;
-/* Knots of a law, and moduli with directions that nearly vanish, may be closer than the poles: in
- * the square root of the distance from a knot the one before it, as far off, lets a degree fall by
- * 0.22, and one 1/8 as far, the most of `grading`, by 0.41, which 0.2 for the usual panels makes
- * 0.4 of. */
-static const double closer = 2;
-
 static double larger(double a, double b)
 {
     return a > b ? a : b;
@@ -122,35 +106,25 @@ void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_to
     top_sums(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
 }
 
-double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest)
+/* The coefficients in pairs, of which one may be small by accident, or both: they fall at the
+ * slowest rate that they show. */
+double rule_error(const gauss_rule *rule, const rule_top *top, double seen)
 {
-    const double floor_rate = kind == FALL_LAW ? closer * fastest : fastest;
-    const size_t n = rule->n;
-    const double *const coefficient = top->coefficient;
+    const double *c = top->coefficient;
     double pair[RULE_TOP / 2] = {0};
     for (size_t k = 0; k < RULE_TOP; k++)
-        pair[k / 2] = larger(pair[k / 2], fabs(coefficient[k]));
-    const bool has_three = n >= RULE_TOP;
-    if (!(pair[2] < pair[1]) || (has_three && !(pair[1] < pair[0])))
-        return 0.1 * caution * larger(pair[1], pair[2]);
-    const double last_rate = pair[2] / pair[1];
-    double rate;
-    if (has_three && kind == FALL_SMOOTH) {
-        const double least = floor_rate * floor_rate, both = pair[2] / pair[0];
-        rate = both > least * least ? sqrt(sqrt(both)) : floor_rate;
-    } else {
-        rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
-    }
-    const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > floor_rate);
-    double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
-    if (has_three)
-        last = larger(last, pair[1] * rate * rate * (steep ? rate : 1));
-    if (!steep)
-        rate = larger(rate, floor_rate);
-    double fall = 1;
-    for (size_t left = steep ? 7 * n / 10 : n; left > 0; left /= 2, rate *= rate)
-        fall *= left % 2 ? rate : 1;
-    return (steep ? caution : n < 8 ? caution_few : caution_smooth) * last * fall;
+        pair[k / 2] = larger(pair[k / 2], fabs(c[k]));
+    const bool three = rule->n > 4;
+    if (!(pair[2] < pair[1]) || (three && !(pair[1] < pair[0])))
+        return 2 * larger(pair[1], pair[2]);
+    const double square = larger(pair[2] / pair[1], three ? pair[1] / pair[0] : 0);
+    const double rate = sqrt(square);
+    const double last =
+        larger(larger(fabs(c[RULE_TOP - 1]), rate * fabs(c[RULE_TOP - 2])), square * pair[1]);
+    double fall = 2 * last, power = rate;
+    for (size_t left = (size_t)(seen * (double)(rule->n + 1)); left > 0; left /= 2, power *= power)
+        fall *= left % 2 ? power : 1;
+    return fall;
 }
 
 /* NULL without memory. */

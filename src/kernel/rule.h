@@ -20,19 +20,13 @@ typedef struct gauss_rule {
 
 /* The largest rule; Legendre coefficients that tell how they fall, three pairs, in whole registers.
  */
-enum { RULE_MOST = 32, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
-/* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. A rule is made
- * when it is first asked for, by any thread, and kept for all. */
+enum { RULE_MOST = 20, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
+/* n must be one of the sizes that GSL tabulates to full precision, 2 to 20. A rule is made when it
+ * is first asked for, by any thread, and kept for all. */
 wt_status rule_of(size_t n, const gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
 /* Adds the integrals of f from -1 to each node to running[room]; returns that to 1. */
 double rule_running(const gauss_rule *rule, const double *f, double *running);
-/* How the Legendre coefficients of an integrand are known to fall on. */
-typedef enum rule_fall {
-    FALL_SMOOTH, /* like the last ones, and no faster than the poles next to a panel let them */
-    FALL_LAW,    /* the same if they fall fast, else steep: singular points may be closer */
-    FALL_STEEP   /* like a power of the degree: too steep for the rule to tell */
-} rule_fall;
 /* The last Legendre coefficients of an integrand. */
 typedef struct rule_top {
     double coefficient[RULE_TOP_ROOM];
@@ -41,9 +35,9 @@ typedef struct rule_top {
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
                rule_top *of_g);
 /* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
- * fall: the rule is exact up to twice the degree of the last one. `fastest`: the fall of a degree
- * that the poles next to a panel let, 1 / rho where an ellipse through them has the half axes that
- * sum up to rho. */
-double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest);
+ * fall: the rule is exact up to twice the degree of the last one. `seen`: share of the degrees up
+ * to there over which the fall is taken to go on, for a part that falls more slowly may still hide
+ * below. */
+double rule_error(const gauss_rule *rule, const rule_top *top, double seen);
 
 #endif

@@ -37,8 +37,12 @@ typedef struct truth {
 
 enum { NODES = 20 };
 
-/* Gauss-Legendre on [0, 1], and the Legendre polynomials at its nodes. */
-static real node[NODES], weight[NODES], legendre[NODES][NODES];
+/* Gauss-Legendre on [0, 1], the Legendre polynomials at its nodes, and the integrals from 0 to each
+ * node of the polynomials that are 1 at one node and 0 at the others. */
+static real node[NODES], weight[NODES], legendre[NODES][NODES], running[NODES][NODES];
+/* For pieces of the angle: the poles next to one let 12 nodes leave less than 1e-24. */
+enum { ANGLES = 12 };
+static real angle_node[ANGLES], angle_weight[ANGLES];
 
 static void make_legendre(real x, real *p)
 {
@@ -49,24 +53,42 @@ static void make_legendre(real x, real *p)
         p[k + 1] = ((2 * k + 1) * z * p[k] - k * p[k - 1]) / (k + 1);
 }
 
-static void make_rule(void)
+static void make_gauss(int n, real *nodes, real *weights)
 {
-    for (int i = 0; i < NODES; i++) {
-        real x = FN(cos)(TRUTH_PI * (i + (real)0.75) / (NODES + (real)0.5)), slope = 0;
+    for (int i = 0; i < n; i++) {
+        real x = FN(cos)(TRUTH_PI * (i + (real)0.75) / (n + (real)0.5)), slope = 0;
         for (int k = 0; k < 60; k++) {
             real p = 1, last = 0;
-            for (int j = 0; j < NODES; j++) {
+            for (int j = 0; j < n; j++) {
                 const real next = ((2 * j + 1) * x * p - j * last) / (j + 1);
                 last = p;
                 p = next;
             }
-            slope = NODES * (x * p - last) / (x * x - 1);
+            slope = n * (x * p - last) / (x * x - 1);
             x -= p / slope;
         }
-        node[i] = (1 + x) / 2;
-        weight[i] = 1 / ((1 - x * x) * slope * slope);
-        make_legendre(node[i], legendre[i]);
+        nodes[i] = (1 + x) / 2;
+        weights[i] = 1 / ((1 - x * x) * slope * slope);
     }
+}
+
+static void make_rule(void)
+{
+    make_gauss(ANGLES, angle_node, angle_weight);
+    make_gauss(NODES, node, weight);
+    for (int i = 0; i < NODES; i++)
+        make_legendre(node[i], legendre[i]);
+    /* int_0^x P_k = (P_(k+1) - P_(k-1)) / (4k + 2) */
+    for (int to = 0; to < NODES; to++)
+        for (int i = 0; i < NODES; i++) {
+            const real z = 2 * node[to] - 1, *p = legendre[to];
+            running[to][i] = weight[i] * node[to];
+            for (int k = 1; k < NODES; k++) {
+                const real next =
+                    k + 1 < NODES ? p[k + 1] : ((2 * k + 1) * z * p[k] - k * p[k - 1]) / (k + 1);
+                running[to][i] += weight[i] * legendre[i][k] * (next - p[k - 1]) / 2;
+            }
+        }
 }
 
 /* Legendre coefficients; how far they are from ending. */
@@ -101,6 +123,19 @@ static real series_at(const real *coefficient, real x)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
+/* Of a table, from knot to knot, for the scene in question: logarithms of frequencies and moduli.
+ */
+static real log_width[SCENE_MOST], log_storage[SCENE_MOST], log_loss[SCENE_MOST];
+
+static void take_logarithms(const scene *s)
+{
+    for (size_t k = 0; s->law == TABLE && k + 1 < s->n; k++) {
+        log_width[k] = FN(log)((real)s->tau[k + 1] / s->tau[k]);
+        log_storage[k] = FN(log)((real)s->e[k + 1] / s->e[k]);
+        log_loss[k] = FN(log)((real)s->loss[k + 1] / s->loss[k]);
+    }
+}
+
 static void table_modulus(const scene *s, real omega, real *storage, real *loss)
 {
     const size_t last = s->n - 1;
@@ -113,9 +148,9 @@ static void table_modulus(const scene *s, real omega, real *storage, real *loss)
         else
             end = middle;
     }
-    const real t = FN(log)(x / s->tau[k]) / FN(log)((real)s->tau[k + 1] / s->tau[k]);
-    *storage = s->e[k] * FN(pow)((real)s->e[k + 1] / s->e[k], t);
-    *loss = s->loss[k] * FN(pow)((real)s->loss[k + 1] / s->loss[k], t);
+    const real t = FN(log)(x / s->tau[k]) / log_width[k];
+    *storage = s->e[k] * FN(exp)(t * log_storage[k]);
+    *loss = s->loss[k] * FN(exp)(t * log_loss[k]);
 }
 
 static void law_modulus(const scene *s, real omega, real *storage, real *loss)
@@ -180,10 +215,10 @@ static void angle_piece(const scene *s, real w, real low, real high, real wide, 
     while (from < end) {
         const real more = wide * (1 + from * from / 8); /* c^s is next to nothing there */
         const real to = FN(fmin)(FN(fmin)(from + longest, FN(sqrt)(from * from + more)), end);
-        for (int i = 0; i < NODES; i++) {
-            const real t = from + (to - from) * node[i], c = FN(exp)(-t * t);
+        for (int i = 0; i < ANGLES; i++) {
+            const real t = from + (to - from) * angle_node[i], c = FN(exp)(-t * t);
             const real d =
-                4 * (to - from) * weight[i] * 2 * t * c / FN(sqrt)(-FN(expm1)(-2 * t * t));
+                4 * (to - from) * angle_weight[i] * 2 * t * c / FN(sqrt)(-FN(expm1)(-2 * t * t));
             real storage, loss;
             modulus(s, w * c, &storage, &loss);
             *j1 += d * c * loss;
@@ -204,11 +239,9 @@ static void angle_constant(const scene *s, real omega, real low, real high, real
 }
 
 /* Slopes of ln E' and ln E'' between two knots: the less and the steeper. */
-static void table_slopes(const scene *s, size_t k, real *least, real *most)
+static void table_slopes(size_t k, real *least, real *most)
 {
-    const real width = FN(log)((real)s->tau[k + 1] / s->tau[k]);
-    const real storage = FN(log)((real)s->e[k + 1] / s->e[k]) / width,
-               loss = FN(log)((real)s->loss[k + 1] / s->loss[k]) / width;
+    const real storage = log_storage[k] / log_width[k], loss = log_loss[k] / log_width[k];
     *least = FN(fmin)(storage, loss);
     *most = FN(fmax)(FN(fabs)(storage), FN(fabs)(loss));
 }
@@ -221,14 +254,14 @@ static void table_angular(const scene *s, real w, real *j1, real *j2)
         angle_constant(s, first, 0, FN(fmin)(1, first / w), j1, j2);
     } else {
         const real high = FN(fmax)(0, FN(log)(w / first));
-        table_slopes(s, 0, &least, &most);
+        table_slopes(0, &least, &most);
         angle_piece(s, w, high + FN(fmin)(most_down, 60 / (1 + 2 * least)), high,
                     FN(fmin)((real)0.5, 3 / (1 + 2 * most)), j1, j2);
     }
     for (size_t k = 0; k + 1 < s->n && s->tau[k] < w; k++) {
         const real low = FN(log)(w / s->tau[k]);
         const real high = s->tau[k + 1] < w ? FN(log)(w / s->tau[k + 1]) : 0;
-        table_slopes(s, k, &least, &most);
+        table_slopes(k, &least, &most);
         const real wide = FN(fmin)(s->transverse ? (real)0.3 : 1, 3 / (1 + 2 * most));
         if (high < most_down)
             angle_piece(s, w, low, high, wide, j1, j2);
@@ -236,7 +269,7 @@ static void table_angular(const scene *s, real w, real *j1, real *j2)
     if (w > last && !s->slope) {
         angle_constant(s, w, last / w, 1, j1, j2);
     } else if (w > last) {
-        table_slopes(s, s->n - 2, &least, &most);
+        table_slopes(s->n - 2, &least, &most);
         angle_piece(s, w, FN(log)(w / last), 0, FN(fmin)((real)0.5, 3 / (1 + 2 * most)), j1, j2);
     }
 }
@@ -252,15 +285,17 @@ static void angular(const scene *s, real w, real *j1, real *j2)
         angle_piece(s, w, TRUTH_DEEP, 0, s->transverse ? (real)0.5 : 2, j1, j2);
         return;
     }
+    static real part[SCENE_MOST];
     real sum = (real)s->e0 * s->e0;
     for (size_t k = 0; k < s->n; k++) {
         const real a = w * s->tau[k], r = FN(sqrt)(1 + a * a), mine = a * a / (r * (1 + r));
         *j1 += s->e[k] * a / (r * (1 + r));
         sum += 2 * (real)s->e0 * s->e[k] * mine;
+        part[k] = mine;
         for (size_t m = 0; m <= k; m++) {
             /* int Re[i a c / (1 + i a c) conj(i b c / (1 + i b c))] over the circle / 2 pi */
-            const real b = w * s->tau[m], t = FN(sqrt)(1 + b * b), other = b * b / (t * (1 + t));
-            sum += (m < k ? 2 : 1) * (real)s->e[k] * s->e[m] * (mine * b + other * a) / (a + b);
+            const real b = w * s->tau[m];
+            sum += (m < k ? 2 : 1) * (real)s->e[k] * s->e[m] * (mine * b + part[m] * a) / (a + b);
         }
     }
     *j1 *= 2 * TRUTH_PI;
@@ -398,17 +433,25 @@ static const double full_contact = 0.0037;
 /* int S P mu dt from u = a, where G is `variance`, to b. */
 static real contact_part(const panel *p, real a, real b, real variance, real before, int depth)
 {
-    real value[NODES], coefficient[NODES], sum = 0;
+    real g[NODES], value[NODES], coefficient[NODES], sum = 0, end = variance;
     for (int i = 0; i < NODES; i++) {
-        const real u = a + (b - a) * node[i], P = area(variance + rise(p, a, u));
+        const real u = a + (b - a) * node[i];
+        g[i] = (b - a) * slope_at(p, u) * series_at(p->g, u);
+        end += weight[i] * g[i];
+    }
+    for (int i = 0; i < NODES; i++) {
+        real here = variance;
+        for (int j = 0; j < NODES; j++)
+            here += running[i][j] * g[j];
+        const real u = a + (b - a) * node[i], P = area(here);
         value[i] = slope_at(p, u) * series_at(p->mu, u) * P * (p->gamma + (1 - p->gamma) * P * P);
         sum += (b - a) * weight[i] * value[i];
     }
-    const real half = rise(p, a, (a + b) / 2), end = variance + rise(p, a, b);
     const bool begins = a == 0 && variance == 0 && end > full_contact;
     const real tail = expand(value, coefficient);
     if ((is_fine(tail, before) && !begins) || depth > 150 || (depth > 20 && a > 0))
         return sum;
+    const real half = rise(p, a, (a + b) / 2);
     return contact_part(p, a, (a + b) / 2, variance, tail, depth + 1) +
            contact_part(p, (a + b) / 2, b, variance + half, tail, depth + 1);
 }
@@ -451,6 +494,7 @@ static truth truth_of(const scene *s)
     truth sum = {0, 0};
     if (cut == NULL)
         return sum;
+    take_logarithms(s);
     size_t n = 0, knot = 0;
     cut[n++] = length;
     if (s->n_density == 0 && s->qr > s->q0 && s->qr < s->q1)

@@ -3,6 +3,8 @@
 
 #include "weartrack/kernel.h"
 
+#include <stdlib.h>
+
 enum { VELOCITIES = 100, KNOTS = 107, MOST = 100 };
 
 static wt_material *prony(size_t terms)
@@ -78,7 +80,7 @@ static void nodes_follow_the_tolerance(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(12), table()};
-    const double most[][3] = {{45, 90, 135}, {135, 255, 355}};
+    const double most[][3] = {{55, 100, 145}, {180, 270, 370}};
     for (size_t m = 0; m < 2; m++) {
         wt_friction_point tight[VELOCITIES];
         const double tolerances[] = {1e-2, 1e-6, 1e-10};
@@ -87,6 +89,77 @@ static void nodes_follow_the_tolerance(void **state)
             const double nodes = nodes_at(materials[m], tolerances[i], tight);
             if (!(nodes <= most[m][i]))
                 fail_msg("material %zu, tolerance %g: %g nodes", m, tolerances[i], nodes);
+        }
+        wt_material_free(materials[m]);
+    }
+}
+
+/* ---- knots ----------------------------------------------------------------------------------- */
+
+enum { DENSE = 20000 };
+
+/* A power law over eight decades, with the same end values held. */
+static void power_law(size_t knots, wt_friction_point *point)
+{
+    double *omega = calloc(knots, sizeof *omega), *storage = calloc(knots, sizeof *storage),
+           *loss = calloc(knots, sizeof *loss);
+    wt_material *material = NULL;
+    assert_true(omega != NULL && storage != NULL && loss != NULL);
+    for (size_t i = 0; i < knots; i++) {
+        const double part = (double)i / (double)(knots - 1);
+        omega[i] = pow(10, -1 + 8 * part);
+        storage[i] = 1e6 * pow(10, 2 * part);
+        loss[i] = 2e5 * pow(10, 2.5 * part);
+    }
+    assert_int_equal(
+        wt_material_table(omega, storage, loss, knots, 0.5, WT_EXTRAPOLATE_HOLD, &material, NULL),
+        WT_OK);
+    compute(material, 1e-10, 1, point);
+    assert_true(point->reached);
+    wt_material_free(material);
+    free(omega);
+    free(storage);
+    free(loss);
+}
+
+static void assert_same(wt_estimate a, wt_estimate b)
+{
+    /* knots are rounded, each moduli by an ulp */
+    const double rounding = 1e-14 * fabs(a.value);
+    assert_true(fabs(a.value - b.value) <= a.numerical_error + b.numerical_error + rounding);
+}
+
+/* Knots on a line change nothing, and as many as this do not make the time grow with their square:
+ * half a minute where they did. */
+static void knots_on_a_line(void **state)
+{
+    (void)state;
+    wt_friction_point few, many;
+    power_law(2, &few);
+    power_law(DENSE, &many);
+    assert_same(few.stress_variance, many.stress_variance);
+    assert_same(few.hysteresis, many.hysteresis);
+    assert_same(few.area_ratio, many.area_ratio);
+}
+
+/* ---- what stands beside -----------------------------------------------------------------------*/
+
+/* The digits of a velocity are its own: those of other velocities and their number, 0 among them,
+ * move nothing. */
+static void neighbours_move_nothing(void **state)
+{
+    (void)state;
+    wt_material *const materials[] = {prony(5), prony(12), prony(40), table()};
+    for (size_t m = 0; m < 4; m++) {
+        wt_friction_point alone, many[VELOCITIES];
+        compute(materials[m], 1e-10, VELOCITIES, many);
+        for (size_t n = 1; n < 12; n += 5) {
+            wt_friction_point some[VELOCITIES];
+            compute(materials[m], 1e-10, n, some);
+            alone = some[n - 1];
+            assert_true(alone.hysteresis.value == many[n - 1].hysteresis.value);
+            assert_true(alone.stress_variance.value == many[n - 1].stress_variance.value);
+            assert_true(alone.hysteresis.numerical_error == many[n - 1].hysteresis.numerical_error);
         }
         wt_material_free(materials[m]);
     }
@@ -130,7 +203,8 @@ static void many_terms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_follow_the_tolerance),
-                                       cmocka_unit_test(many_terms)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_follow_the_tolerance), cmocka_unit_test(knots_on_a_line),
+        cmocka_unit_test(neighbours_move_nothing), cmocka_unit_test(many_terms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

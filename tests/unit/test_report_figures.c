@@ -500,7 +500,7 @@ static void test_numbers_of_captions(void **state)
                      "temperature 30 °C, shear stress of the real contact 5 MPa. "},
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
         {"friction", " Up to 4.0 % of the hysteresis part comes"},
-        {"layer", " Balance thickness 3.16 ± 0.80 µm. Incubation time 1.20 ± 0.15 s. Relaxation "
+        {"layer", " Balance thickness 3.16 ± 0.80 µm. Incubation time 1.20 ± 0.16 s. Relaxation "
                   "time 47 ± 16 s."},
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
