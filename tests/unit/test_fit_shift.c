@@ -5,6 +5,7 @@
 #include "weartrack/fit.h"
 
 #include "dma_data.h"
+#include "fit/sweeps/isotherm.h"
 
 static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log)
 {
@@ -620,6 +621,44 @@ static void many_points_say_what_few_say(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* How many points an isotherm of 3 decades has that is measured at `near` frequencies 0.005 decade
+ * apart at each of 31 steps of a tenth. */
+static size_t points_of(size_t near)
+{
+    enum { STEPS = 31 };
+    wt_sweep sweep = {0};
+    shift_set set = {0};
+    pool memory = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_isotherm *t = wt_sweep_add(&sweep, STEPS * near, 0);
+    assert_non_null(t);
+    t->temperature = 293.15;
+    for (size_t k = 0; k < t->n; k++) {
+        t->angular_frequency[k] =
+            pow(10, 0.1 * (double)(k / near) + 0.005 * (double)(k % near) - 1);
+        t->storage_modulus[k] = 1e6 * pow(t->angular_frequency[k], 0.2);
+        t->loss_modulus[k] = 3e5 * pow(t->angular_frequency[k], 0.2);
+    }
+    if (shift_set_new(&sweep, WT_BY_MODULI, NULL, &memory, &set, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    const size_t n = set.curves[0].n;
+    assert_int_equal(set.curves[0].n_together, n < t->n ? t->n : 0);
+    pool_free(&memory);
+    wt_sweep_clear(&sweep);
+    return n;
+}
+
+/* Neighbours become one where there are five for each that is left, for they do not stand evenly.
+ */
+static void dense_points_become_one(void **state)
+{
+    (void)state;
+    assert_int_equal(points_of(2), 62);
+    assert_int_equal(points_of(4), 124);
+    assert_int_equal(points_of(5), 31);
+    assert_int_equal(points_of(9), 31);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -640,6 +679,7 @@ int main(void)
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
         cmocka_unit_test(failing_superposition_is_said),
         cmocka_unit_test(mixed_strain_amplitudes_are_said),
+        cmocka_unit_test(dense_points_become_one),
         cmocka_unit_test(lines_between_the_terms_pull_nothing),
         cmocka_unit_test(impossible_input_is_refused),
         cmocka_unit_test(isotherms_of_few_points_are_left_out),
