@@ -501,22 +501,14 @@ static void test_scatter_of_a_group(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stated_errors),
-        cmocka_unit_test(test_angles_of_the_textbook),
-        cmocka_unit_test(test_what_is_estimated),
-        cmocka_unit_test(test_spectrum),
-        cmocka_unit_test(test_no_such_part),
-        cmocka_unit_test(test_seeds),
-        cmocka_unit_test(test_one_source_at_a_time),
-        cmocka_unit_test(test_seconds),
-        cmocka_unit_test(test_nothing_stated),
-        cmocka_unit_test(test_exact_ratio),
-        cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_verdicts_of_shares),
-        cmocka_unit_test(test_nothing_to_cover),
-        cmocka_unit_test(test_isotherms_again),
-        cmocka_unit_test(test_scatter_of_a_group),
+        cmocka_unit_test(test_stated_errors),        cmocka_unit_test(test_angles_of_the_textbook),
+        cmocka_unit_test(test_what_is_estimated),    cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_no_such_part),         cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_one_source_at_a_time), cmocka_unit_test(test_seconds),
+        cmocka_unit_test(test_nothing_stated),       cmocka_unit_test(test_exact_ratio),
+        cmocka_unit_test(test_calibration),          cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_verdicts_of_shares),   cmocka_unit_test(test_nothing_to_cover),
+        cmocka_unit_test(test_isotherms_again),      cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
