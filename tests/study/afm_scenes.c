@@ -73,9 +73,10 @@ const afm_scene afm_scenes[] = {
     {NAMED("IV6", "tan delta 0.3, correlated 2 %, lever of 0.1 N/m"),
      .facts.intervals_promised = true, .facts.right = ANYTHING, .noise = 0.02,
      .kind = NOISE_CORRELATED, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .spring_constant = 0.1},
-    {NAMED("IV7", "tan delta 0.1 with adhesion of 10 mJ/m^2"), .facts.intervals_promised = true,
-     .facts.right = EITHER, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.1, .work = 10e-3,
-     .work_out = 10e-3},
+    /* no promise: a pull and a loss together leave the change with depth open, which is then not
+     * stated */
+    {NAMED("IV7", "tan delta 0.1 with adhesion of 10 mJ/m^2"), .facts.right = EITHER,
+     .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.1, .work = 10e-3, .work_out = 10e-3},
     {NAMED("IV8", "tan delta 0.3 with adhesion of 10 mJ/m^2 in, 30 out"), .facts.right = EITHER,
      .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .work = 10e-3, .work_out = 30e-3},
     {NAMED("IV9", "tan delta 0.3 beyond the peak"), .facts.right = EITHER, .noise = 0.005,
