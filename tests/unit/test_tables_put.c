@@ -243,7 +243,7 @@ static void write_melt(char *path, double odd)
                 storage += 1e6 * pow(10, -0.3 * l) * z * z / (1 + z * z);
                 loss += 1e6 * pow(10, -0.3 * l) * z / (1 + z * z);
             }
-            loss *= t < odd ? exp(0.5 * sin(t)) : 1;
+            loss *= t < odd ? exp(0.8 * sin(t)) : 1;
             fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", pow(10, x),
                     storage * exp(0.005 * truth_normal(&seed)),
                     loss * exp(0.005 * truth_normal(&seed)), t);

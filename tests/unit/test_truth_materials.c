@@ -187,7 +187,7 @@ static void test_one_rubber_twice(void **state)
     (void)state;
     made_pair p;
     wt_materials_job job = wt_materials_job_defaults();
-    pair_fit(&first_rubber, &first_rubber, 0.003, 0, 5, &p);
+    pair_fit(&first_rubber, &first_rubber, 0.003, 0, 7, &p);
     assert_int_equal(pair_compare(&p, job, NULL), WT_OK);
     assert_int_equal(strncmp(wt_table_key(p.made.material_ratio, "differs"), "no: ", 4), 0);
     assert_null(wt_table_key(p.made.material_ratio, "settled_by"));
