@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static bool factor_rows(double *a, size_t stride, size_t n, double least)
+bool cholesky_factor(double *a, size_t stride, size_t n, double least)
 {
     for (size_t i = 0; i < n; i++) {
         double *row = a + i * stride;
@@ -20,15 +20,21 @@ static bool factor_rows(double *a, size_t stride, size_t n, double least)
     return true;
 }
 
+void cholesky_forward(const double *l, size_t stride, size_t n, const double *b, double *x)
+{
+    for (size_t i = 0; i < n; i++) {
+        double sum = b[i];
+        for (size_t k = 0; k < i; k++)
+            sum -= l[i * stride + k] * x[k];
+        x[i] = sum / l[i * stride + i];
+    }
+}
+
 bool cholesky_solve(double *a, size_t stride, size_t n, double least, double *x)
 {
-    if (!factor_rows(a, stride, n, least))
+    if (!cholesky_factor(a, stride, n, least))
         return false;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            x[i] -= a[i * stride + k] * x[k];
-        x[i] /= a[i * stride + i];
-    }
+    cholesky_forward(a, stride, n, x, x);
     for (size_t i = n; i-- > 0;) {
         for (size_t k = i + 1; k < n; k++)
             x[i] -= a[k * stride + i] * x[k];

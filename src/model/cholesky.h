@@ -12,4 +12,9 @@
  * for then they do not tell all; a and x are spoiled. */
 bool cholesky_solve(double *a, size_t stride, size_t n, double least, double *x);
 
+/* The factor alone, likewise. */
+bool cholesky_factor(double *a, size_t stride, size_t n, double least);
+/* x = l^-1 b of such a factor l; b may be x. */
+void cholesky_forward(const double *l, size_t stride, size_t n, const double *b, double *x);
+
 #endif

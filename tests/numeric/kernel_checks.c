@@ -10,6 +10,7 @@
 #ifndef CHECKS_LONG_DOUBLE
 #define FRICTION_TRUTH_QUAD
 #endif
+#include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"
 
 #include "weartrack/kernel.h"
@@ -18,21 +19,6 @@
 #include <time.h>
 
 /* ---- drawing --------------------------------------------------------------------------------- */
-
-static uint64_t state;
-
-static double uniform(double low, double high)
-{
-    state += 0x9e3779b97f4a7c15u;
-    uint64_t z = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-static double decades(double low, double high)
-{
-    return pow(10, uniform(low, high));
-}
 
 static size_t whole(size_t low, size_t high)
 {
@@ -460,7 +446,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < SURFACES; i++)
         counts[i].quotient = calloc(room, sizeof *all.quotient);
     for (size_t i = 0; i < scenes; i++) {
-        state = seed * 1000003 + i * 7919;
+        drawn_state = seed * 1000003 + i * 7919;
         try_scene(i);
     }
     printf(

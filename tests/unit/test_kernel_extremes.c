@@ -5,6 +5,7 @@
  * those before FIRST are left out. */
 #include "near.h"
 
+#include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"
 #include "weartrack/kernel.h"
 
@@ -12,21 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-static uint64_t state;
-
-static double uniform(double low, double high)
-{
-    state += 0x9e3779b97f4a7c15u;
-    uint64_t z = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-static double decades(double low, double high)
-{
-    return pow(10, uniform(low, high));
-}
 
 enum { MOST = 120, FEW = 6, SPECTRUM = 6, SWEEP = 11 };
 
@@ -409,10 +395,10 @@ static void once_broken(void **ignored)
         size_t number;
     } cases[] = {{20261, 475},  {20261, 2767}, {20261, 3391}, {31337, 4063},
                  {900024, 103}, {950001, 251}, {771002, 59}};
-    const uint64_t kept = state;
+    const uint64_t kept = drawn_state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         drawn d;
-        state = cases[k].seed;
+        drawn_state = cases[k].seed;
         for (size_t i = 0; i <= cases[k].number; i++)
             draw_case(&d, i);
         compare(&d, cases[k].number);
@@ -424,7 +410,7 @@ static void once_broken(void **ignored)
     }
     assert_int_equal(n_checks, 112);
     assert_int_equal(broken, 0);
-    state = kept;
+    drawn_state = kept;
 }
 
 /* A table with directions whose modulus nearly vanishes between the edges of the panels of its
@@ -437,10 +423,10 @@ static void softened_once_broken(void **ignored)
         uint64_t seed;
         size_t before, number;
     } cases[] = {{980001, 256, 107}, {880011, 400, 85}, {880011, 400, 172}};
-    const uint64_t kept = state;
+    const uint64_t kept = drawn_state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         drawn d;
-        state = cases[k].seed;
+        drawn_state = cases[k].seed;
         for (size_t i = 0; i < cases[k].before; i++)
             draw_case(&d, i);
         for (size_t i = 0; i <= cases[k].number; i++) {
@@ -455,7 +441,7 @@ static void softened_once_broken(void **ignored)
     }
     assert_int_equal(n_checks, 36);
     assert_int_equal(broken, 0);
-    state = kept;
+    drawn_state = kept;
 }
 
 /* With directions and slopes that go on downwards the moduli are rounded by more than the tightest
@@ -464,8 +450,8 @@ static void steep_and_continued(void **ignored)
 {
     (void)ignored;
     const double omega[] = {1, 14.6, 402, 3.1e4}, storage[] = {1.8e5, 3.8e11, 2.2e12, 1.2e12};
-    const uint64_t kept = state;
-    state = 11;
+    const uint64_t kept = drawn_state;
+    drawn_state = 11;
     for (size_t i = 0; i < 3; i++) {
         drawn d = {.s = {.law = TABLE, .slope = true, .n = 4, .e = d.e, .tau = d.tau},
                    .tolerance = 1.5e-12,
@@ -494,7 +480,7 @@ static void steep_and_continued(void **ignored)
     }
     assert_int_equal(n_checks, 12);
     assert_int_equal(broken, 0);
-    state = kept;
+    drawn_state = kept;
 }
 
 static void extreme_friction(void **ignored)
@@ -533,7 +519,7 @@ int main(int argc, char **argv)
 {
     if (argc > 1)
         n_cases = strtoul(argv[1], NULL, 10);
-    state = argc > 2 ? strtoul(argv[2], NULL, 10) : 7;
+    drawn_state = argc > 2 ? strtoul(argv[2], NULL, 10) : 7;
     if (argc > 3)
         first_case = strtoul(argv[3], NULL, 10);
     make_rule();

@@ -292,6 +292,11 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
                   100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
+    if (isnan(fit->misfit_error) && f->options->least_chance > 0.0 && !f->kind.plain) {
+        curve_say(reason, "doubtful: what a misfit makes of the modulus is not known: the samples "
+                          "do not tell it from their noise; a longer approach would");
+        return WT_CURVE_DOUBTFUL;
+    }
     if (!(s->lack.chance >= f->options->least_chance) &&
         fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
         curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));

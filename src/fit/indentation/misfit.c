@@ -23,6 +23,9 @@
 #include "fit/indentation/curve_fitting.h"
 #include "fit/indentation/residual_blocks.h"
 
+#include "base/normal.h"
+#include "model/cholesky.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -45,9 +48,9 @@ static const double largest_size = 0.3;
  * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
  * that it leaves; a pull by 3 times. */
 static const double most_hidden = 60.0;
-static const double size_ratio = 2.5; /* of two sizes that are tried: likelihoods are wider */
-static const double no_size = 0.01;   /* of a likelihood: the size is none */
-static const double interval = 1.959963984540054, outside = 0.05; /* of an interval of 95 % */
+static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
+static const double no_size = 0.01;    /* of a likelihood: the size is none */
+static const double outside = 0.05;    /* of an interval of 95 % */
 static const double moved_chi2 = 3.84; /* of a move that is not 0, by its 95 % */
 static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
 static const double error_step = 0.01; /* of an error: to be said with two digits */
@@ -78,35 +81,6 @@ static void legendre(double x, double to[LEGENDRE])
     }
 }
 
-/* In place, the lower triangle of n of M; false if it is not positive. */
-static bool decompose(double a[M][M], size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) {
-            double sum = a[i][j];
-            for (size_t k = 0; k < j; k++)
-                sum -= a[i][k] * a[j][k];
-            if (i > j)
-                a[i][j] = sum / a[j][j];
-            else if (sum > 0.0)
-                a[i][i] = sqrt(sum);
-            else
-                return false;
-        }
-    return true;
-}
-
-/* x = L^-1 b. */
-static void forward(const double (*l)[M], size_t n, const double *b, double *x)
-{
-    for (size_t i = 0; i < n; i++) {
-        double sum = b[i];
-        for (size_t k = 0; k < i; k++)
-            sum -= l[i][k] * x[k];
-        x[i] = sum / l[i][i];
-    }
-}
-
 static double dot(const double *a, const double *b, size_t n)
 {
     double sum = 0.0;
@@ -133,7 +107,7 @@ static void make_kernels(void)
             }
         for (int c = 0; c < LEGENDRE; c++) /* of a variance of 1: rounding */
             a[c][c] += 1e-12;
-        (void)decompose(a, LEGENDRE);
+        (void)cholesky_factor(&a[0][0], M, LEGENDRE, 0.0);
         for (int c = 0; c < LEGENDRE; c++)
             for (int d = 0; d < LEGENDRE; d++)
                 kernels.root[l][c][d] = d <= c ? a[c][d] : 0.0;
@@ -320,18 +294,18 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
     for (size_t c = 0; c < q; c++)
         for (size_t d = 0; d < q; d++)
             aa[c][d] *= scale[c] * scale[d];
-    if (!decompose(aa, q))
+    if (!cholesky_factor(&aa[0][0], M, q, 0.0))
         return false;
     /* all in units of the noise, and of A in its triangular form */
     double along_y[N];
     for (size_t c = 0; c < q; c++)
         ay[c] *= scale[c];
-    forward((const double(*)[M])aa, q, ay, along_y);
+    cholesky_forward(&aa[0][0], M, q, ay, along_y);
     for (size_t k = 0; k < columns_b; k++) {
         double with[N];
         for (size_t c = 0; c < q; c++)
             with[c] = scale[c] * curve_dot(of.a[c], of.b[k], n);
-        forward((const double(*)[M])aa, q, with, solved[k]);
+        cholesky_forward(&aa[0][0], M, q, with, solved[k]);
     }
     for (size_t k = 0; k < columns_b; k++) {
         for (size_t l = 0; l <= k; l++)
@@ -372,12 +346,12 @@ static bool take_out_moves(data_sums *d, candidate *none)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             t[i][j] = d->mm[LEGENDRE + i][LEGENDRE + j] + (i == j ? 1.0 : 0.0);
-    if (!decompose(t, n))
+    if (!cholesky_factor(&t[0][0], M, n, 0.0))
         return false;
-    forward((const double(*)[M])t, n, d->my + LEGENDRE, of_y);
+    cholesky_forward(&t[0][0], M, n, d->my + LEGENDRE, of_y);
     const bool fit_better = dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
     for (size_t k = 0; k < LEGENDRE; k++)
-        forward((const double(*)[M])t, n, d->mm[k] + LEGENDRE, by[k]);
+        cholesky_forward(&t[0][0], M, n, d->mm[k] + LEGENDRE, by[k]);
     for (size_t k = 0; k < LEGENDRE; k++) {
         d->my[k] -= dot(by[k], of_y, n);
         for (size_t l = 0; l < LEGENDRE; l++)
@@ -385,7 +359,7 @@ static bool take_out_moves(data_sums *d, candidate *none)
     }
     for (size_t a = 0; a < d->n_free; a++) {
         double y[M];
-        forward((const double(*)[M])t, n, d->imitated[a] + LEGENDRE, y);
+        cholesky_forward(&t[0][0], M, n, d->imitated[a] + LEGENDRE, y);
         none->shift[a] = -dot(y, of_y, n);
         none->variance[a] = dot(y, y, n);
         const double *moved = d->imitated[a] + LEGENDRE;
@@ -435,14 +409,14 @@ static double try_size(const data_sums *d, const length_sums *l, double s, const
         for (size_t j = 0; j <= i; j++)
             t[i][j] = s * s * l->with[i][j] + (i == j ? 1.0 : 0.0);
     }
-    if (!decompose(t, LEGENDRE))
+    if (!cholesky_factor(&t[0][0], M, LEGENDRE, 0.0))
         return 0.0;
-    forward((const double(*)[M])t, LEGENDRE, with, x);
+    cholesky_forward(&t[0][0], M, LEGENDRE, with, x);
     c->log_likelihood = 0.0;
     for (size_t i = 0; i < LEGENDRE; i++)
         c->log_likelihood -= log(t[i][i]);
     for (size_t a = 0; a < d->n_free; a++) {
-        forward((const double(*)[M])t, LEGENDRE, l->imitated[a], y);
+        cholesky_forward(&t[0][0], M, LEGENDRE, l->imitated[a], y);
         c->shift[a] = none->shift[a] - s * dot(y, x, LEGENDRE);
         c->variance[a] = none->variance[a] + s * s * dot(y, y, LEGENDRE);
     }
@@ -511,7 +485,7 @@ static double error_of(const mixture *m, size_t a, double standard_error)
         double beyond = 0.0;
         for (size_t i = 0; i < m->n; i++)
             if (m->part[i].chance > no_chance)
-                beyond += m->part[i].chance * erfc(interval * error / (M_SQRT2 * sd[i]));
+                beyond += m->part[i].chance * erfc(NORMAL_95 * error / (M_SQRT2 * sd[i]));
         *(beyond > outside ? &low : &high) = error;
     }
     return high;
@@ -538,6 +512,8 @@ void curve_add_misfit(curve_fitting *f)
     data_sums d;
     mixture found;
     double *const e = f->workspace->scratch;
+    for (size_t i = 0; i < N; i++) /* until it is known */
+        s->misfit_error[i] = m.free[i] ? (double)NAN : 0.0;
     if (f->kind.plain || !(f->options->least_chance > 0.0) || !s->converged)
         return;
     (void)pthread_once(&kernels_once, make_kernels);

@@ -6,12 +6,11 @@
 
 #include "fit/dense.h"
 #include "fit/pool_gsl.h"
+#include "model/cholesky.h"
 #include "model/root.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 
 /* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
@@ -262,15 +261,13 @@ static double parted_share(const struct extra *x)
 {
     const spectrum *s = x->s;
     double matrix[PARTINGS * PARTINGS], by[PARTINGS], low = HUGE_VAL, high = -HUGE_VAL;
-    gsl_matrix_view m = gsl_matrix_view_array(matrix, PARTINGS, PARTINGS);
-    gsl_matrix_const_view of = gsl_matrix_const_submatrix(x->matrix, 0, 0, PARTINGS, PARTINGS);
-    gsl_vector_const_view right = gsl_vector_const_subvector(x->right, 0, PARTINGS);
-    gsl_vector_view solution = gsl_vector_view_array(by, PARTINGS);
-    gsl_matrix_memcpy(&m.matrix, &of.matrix);
-    gsl_vector_memcpy(&solution.vector, &right.vector);
-    if (gsl_linalg_cholesky_decomp1(&m.matrix) != GSL_SUCCESS)
-        return 0.0; /* too little is left of them to tell */
-    gsl_linalg_cholesky_svx(&m.matrix, &solution.vector);
+    for (size_t p = 0; p < PARTINGS; p++) {
+        by[p] = gsl_vector_get(x->right, p);
+        for (size_t k = 0; k < PARTINGS; k++)
+            matrix[p * PARTINGS + k] = gsl_matrix_get(x->matrix, p, k);
+    }
+    if (!cholesky_solve(matrix, PARTINGS, PARTINGS, 0.0, by))
+        return 1.0; /* too little is left of them to tell: it may be all of a shift */
     for (size_t j = s->n_fast; j < s->n_measured; j++) {
         double sum = 0.0;
         for (size_t p = 0; p < PARTINGS; p++)

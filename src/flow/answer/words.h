@@ -72,8 +72,8 @@ number_words words_of_share(double share);
 bool ratio_to_dma(const table_view *dma, double *low, double *high);
 bool is_other_rubber(double low, double high);
 size_t n_extrapolated(const table_view *dma);
-/* "all 48 accepted curves of the bulk are not of the spectrum of the DMA: ..."; false, and nothing
- * told, where all are, or none was tried. */
+/* "3 of 48 curves of the bulk are not of the spectrum of the DMA: ..."; false, and nothing told,
+ * where all are, or none was tried. */
 bool tell_other_spectrum(telling *t, const table_view *indentation, const char *group);
 /* "3 poor fit, 1 saturated" of the rejected curves; how many there are. */
 size_t words_of_rejected(const table_view *indentation, char *text, size_t size);

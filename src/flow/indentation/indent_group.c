@@ -108,12 +108,13 @@ static void pool_curves(const indent_together *together, const wt_indent_job *jo
     const wt_curve_pool pool =
         wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])together->misfits, n);
     const bool seen = pool.chance < job->options.least_chance;
-    /* What all curves miss alike does not average away; what each of them misses may be alike. */
+    /* What all curves miss alike does not average away; what each of them misses may be alike. Of
+     * curves of which none tells it is not known. */
+    const bool untold = job->options.least_chance > 0 && together->misfit.n == 0 &&
+                        together->n > 0 && !job->options.plain_least_squares;
+    const bool alike = seen || untold || 2 * together->n_misfit > together->n;
     indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR,
-                          seen || 2 * together->n_misfit > together->n
-                              ? together->misfit.sum / (double)together->n
-                              : 0,
-                          0, 0);
+                          alike ? together->misfit.sum / (double)together->misfit.n : 0, 0, 0);
     if (isnan(pool.chance))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
