@@ -74,20 +74,21 @@ int cmd_accuracy(int argc, char **argv)
                         {wt_coverage_job_params(), &coverage, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
+    bool good = true;
     if (s.n_files > 1)
-        cmd_usage_error(&s, "one case at most");
+        good = cmd_usage_error(&s, "one case at most");
     else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
-        cmd_usage_error(&s, "--part and --repeats are not for a case");
+        good = cmd_usage_error(&s, "--part and --repeats are not for a case");
     else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0))
-        cmd_usage_error(&s, "without a case there are --part and --repeats only");
-    else if (s.n_files == 1 && (s.common.n_columns == 0 || cmd_read_formats(&s))) {
+        good = cmd_usage_error(&s, "without a case there are --part and --repeats only");
+    good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
+    if (good && s.n_files == 1) {
         s.log = wt_parselog_new();
         run.trials = coverage.trials;
         const wt_status made =
             s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
         cmd_end(&s, made);
-    } else if (s.n_files == 0 && (s.common.n_columns == 0 || cmd_read_formats(&s)) &&
-               cmd_begin(&s)) {
+    } else if (good && cmd_begin(&s)) {
         const wt_status made = wt_accuracy_make(&job, &s.work, &table, &s.err);
         wt_table **const made_tables[] = {&table};
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));

@@ -141,6 +141,15 @@ static int is_shown(const struct dirent *item)
     return item->d_name[0] != '.';
 }
 
+/* Of a failure, which is no reason to leave out the others. */
+static wt_status say_and_go_on(new_case *c, wt_status status)
+{
+    if (status == WT_OK || status == WT_E_MEMORY)
+        return status;
+    cmd_fail_one(c->s);
+    return WT_OK;
+}
+
 /* Files of a folder and of the folders in it; links to folders are not followed, which may lead
  * back up. */
 static wt_status add_folder(new_case *c, const char *folder)
@@ -150,12 +159,16 @@ static wt_status add_folder(new_case *c, const char *folder)
     wt_status status = add_files(c, folder);
     status = status == WT_E_NOT_FOUND ? WT_OK : status; /* folders only */
     const int n = status == WT_OK ? scandir(folder, &items, is_shown, alphasort) : 0;
+    if (n < 0) {
+        status = wt_fail(&c->s->err, WT_E_IO, "cannot read the folder: %s", strerror(errno));
+        wt_error_file(&c->s->err, folder);
+    }
     for (int i = 0; i < n; i++) {
         char *inner = status == WT_OK ? wt_path_join(folder, items[i]->d_name) : NULL;
         if (status == WT_OK && inner == NULL)
             status = wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
         else if (status == WT_OK && lstat(inner, &info) == 0 && S_ISDIR(info.st_mode))
-            status = add_folder(c, inner);
+            status = say_and_go_on(c, add_folder(c, inner));
         free(inner);
         free(items[i]);
     }
@@ -174,10 +187,7 @@ static wt_status add_argument(new_case *c, const char *pattern)
         status = wt_fail(&c->s->err, WT_E_NOT_FOUND, "no file found in the folder");
         wt_error_file(&c->s->err, pattern);
     }
-    if (status == WT_OK || status == WT_E_MEMORY)
-        return status;
-    cmd_fail_one(c->s);
-    return WT_OK;
+    return say_and_go_on(c, status);
 }
 
 static size_t count_entries(const new_case *c, place where)

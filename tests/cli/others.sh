@@ -27,6 +27,30 @@ for t in $("$weartrack" table --list stream.tsv | awk 'NR > 1 {print $1}'); do
 done > again.tsv
 grep -v '^## \(weartrack\|command\|input\): ' stream.tsv | cmp - again.tsv || fail "split and joined it differs"
 
+# a folder that nobody may read is said, and those behind it in the alphabet are there
+if [ "$(id -u)" -eq 0 ] && ! command -v setpriv >/dev/null; then
+  echo "no setpriv: not tried"
+else
+  as_nobody=
+  [ "$(id -u)" -ne 0 ] || as_nobody="setpriv --reuid=65534 --clear-groups"
+  lab=$(mktemp -d)
+  mkdir "$lab/locked" "$lab/track"
+  cp "$fixtures/case/track-1.jpk-force-map" "$lab/track"
+  chmod -R a+rX "$lab"
+  chmod 000 "$lab/locked"
+  # shellcheck disable=SC2086 # a list of words
+  if $as_nobody test -x "$weartrack"; then
+    status=0
+    $as_nobody "$weartrack" new-case "$lab" >case.xml 2>case.err || status=$?
+    expect "new-case, a locked folder" "$status" 3
+    grep -q "locked: cannot read the folder" case.err || fail "the locked folder is not named"
+    grep -q "track-1.jpk-force-map" case.xml || fail "the folder behind the locked one is left out"
+  else
+    echo "nobody may not run it: not tried"
+  fi
+  rm -rf "$lab"
+fi
+
 if command -v gnuplot >/dev/null; then
   gnuplot -e 'set datafile separator "\t"; stats "t.tsv" using (column("friction")) nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
   expect "gnuplot, table" "$(cat g.txt)" "$largest"
