@@ -21,7 +21,9 @@ static const double snap_rest = 1.5;
 /* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
  * beyond it is an event of the baseline. */
 static const double gap_tolerance = 0.5;
-static const double work_errors = 3.0; /* a work of adhesion, in its standard errors: 0.3 % */
+/* The root of a work of adhesion, in its standard errors; a pull counts like the work. */
+static const double work_errors = 3.0;
+static const double kink_left = 1e-3;  /* of a standard error: a step beyond ends at a kink */
 static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) against no adhesion: the same */
 /* Halfway, as a logarithm, from DMT (0.1) to JKR (5) is 0.7 (Johnson and Greenwood, J. Colloid
  * Interface Sci. 192 (1997) 326). */
@@ -30,8 +32,12 @@ static const double least_tabor = 1.0;
 static const double let_go = 0.02;
 /* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
 static const double most_loss = 2.0;
+/* A constant pull, in that which is seen at the end of the way out: over as many samples as a
+ * pull-off may take the mean of a pull is two thirds of its largest. */
+static const double most_pull = 1.5;
 enum {
     MAX_ROUNDS = 3,
+    MAX_MOVES = 8,
     LEVER_ROUNDS = 50,
     START_SAMPLES = 100 /* of the contact, to start a fit */
 };
@@ -112,23 +118,54 @@ static double middle_of(double a, double b, double c)
     return least > low ? least : low;
 }
 
-/* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
- * stands out of them and ends at once; else 0. */
-WIDE_REGISTERS static double sudden_pull(const double *above, size_t n, size_t far, double noise,
-                                         double *restrict middle)
+/* The largest pull of n forces above the baseline, smoothed over `width` samples, the last `far` of
+ * which are free of the sample, if it stands out of them, of which `noise` is the scatter, and ends
+ * at once; else 0. */
+WIDE_REGISTERS static double sudden_pull(const double *smooth, size_t n, size_t width, size_t far,
+                                         double noise)
 {
-    for (size_t i = 1; i + 1 < n; i++)
-        middle[i] = middle_of(above[i - 1], above[i], above[i + 1]);
-    const double elsewhere = fmax(0.0, -curve_span_of(middle + n - far, far - 1).low),
-                 pull = fmax(0.0, -curve_span_of(middle + 1, n - far - 1).low);
-    size_t deepest = pull > 0.0 ? 1 : 0;
-    while (pull > 0.0 && -middle[deepest] < pull)
+    const size_t back = far < n ? far : n;
+    const double elsewhere = fmax(0.0, -curve_span_of(smooth + n - back, back).low),
+                 pull = fmax(0.0, -curve_span_of(smooth, n).low);
+    size_t deepest = 0;
+    while (pull > 0.0 && -smooth[deepest] < pull)
         deepest++;
     bool sudden = false;
-    const size_t last = deepest + (size_t)(let_go * (double)n) + 3;
+    const size_t last = deepest + width + (size_t)(let_go * (double)n);
     for (size_t i = deepest; i < last && i < n; i++)
-        sudden |= -above[i] < 0.5 * pull;
+        sudden |= -smooth[i] < 0.5 * pull;
     return sudden && pull > snap_noise * noise && pull > snap_rest * elsewhere ? pull : 0.0;
+}
+
+/* Of the last n of x, which has room for them behind them. */
+static double scatter_of(const double *x, size_t n, double *room)
+{
+    for (size_t i = 0; i < n; i++)
+        room[i] = fabs(x[i]);
+    return median(room, n) / 0.6744897501960817;
+}
+
+/* By medians of three, and if there is none by means over ever more samples up to as many as a
+ * pull-off may take: a weak one is not seen on a sample. */
+static double find_pull_off(const double *above, size_t n, size_t far, double *smooth, double *room)
+{
+    for (size_t i = 1; i + 1 < n; i++)
+        smooth[i - 1] = middle_of(above[i - 1], above[i], above[i + 1]);
+    double pull = sudden_pull(smooth, n - 2, 3, far, scatter_of(above + n - far, far, room));
+    for (double part = 0.25; part <= 1.0 && !(pull > 0.0); part *= 2.0) {
+        const size_t width = (size_t)(part * let_go * (double)n);
+        if (width < 4 || far < 4 * width)
+            continue;
+        const size_t means = n - width + 1, free = far - width + 1;
+        double sum = curve_sum(above, width);
+        for (size_t i = 0; i < means; i++) {
+            smooth[i] = sum / (double)width;
+            sum += i + width < n ? above[i + width] - above[i] : 0.0;
+        }
+        pull =
+            sudden_pull(smooth, means, width, free, scatter_of(smooth + means - free, free, room));
+    }
+    return pull;
 }
 
 /* Work against the lever and the sample between two positions of the base: the loop is the loss. */
@@ -228,10 +265,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     const double level = median(scratch, far);
     for (size_t i = 0; i < kept; i++)
         above[i] -= level;
-    for (size_t i = 0; i < far; i++)
-        scratch[i] = fabs(above[kept - far + i]);
-    const double noise = median(scratch, far) / 0.6744897501960817;
-    f->pull_off = sudden_pull(above, kept, far, noise, scratch);
+    f->pull_off = find_pull_off(above, kept, far, scratch, w->weight);
     /* A way out may begin below the top of the way in: what both have is compared. */
     const double top =
         fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
@@ -281,6 +315,26 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     return true;
 }
 
+/* The cost has a kink wherever the sample that jumps is another one: to its lowest. */
+static void move_jump(curve_fitting *f, curve_solution *s)
+{
+    const size_t n = f->input.samples.n;
+    for (int way = -1; way <= 1; way += 2)
+        for (int i = 0; i < MAX_MOVES; i++) {
+            curve_solution moved = *s;
+            const size_t jump = f->kind.jump;
+            f->kind.jump = way < 0 ? jump - 1 : jump + 1;
+            if (f->kind.jump >= CURVE_BASELINE_SAMPLES &&
+                n - f->kind.jump >= CURVE_BASELINE_SAMPLES)
+                refine(f, &moved);
+            if (!(moved.cost < s->cost)) {
+                f->kind.jump = jump;
+                break;
+            }
+            *s = moved;
+        }
+}
+
 /* With a free contact point, the jump where the tip touches if it follows. */
 static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
 {
@@ -301,6 +355,8 @@ static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
     }
     f->kind.jump = jump_of_best;
     *s = best;
+    if (follows && !f->kind.rough)
+        move_jump(f, s);
 }
 
 /* From a jump: first with the contact point there, then with a free one, for from the wrong side of
@@ -322,8 +378,6 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
         refine_jump(f, &s, follows);
     f->input.samples = all;
     f->kind.rough = false;
-    if (!s.converged)
-        return s;
     f->kind.jump = jump;
     if (follows && !fixed) {
         const size_t touched = first_beyond(&all, s.p[CURVE_C]);
@@ -350,8 +404,12 @@ static bool is_adhesive(const curve_fitting *f)
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
     const adhesion law = {f->table, s->p[CURVE_E], root * root};
-    return s->converged &&
-           root > work_errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
+    /* A snap-on that is seen can be left out, which is better than a law that does not fit. */
+    const bool strict = f->snap_on > 0.0 && !curve_fits(f);
+    const bool at_kink = s->step_left * s->p[CURVE_E] > kink_left * s->standard_error[CURVE_E];
+    const double errors = f->kind.constant_pull && !strict ? 0.5 * work_errors : work_errors;
+    return s->converged && !(strict && at_kink) &&
+           root > errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
 
@@ -368,9 +426,11 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double dep
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
         f->solution = refine_from(f, start, jump, follows);
-        if (is_adhesive(f))
+        /* Another minimum has the tip touch far from where the force rises. */
+        const bool near = !follows || f->solution.cost < start.cost;
+        if (near && is_adhesive(f))
             return true;
-        if (f->solution.converged) /* to next to no adhesion */
+        if (near && f->solution.converged) /* to next to no adhesion */
             break;
     }
     return false;
@@ -405,23 +465,72 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
 typedef struct outcome {
     curve_solution solution;
     curve_kind kind;
-    bool found;
+    bool found, likely;
 } outcome;
+enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
 
-/* The better one of two laws of adhesion; what the other would give is in the error, as far as it
+/* Is the pull of this fit one that the way out shows? Rubber lets go with no less than it is
+ * touched with. */
+static bool pull_is_likely(const curve_fitting *f, const curve_solution *elastic)
+{
+    const double root = f->solution.p[CURVE_W], most = most_pull * f->pull_off;
+    if (!(f->pull_off > 0.0))
+        return true;
+    if (f->kind.constant_pull)
+        return root <= most;
+    return !(root * root >
+             adhesion_work(f->table, elastic->p[CURVE_E], f->input.samples.spring_constant, most));
+}
+
+static bool better_law(const outcome *a, const outcome *b, bool lossy)
+{
+    if (!a->found || !b->found || a->likely != b->likely)
+        return a->found && (!b->found || a->likely);
+    if (lossy && a->kind.constant_pull != b->kind.constant_pull)
+        return b->kind.constant_pull;
+    return a->solution.cost < b->solution.cost;
+}
+
+/* What another fit, better by chi2, would make of the modulus, as far as it is likely. */
+static double by_other(const curve_fitting *f, const curve_solution *other, double chi2)
+{
+    const double share = 1.0 / (1.0 + exp(-0.5 * chi2));
+    return sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+}
+
+/* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
+static double gain_of(const curve_fitting *f, const curve_solution *other)
+{
+    return f->solution.effective_n * log(f->solution.cost / other->cost) /
+           fmax(1.0, f->solution.lack.statistic);
+}
+
+/* The better one of the laws of adhesion; what the others would give is in the error, as far as it
  * is likely. False if there is none: then all is as it was. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
 {
-    const outcome before = {f->solution, f->kind, true};
-    outcome law[2] = {{.found = false}, {.found = false}};
-    for (int i = 0; i < 2; i++) {
+    const outcome before = {f->solution, f->kind, true, true};
+    outcome law[LAWS] = {{.found = false}};
+    const outcome *best = &law[0];
+    /* Work that is lost looks like a constant pull, neither law describes it, and costs do not
+     * tell: rubber has short forces. */
+    const bool lossy = jump == 0 && f->loss > CURVE_LEAST_LOSS;
+    for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
-        const bool found = i == 0 ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] = (outcome){f->solution, f->kind, found};
+        law[i].found =
+            i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
+        law[i] = (outcome){f->solution, f->kind, law[i].found,
+                           jump > 0 || pull_is_likely(f, &before.solution)};
+        if (better_law(&law[i], best, lossy))
+            best = &law[i];
+        /* From where samples let go costs have kinks: once more from the pull that was found. */
+        if (i == JKR)
+            pull = law[CONSTANT_PULL].solution.p[CURVE_W];
+        if (i == JKR && !(jump == 0 && pull > 0.0))
+            break;
     }
-    const int best = law[1].found && (!law[0].found || law[1].solution.cost < law[0].solution.cost);
-    const outcome *to = law[best].found ? &law[best] : &before;
+    const outcome *to = best->found ? best : &before;
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
@@ -429,14 +538,14 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
     refine(f, &f->solution);
     f->solution = to->solution;
     f->kind = to->kind;
-    if (law[0].found && law[1].found) {
-        const curve_solution *other = &law[1 - best].solution;
-        const double chi2 = f->solution.effective_n * log(other->cost / f->solution.cost) /
-                            fmax(1.0, f->solution.lack.statistic);
-        const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
-        f->other_law = sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
-    }
-    return law[best].found;
+    f->other_law = 0.0;
+    for (int i = 0; i < LAWS && best->found; i++)
+        if (law[i].found && &law[i] != best) {
+            const curve_solution *other = &law[i].solution;
+            const double gain = fmin(0.0, gain_of(f, other));
+            f->other_law = fmax(f->other_law, by_other(f, other, gain));
+        }
+    return best->found;
 }
 
 bool curve_fit_adhesion(curve_fitting *f)
@@ -460,19 +569,21 @@ bool curve_fit_adhesion(curve_fitting *f)
         curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
-    /* Where the law without adhesion describes the curve it has none to speak of. */
-    if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
+    /* Rubber lets go with far more than it is touched with, of which no snap-on was seen. */
+    if (!(f->pull_off > 0.0) || !try_it)
         return true;
-    if (fit_adhesion_laws(f, f->pull_off, 0) &&
-        f->solution.effective_n * log(elastic.cost / f->solution.cost) >
-            better_chi2 * fmax(1.0, f->solution.lack.statistic))
+    if (!fit_adhesion_laws(f, fmin(f->pull_off, snap_noise * f->input.step_noise), 0))
         return true;
+    const double gain = -gain_of(f, &elastic);
+    if (gain > better_chi2)
+        return true;
+    const curve_solution law = f->solution;
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
     refine(f, &f->solution);
     f->kind = plainly;
     f->solution = elastic;
-    f->other_law = 0.0;
+    f->other_law = by_other(f, &law, gain);
     return true;
 }
