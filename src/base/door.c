@@ -57,21 +57,19 @@ static int dup_apart(int to, int file)
 static bool shut_in(int to, const door_call *door, const door_limits *limits, size_t data,
                     pid_t parent)
 {
-    /* A file that is opened again has one number more; so have the tables of old encodings. */
-    const size_t n_files = door->opens_again ? DOOR_FILE + 12 : 0;
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     sigset_t none;
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
         (void)sigaction(i, &usual, NULL); /* some cannot be set, nor need be */
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
-        dup_apart(to, door->file) != 0 || prctl(PR_SET_DUMPABLE, door->opens_again) != 0 ||
+        dup_apart(to, door->file) != 0 || prctl(PR_SET_DUMPABLE, 0) != 0 ||
         sigprocmask(SIG_SETMASK, &none, NULL) != 0)
         return false;
     for (int i = 0; i < ANSWER_FD; i++)
         (void)close(i);
     closefrom(ANSWER_FD + 1 + (door->file >= 0));
-    return limit_resource(RLIMIT_NOFILE, n_files) && limit_resource(RLIMIT_FSIZE, 0) &&
+    return limit_resource(RLIMIT_NOFILE, 0) && limit_resource(RLIMIT_FSIZE, 0) &&
            limit_resource(RLIMIT_CORE, 0) && limit_resource(RLIMIT_CPU, limits->cpu_time) &&
            (data == 0 || limit_resource(RLIMIT_DATA, data + limits->memory));
 }

@@ -80,7 +80,7 @@ set(third_party
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
   "^zlib\\.h" data+read
-  "^(zip|libdeflate|freexl)\\.h" read
+  "^(zip|libdeflate)\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
   "^gsl/gsl_errno" base+model+fit+kernel
