@@ -12,9 +12,10 @@
  * take is limited. The caller's signal handlers are left alone: one that waits for every child may
  * take this one too, and then only the cause of a failure stays unknown.
  *
- * Not promised: that a made file cannot run code in that process. It runs as the user, and no more
- * is kept from it than is said here. Without /proc the limit of memory is left out.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * Not promised: that a made file cannot run code in that process; but that code has nothing to do
+ * there but give a wrong answer. If it may open a file again, it can read others of the user's too.
+ * Where the system has no such filter or no /proc, wt_door_gaps (weartrack/base.h) says what then
+ * is open. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_BASE_DOOR_H
 #define WT_BASE_DOOR_H
 

@@ -108,5 +108,7 @@ int main(int argc, char **argv)
         status = dispatch(2, (char *[]){argv[2], help_option, NULL});
     else
         status = dispatch(argc - 1, argv + 1);
+    if (wt_door_gaps() != NULL) /* of the system, not of the data: no remark of a result */
+        cmd_say("weartrack: warning: %s\n", wt_door_gaps());
     return close_stdout(status);
 }
