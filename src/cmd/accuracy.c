@@ -48,8 +48,11 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
     const wt_table *table = s->result != NULL ? wt_result_find(s->result, first) : NULL;
     if (status == WT_OK && table == NULL)
         status = lacks_table(s, covers ? "intervals to be counted" : "error budget");
-    if (status == WT_OK)
+    if (status == WT_OK) {
         say_keys(s, table);
+        if (!covers && wt_result_find(s->result, "work_precision") != NULL)
+            say_keys(s, wt_result_find(s->result, "work_precision"));
+    }
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
     return status == WT_OK ? cmd_write(s) : status;

@@ -185,6 +185,12 @@ static void test_isotherms(void **state)
         found++;
     }
     assert_int_equal(found, 4); /* 4, 6, 9 and 12 of 12; of a quarter a law is not told */
+    const char *answer = wt_table_key(table, "answer");
+    assert_non_null(answer);
+    assert_int_equal(strncmp(answer, "friction coefficient with layer: ", 33), 0);
+    assert_non_null(strstr(answer, "at a tolerance of 0.01 and of "));
+    assert_non_null(strstr(answer, "; 6 of 12 isotherms are within "));
+    assert_null(strstr(answer, "s at a tolerance")); /* no times */
     assert_true(own > 80 && own < wt_table_n_rows(table));
     wt_result_free(result);
     wt_case_free(c);

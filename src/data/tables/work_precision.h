@@ -26,6 +26,7 @@
       LABEL("Repeats"))                                                                            \
     X(WORK_PRECISION_WORDS, AS(words), "the problem and its reference", TEXT, LABEL("Problem"))
 
-#define WORK_PRECISION_KEYS(X)
+#define WORK_PRECISION_KEYS(X)                                                                     \
+    X(WORK_PRECISION_KEY_ANSWER, "answer", TEXT, LABEL("What more work buys"), OPTIONAL)
 
 #endif

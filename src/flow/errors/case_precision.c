@@ -8,6 +8,8 @@
 #include "flow/sweeps/master.h"
 #include "flow/work/cost.h"
 
+#include "base/array.h"
+#include "base/clocale.h"
 #include "base/param.h"
 
 #include <math.h>
@@ -80,6 +82,7 @@ typedef struct own_case {
     size_t n_isotherms;      /* of those to be fitted */
     cell cells[SETTING_NUMBERS][SWEEPS][ACCURACY_VALUES];
     double reference_error[SETTING_NUMBERS][SWEEPS];
+    double standard_error[SETTING_NUMBERS]; /* relative, by the most replicates */
 } own_case;
 
 /* Once, or as often as it takes to time it. */
@@ -248,9 +251,11 @@ static wt_status sweep_replicates(own_case *o, wt_error *err)
     take_set(o, 0, REFERENCE_SET);
     wt_status status = solve_replicates(o, REFERENCE_SET, err);
     memcpy(reference, o->number, sizeof reference);
-    for (unsigned k = o->first; k < o->last; k++)
+    for (unsigned k = o->first; k < o->last; k++) {
+        o->standard_error[k] = reference[k].standard_error / fabs(reference[k].value);
         o->reference_error[k][BY_REPLICATES] =
             error_of_draws(drawn > 0 ? fmin(drawn, REFERENCE_SET) : REFERENCE_SET);
+    }
     for (size_t i = 0; sweeps[BY_REPLICATES].values[i] > 0 && status == WT_OK; i++) {
         const double n = sweeps[BY_REPLICATES].values[i];
         status = spread_of_sets(o, (size_t)n, reference, rms, err);
@@ -396,6 +401,57 @@ static void put_rows(const own_case *o, table_writer *t)
             }
 }
 
+/* What stands in the sentence: places in the lists of values. */
+enum { LOOSE = 0, TIGHT = 4, USUAL_REPLICATES = 3, HALF_THE_ISOTHERMS = 2 };
+
+/* " in 37 µs", or nothing. */
+static const char *in_time(const cell *c, char text[48])
+{
+    char time[32];
+    text[0] = '\0';
+    if (c->time.median > 0) {
+        wt_format_si(c->time.median, "s", 2, time, sizeof time);
+        snprintf(text, 48, " in %s", time);
+    }
+    return text;
+}
+
+/* Of the number that a case is about: the last one that is known, but for the thickness. */
+static void put_answer(const own_case *o, table_writer *t)
+{
+    static const setting_number about[] = {SETTING_WITH_LAYER, SETTING_FRICTION,
+                                           SETTING_HYSTERESIS};
+    char text[640], first[48], second[48];
+    size_t i = 0, n = 0;
+    while (i + 1 < COUNT_OF(about) && !(o->cells[about[i]][BY_TOLERANCE][LOOSE].value > 0))
+        i++;
+    const setting_number k = about[i];
+    const cell *loose = &o->cells[k][BY_TOLERANCE][LOOSE],
+               *tight = &o->cells[k][BY_TOLERANCE][TIGHT],
+               *drawn = &o->cells[k][BY_REPLICATES][USUAL_REPLICATES],
+               *half = &o->cells[k][BY_ISOTHERMS][HALF_THE_ISOTHERMS];
+    if (!(loose->value > 0 && tight->value > 0))
+        return;
+#define SAY(...)                                                                                   \
+    n += n < sizeof text ? (size_t)clocale_print(text + n, sizeof text - n, __VA_ARGS__) : 0
+    SAY("%s: the arithmetic states an error of %.1g%s at a tolerance of %g and of %.1g%s at %g",
+        setting_words[k], loose->errors.stated_error, in_time(loose, first), 1 / loose->value,
+        tight->errors.stated_error, in_time(tight, second), 1 / tight->value);
+    if (o->standard_error[k] > 0)
+        SAY("; the standard error is %.2g %%", 100 * o->standard_error[k]);
+    if (drawn->value > 0)
+        SAY(", which %.0f replicates tell to %.1g %%%s", drawn->value,
+            100 * drawn->errors.stated_error, in_time(drawn, first));
+    if (half->value > 0)
+        SAY("; %.0f of %zu isotherms are within %.2g %% of all of them, with a standard error by "
+            "the material of %.2g %% instead of %.2g %%",
+            half->value, o->n_isotherms,
+            100 * fmax(half->errors.true_error, o->reference_error[k][BY_ISOTHERMS]),
+            100 * half->errors.stated_error, 100 * o->reference_error[k][BY_ISOTHERMS]);
+#undef SAY
+    work_precision_set_text(t, WORK_PRECISION_KEY_ANSWER, text);
+}
+
 wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *layer,
                                  const wt_layer_known *known, const wt_accuracy_job *job,
                                  const wt_job *work, wt_table **table, wt_error *err)
@@ -427,8 +483,10 @@ wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *
     if (status == WT_OK && (given.has_layer || given.has_known))
         status = sweep_numbers(o, SETTING_THICKNESS, SETTING_NUMBERS, err);
     table_writer t = table_begin(&work_precision_schema, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
         put_rows(o, &t);
+        put_answer(o, &t);
+    }
     if (status == WT_OK && job->built_in)
         accuracy_add_parts(job, work, &t, err);
     if (status != WT_OK)
