@@ -65,7 +65,7 @@ set(within_flow/comparison flow/work flow/materials flow/indentation flow/dwell)
 set(abilities work calibration comparison indentation dwell spot sweeps ramp strain materials sliding
   layer)
 list(TRANSFORM abilities PREPEND flow/)
-set(within_flow/errors ${abilities})
+set(within_flow/errors ${abilities} flow/accuracy)
 set(within_flow/accuracy flow/work)
 set(within_flow/case flow/case_schema.h ${abilities})
 set(within_flow/plan flow/case)
