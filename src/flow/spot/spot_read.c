@@ -53,14 +53,7 @@ wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *
     return status;
 }
 
-spot_field spot_field_of(const wt_image *image)
-{
-    return (spot_field){image->values, image->n_columns, image->n_rows,
-                        image->width / (double)(image->n_columns - 1),
-                        image->height / (double)(image->n_rows - 1)};
-}
-
-spot_places spot_places_lay(const spot_field *f, double radius)
+spot_places spot_places_lay(const wt_height_map *f, double radius)
 {
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
     return (spot_places){(size_t)fmax(0, floor(width / (2 * radius))),
