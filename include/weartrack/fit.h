@@ -616,8 +616,9 @@ typedef struct wt_surface_heights {
 typedef struct wt_spectrum_bin {
     int index;
     double wavenumber, mean_wavenumber; /* geometric and arithmetic mean [rad/m] */
+    double width;                       /* standard deviation of ln q of its modes */
     double density;                     /* mean: C [m^4] or C1 [m^3], two-sided */
-    double deviation;                   /* standard deviation of a mode; NaN of several scans */
+    double deviation;                   /* standard deviation of a mode of a scan */
     size_t n;                           /* modes, of the full plane or of both signs */
     size_t scans;                       /* that they are of */
     double freedom;      /* degrees of freedom of the mean, as of chi-squared: fewer than n, for a
@@ -658,7 +659,7 @@ WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size
 WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
                                    wt_error *err) WT_NODISCARD;
 /* What lies behind a bin of a spectrum, with the scatter from place to place as far as it is known.
- */
+ * Its standard error, and those of c0 and roll_off below, are of the logarithm, times the value. */
 WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
 
 /* Whether the directions differ: C(phi) = C (1 + amplitude cos 2 (phi - direction)), the mean over

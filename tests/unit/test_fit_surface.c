@@ -1,5 +1,7 @@
 /* Heights to power spectra, against numbers of another program for surfaces that are made by a
  * formula. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
 #include "made_surface.h"
 #include "surface_reference.h"
 

@@ -2,6 +2,7 @@
  * in ln C. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/surface/surface.h"
 
+#include "base/gsl_quiet.h"
 #include "base/normal.h"
 #include "fit/students_t.h"
 #include "model/cholesky.h"
@@ -97,13 +98,14 @@ static wt_interval of_logarithm(double ln, double variance, double t)
 {
     const double reach = t * sqrt(variance);
     wt_interval i = {exp(ln), 0, exp(ln - reach), exp(ln + reach)};
-    i.standard_error = (i.high - i.low) / 2 / NORMAL_95;
+    i.standard_error = i.value * reach / NORMAL_95;
     return i;
 }
 
 static void fill_law(const law_fit *f, double r, const wt_surface_spectrum *s, double freedom,
                      wt_self_affine *to)
 {
+    gsl_quiet();
     const double t = students_t_quantile(freedom);
     double place = s->place_error > 0 ? s->place_error : 0;
     place *= place > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;

@@ -37,6 +37,45 @@ static double edge(int index, double side)
     return pow(10, (index + side) / 10);
 }
 
+/* The slope of ln C against ln q about a bin, by it and two on each side as far as they are there.
+ */
+static double slope_about(const wt_surface_spectrum *s, size_t at)
+{
+    enum { BESIDE = 2 }; /* four bins apart: the scatter of two moves the slope by little */
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (size_t k = at > BESIDE ? at - BESIDE : 0; k < s->n && k <= at + BESIDE; k++) {
+        const double w = s->bins[k].freedom, u = log(s->bins[k].wavenumber),
+                     v = log(s->bins[k].density);
+        if (!(s->bins[k].density > 0))
+            continue;
+        n += w;
+        x += w * u;
+        y += w * v;
+        xx += w * u * u;
+        xy += w * u * v;
+    }
+    const double d = n * xx - x * x;
+    return d > 0 ? (n * xy - x * y) / d : 0;
+}
+
+/* The mean of a law over a bin lies above it at the geometric mean of the wavenumbers: of C = q^p
+ * by exp(p^2 width^2 / 2). */
+static wt_status take_off_curvature(wt_surface_spectrum *s, wt_error *err)
+{
+    double *slope = malloc((s->n + 1) * sizeof *slope);
+    if (slope == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k < s->n; k++)
+        slope[k] = slope_about(s, k);
+    for (size_t k = 0; k < s->n; k++) {
+        const double above = slope[k] * s->bins[k].width;
+        s->bins[k].density *= exp(-above * above / 2);
+        s->bins[k].deviation *= exp(-above * above / 2);
+    }
+    free(slope);
+    return WT_OK;
+}
+
 /* Both edges of a bin lie in the range, and it has a scatter that can be told. */
 static void mark_reliable(wt_surface_spectrum *s)
 {
@@ -129,6 +168,8 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
         status = surface_transform(&less, options->window, profile, &bins, &made, err);
     }
     free(z);
+    if (status == WT_OK)
+        status = take_off_curvature(&made, err);
     if (status == WT_OK) {
         mark_reliable(&made);
         *spectrum = made;
@@ -140,21 +181,22 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
 
 wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum)
 {
-    double n = 0, freedom = 0, cosine = 0, sine = 0;
+    double n = 0, variance = 0, cosine = 0, sine = 0;
     for (size_t k = 0; k < spectrum->n; k++) {
         const wt_spectrum_bin *b = &spectrum->bins[k];
         if (!b->reliable)
             continue;
         n += (double)b->n;
-        freedom += b->freedom;
+        /* Each part scatters by 2 / sqrt(freedom) where the directions are alike and the modes are
+         * exponential; where these scatter more, by that. */
+        const double part = (double)b->n * 2 * b->deviation / b->density;
+        variance += part * part / b->freedom;
         cosine += (double)b->n * b->cosine;
         sine += (double)b->n * b->sine;
     }
     if (spectrum->kind != WT_SPECTRUM_2D || !(n > 0))
         return (wt_surface_anisotropy){(double)NAN, (double)NAN, (double)NAN};
     const double amplitude = hypot(cosine, sine) / n;
-    /* Each part scatters by 2 / sqrt(freedom) where the directions are alike, so that the square of
-     * the amplitude is exponential. */
     return (wt_surface_anisotropy){amplitude, atan2(sine, cosine) / 2,
-                                   exp(-amplitude * amplitude * freedom / 8)};
+                                   exp(-amplitude * amplitude * n * n / (2 * variance))};
 }

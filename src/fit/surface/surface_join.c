@@ -114,7 +114,7 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
 static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
 {
     double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, cosine = 0,
-           sine = 0;
+           sine = 0, deviation = 0;
     *to = (wt_spectrum_bin){.index = index, .reliable = true};
     for (size_t i = 0; i < j->n; i++) {
         const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
@@ -132,7 +132,8 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
         sine += w * b->sine;
         to->n += b->n;
         to->scans += b->scans;
-        to->deviation = b->deviation;
+        deviation += w * (b->deviation / b->density) * (b->deviation / b->density);
+        to->width = fmax(to->width, b->width);
     }
     if (n == 0)
         return false;
@@ -141,7 +142,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     to->mean_wavenumber = q / n;
     to->density = exp(ln_c / n + (one ? 0 : surface_log_bias(freedom) - bias / n));
     to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
-    to->deviation = one ? to->deviation : (double)NAN;
+    to->deviation = to->density * sqrt(deviation / n);
     to->cosine = cosine / n;
     to->sine = sine / n;
     return true;

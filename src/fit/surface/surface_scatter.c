@@ -3,11 +3,15 @@
  * independent. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/surface/surface.h"
 
+#include "base/gsl_quiet.h"
 #include "base/normal.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_psi.h>
 #include <math.h>
+
+/* Below one degree of freedom the error is not of modes but of places, which are normal in ln C. */
+static const double least_freedom = 1;
 
 double surface_log_bias(double freedom)
 {
@@ -33,9 +37,17 @@ double surface_freedom_of(double variance)
 
 wt_interval surface_interval(double mean, double freedom)
 {
-    wt_interval i = {.value = mean,
-                     .low = mean * freedom / gsl_cdf_chisq_Qinv(0.025, freedom),
-                     .high = mean * freedom / gsl_cdf_chisq_Pinv(0.025, freedom)};
-    i.standard_error = (i.high - i.low) / 2 / NORMAL_95;
+    wt_interval i = {.value = mean};
+    gsl_quiet();
+    if (freedom >= least_freedom) {
+        i.low = mean * freedom / gsl_cdf_chisq_Qinv(0.025, freedom);
+        i.high = mean * freedom / gsl_cdf_chisq_Pinv(0.025, freedom);
+    } else {
+        const double reach = NORMAL_95 * sqrt(surface_log_variance(freedom));
+        i.low = mean * exp(-surface_log_bias(freedom) - reach);
+        i.high = mean * exp(-surface_log_bias(freedom) + reach);
+    }
+    /* The interval is skew, the logarithm is nearly not. */
+    i.standard_error = mean * log(i.high / i.low) / 2 / NORMAL_95;
     return i;
 }

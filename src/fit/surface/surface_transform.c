@@ -122,7 +122,7 @@ static double density_at(const transform *t, size_t i, size_t j)
 /* ---- bins ------------------------------------------------------------------------------------ */
 
 typedef struct mode_sums {
-    double n, q, ln_q, c, square; /* the last about `first` */
+    double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
     double first, cosine, sine, c_cosine, c_sine;
 } mode_sums;
 
@@ -157,12 +157,15 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     if (k < 0 || (size_t)k >= b->n)
         return;
     mode_sums *s = &b->sums[k];
+    /* from the lower edge on, so that little cancels */
+    const double ln_q = log(q / b->of->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
     const double cosine = (qx * qx - qy * qy) / (q * q), sine = 2 * qx * qy / (q * q);
     if (s->n == 0)
         s->first = c;
     s->n += times;
     s->q += times * q;
-    s->ln_q += times * log(q);
+    s->ln_q += times * ln_q;
+    s->ln_q2 += times * ln_q * ln_q;
     s->c += times * (c - s->first);
     s->square += times * (c - s->first) * (c - s->first);
     s->cosine += times * cosine;
@@ -171,12 +174,15 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     s->c_sine += times * c * sine;
 }
 
-static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double correlation)
+static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double reference,
+                                  double correlation)
 {
+    const double edge = reference * pow(10, (index - 0.5) / PER_DECADE);
     const double c = s->first + s->c / s->n;
     const double squares = s->square - s->c * s->c / s->n;
     return (wt_spectrum_bin){.index = index,
-                             .wavenumber = exp(s->ln_q / s->n),
+                             .wavenumber = edge * exp(s->ln_q / s->n),
+                             .width = sqrt(fmax(0, s->ln_q2 - s->ln_q * s->ln_q / s->n) / s->n),
                              .mean_wavenumber = s->q / s->n,
                              .density = c,
                              .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
@@ -230,7 +236,8 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
         (lines ? bin_lines : bin_plane)(&t, map, &b);
         for (size_t k = 0; k < b.n; k++)
             if (b.sums[k].n > 1)
-                to->bins[to->n++] = finish_bin(&b.sums[k], b.first + (int)k, correlation);
+                to->bins[to->n++] =
+                    finish_bin(&b.sums[k], b.first + (int)k, bins->reference, correlation);
     }
     free(t.row);
     free(b.sums);
