@@ -225,6 +225,30 @@ WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
 WT_API wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
                               wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- measured surfaces ----------------------------------------------------------------------- */
+
+typedef struct wt_topography_job {
+    const wt_file_set *sets; /* height maps and profiles of one surface */
+    size_t n_sets;
+    wt_surface_options options;
+    const char *image; /* part of the name of the image; NULL = the first of heights */
+    double end;        /* last wavenumber [rad/m]; NaN = that of the reliable range */
+    double end_slope;  /* rms slope at which it ends instead; NaN = none */
+    bool scans;        /* makes the table scan_spectra, too */
+} wt_topography_job;
+WT_API wt_topography_job wt_topography_job_defaults(void);
+WT_API const wt_params *wt_topography_job_params(void);
+typedef struct wt_topography_tables {
+    wt_table *power_spectrum, *surfaces, *scan_spectra; /* scan_spectra: NULL unless asked for */
+} wt_topography_tables;
+WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
+/* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,
+ * profiles inverted. Beyond the reliable range it goes on by its self-affine law where end or
+ * end_slope ask for that. WT_E_EMPTY if no file has heights or no wavenumber is reliable,
+ * WT_E_RANGE if the end that is asked for cannot be reached. */
+WT_API wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
+                                    wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 
 typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;

@@ -13,9 +13,8 @@
  * take this one too, and then only the cause of a failure stays unknown.
  *
  * Not promised: that a made file cannot run code in that process; but that code has nothing to do
- * there but give a wrong answer. If it may open a file again, it can read others of the user's too.
- * Where the system has no such filter or no /proc, wt_door_gaps (weartrack/base.h) says what then
- * is open. SPDX-License-Identifier: GPL-3.0-or-later */
+ * there but give a wrong answer. Where the system has no such filter or no /proc, wt_door_gaps
+ * (weartrack/base.h) says what then is open. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_BASE_DOOR_H
 #define WT_BASE_DOOR_H
 

@@ -193,6 +193,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
          "loss_modulus_peak_temperature loss_modulus_peak"},
         {"ramp", "title 'peak of tan δ'", "loss_factor_peak_temperature loss_factor_peak"},
         {"spot_map", "boxxyerror", "x y before"},
+        {"measured_spectrum", "title 'measured'", "wavenumber density density_low density_high"},
+        {"measured_spectrum", "title 'self-affine law'", "wavenumber self_affine"},
         {"payne", "points ls 51", "strain storage_modulus angular_frequency"},
         {"payne", "points ls 52", "strain loss_modulus angular_frequency"},
         {"payne", "lines ls 11 title 'law of Kraus'", "strain storage_kraus"},
