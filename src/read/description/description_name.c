@@ -44,6 +44,8 @@ static const char *spelling(const char *text, size_t length, size_t *taken)
     if ((unsigned char)*text < 0x80 && *text != '"' && *text != '`')
         return NULL;
     for (size_t s = 0; s < sizeof spellings / sizeof *spellings; s++) {
+        if (*spellings[s].found != *text)
+            continue;
         *taken = strlen(spellings[s].found);
         if (length >= *taken && memcmp(text, spellings[s].found, *taken) == 0)
             return spellings[s].spelled;
