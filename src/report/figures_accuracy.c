@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* What stands once for all panels, in a strip on top; drawn last, for nothing of a panel is left.
- */
-static void draw_legend(figure_drawing *d, double height, const char *const *entries)
+/* What stands once for all panels, in a strip on top: curves without a point. Drawn last, for
+ * nothing of a panel is left. */
+static void begin_legend(figure_drawing *d, double height)
 {
     text_format(&d->script,
                 "set size 1,%s\nset origin 0,%s\nset margins 0,0,0,0\nunset border\n"
@@ -17,9 +17,6 @@ static void draw_legend(figure_drawing *d, double height, const char *const *ent
                 "unset arrow\nset xrange [0:1]\nset yrange [0:1]\n"
                 "set key center center horizontal\n",
                 LITERAL(height), LITERAL(1 - height));
-    for (size_t i = 0; entries[i] != NULL; i++)
-        plot_other(d, "NaN with %s", entries[i]);
-    plot_end(d);
 }
 
 /* Of a figure, in the height of one panel of the style. */
@@ -49,9 +46,9 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
     return n;
 }
 
-static bool is_textbook(const char *method)
+static int style_of_method(const char *method)
 {
-    return strcmp(method, "textbook") == 0;
+    return strcmp(method, "weartrack") == 0 ? 1 : strcmp(method, "textbook") == 0 ? 2 : 3;
 }
 
 static void draw_part(figure_drawing *d, const char *part)
@@ -79,7 +76,7 @@ static void draw_part(figure_drawing *d, const char *part)
     axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
     plot_heading(d, part);
     for (size_t i = 0; i < n; i++) {
-        const int style = is_textbook(methods[i]) ? 2 : i == 0 ? 1 : 3;
+        const int style = style_of_method(methods[i]);
         plot_item(d, section[i], "($1*x_unit):($4*y_unit) with lines ls 12");
         plot_item(d, section[i], "($1*x_unit):($2*y_unit) with linespoints ls %d", style);
         plot_item(d, section[i], "($1*x_unit):($3>0 ? $3*y_unit : NaN) with linespoints ls %d pt 6",
@@ -94,9 +91,6 @@ static void draw_work_precision(figure_drawing *d)
     const size_t n = list_texts(d->table, WORK_PRECISION_PART, NULL, parts, PARTS),
                  n_methods = list_texts(d->table, WORK_PRECISION_METHOD, NULL, methods, METHODS);
     const size_t across = n < ACROSS ? n : ACROSS, down = (n + ACROSS - 1) / ACROSS;
-    bool textbook = false;
-    for (size_t i = 0; i < n_methods; i++)
-        textbook = textbook || is_textbook(methods[i]);
     if (n == 0)
         return;
     d->width = across > 1 ? 0.9 * (double)across : 1.1;
@@ -110,11 +104,14 @@ static void draw_work_precision(figure_drawing *d)
                     LITERAL(1 - legend - high * (double)(i / across + 1)));
         draw_part(d, parts[i]);
     }
-    const char *entries[] = {"linespoints ls 1 title 'weartrack'",
-                             "linespoints ls 31 pt 6 title 'what it states'",
-                             "lines ls 12 title 'what the reference is good to'",
-                             textbook ? "linespoints ls 2 title 'textbook'" : NULL, NULL};
-    draw_legend(d, legend, entries);
+    begin_legend(d, legend);
+    for (size_t i = 0; i < n_methods; i++) {
+        plot_other(d, "NaN with linespoints ls %d", style_of_method(methods[i]));
+        plot_title(d, methods[i]);
+    }
+    plot_other(d, "NaN with linespoints ls 31 pt 6 title 'what it states'");
+    plot_other(d, "NaN with lines ls 12 title 'what the reference is good to'");
+    plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
 
@@ -241,10 +238,11 @@ static void draw_error_budget(figure_drawing *d)
     }
     if (n == 0)
         return;
-    static const char *const entries[] = {"boxes ls 1 title 'measured or stated'",
-                                          "boxes ls 2 title 'choice of the model'",
-                                          "boxes ls 5 title 'together, draws, arithmetic'", NULL};
-    draw_legend(d, legend_height / d->height, entries);
+    begin_legend(d, legend_height / d->height);
+    plot_other(d, "NaN with boxes ls 1 title 'measured or stated'");
+    plot_other(d, "NaN with boxes ls 2 title 'choice of the model'");
+    plot_other(d, "NaN with boxes ls 5 title 'together, draws, arithmetic'");
+    plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
 

@@ -146,10 +146,12 @@ static void run_case_at(double tolerance, const char *text, const char *instead)
     see(plan);
     wt_table_free(plan);
     wt_result_free(result);
-    assert_int_equal(wt_case_ask(c, "error_budget", NULL), WT_OK);
+    assert_int_equal(wt_case_ask(c, "error_budget work_precision", NULL), WT_OK);
     assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
     if (wt_result_find(result, "error_budget") != NULL)
         see(wt_result_find(result, "error_budget"));
+    if (wt_result_find(result, "work_precision") != NULL)
+        see(wt_result_find(result, "work_precision"));
     wt_result_free(result);
     options.trials = 2;
     assert_int_equal(wt_case_ask(c, "coverage", NULL), WT_OK);

@@ -322,18 +322,19 @@ static wt_status sweep_isotherms(own_case *o, wt_error *err)
     double before = LEAST_ISOTHERMS - 1;
     begin_sweep(o);
     regenerate_hold(&o->now);
-    wt_status status = solve_isotherms(o, all, err);
+    wt_status status = solve_isotherms(o, all, NULL);
+    if (status != WT_OK)
+        return status == WT_E_MEMORY ? wt_fail(err, status, "out of memory") : WT_OK;
     memcpy(reference, o->number, sizeof reference);
     for (unsigned k = o->first; k < o->last; k++)
         o->reference_error[k][BY_ISOTHERMS] =
             reference[k].standard_error / fabs(reference[k].value);
     for (size_t i = 0; shares[i] > 0 && status == WT_OK; i++) {
         const double n = round(shares[i] * all);
-        wt_error ignored = WT_ERROR_INIT;
         if (!(n > before))
             continue;
         before = n;
-        const wt_status of_some = solve(o, solve_isotherms, n, &time, &ignored);
+        const wt_status of_some = solve(o, solve_isotherms, n, &time, NULL);
         if (of_some == WT_OK)
             put_cells(o, BY_ISOTHERMS, i, n, reference, time);
         else if (of_some == WT_E_MEMORY)
