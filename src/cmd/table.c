@@ -58,7 +58,7 @@ int cmd_table(int argc, char **argv)
         .common = "output",
         .notes = "NAME may be left out if there is one table only."};
     own_options own = {0};
-    export_options form = {WT_EXPORT_TSV};
+    export_options form = {.form = WT_EXPORT_TSV};
     cmd_part parts[] = {{own_params(), &own, NULL, 0}, {export_params(), &form, NULL, 0}};
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
