@@ -323,7 +323,8 @@ WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
 
 /* Tab-separated and comma-separated cells under one header line, name[unit]; JSON with keys,
  * columns and rows; the text stream. Where there are several blocks a column "block" is in front.
- */
+ * In the first two an apostrophe stands before a text that a spreadsheet would take for a formula
+ * (it begins with = + - @ and is no number), unless formulas are wanted. */
 typedef enum wt_export_form {
     WT_EXPORT_TSV,
     WT_EXPORT_CSV,
@@ -331,7 +332,7 @@ typedef enum wt_export_form {
     WT_EXPORT_STREAM
 } wt_export_form;
 WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
-                                 wt_error *err) WT_NODISCARD;
+                                 bool formulas, wt_error *err) WT_NODISCARD;
 /* Table "contents": a row for each table. Table "keys": a row for each key. */
 WT_API wt_status wt_result_contents(const wt_result *result, wt_table **contents,
                                     wt_error *err) WT_NODISCARD;

@@ -1,6 +1,7 @@
 /* Parameters: reading one from text, checking a structure, showing a default.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
+#include "base/nearest.h"
 
 #include "base/clocale.h"
 #include "base/quantity.h"
@@ -216,13 +217,19 @@ static size_t n_choices(const wt_param *param)
 static wt_status read_choice(const slot *s, const char *choices, const char *text, wt_error *err)
 {
     const size_t length = strlen(text);
+    nearest_name near = nearest_to(text, length);
     unsigned i = 0;
     for (const char *p = choices;; i++) {
         const size_t word = strcspn(p, "|");
         if (word == length && strncmp(p, text, word) == 0)
             break;
-        if (p[word] == '\0')
-            return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
+        nearest_try(&near, p, word);
+        if (p[word] == '\0') {
+            (void)wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
+            if (near.name != NULL)
+                wt_error_advice(err, "did you mean '%.*s'?", (int)near.name_length, near.name);
+            return WT_E_ARG;
+        }
         p += word + 1;
     }
     put_whole(s, i);

@@ -85,14 +85,18 @@ const char *quantity_example(wt_quantity quantity)
     return quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "5K" : unit_words_of(quantity)->example;
 }
 
+/* No polymer outlives it, and no instrument of this field heats as far. Differences of temperature
+ * are also constants of laws. */
+static const double hottest = 2000; /* [K] */
+
 double quantity_most(wt_quantity quantity)
 {
-    return unit_words_of(quantity)->most;
+    return quantity == WT_Q_TEMPERATURE ? hottest : unit_words_of(quantity)->most;
 }
 
 bool quantity_is_possible(wt_quantity quantity, double value)
 {
-    return fabs(value) <= unit_words_of(quantity)->most;
+    return fabs(value) <= quantity_most(quantity);
 }
 
 wt_status quantity_impossible(wt_quantity quantity, const char *found, wt_error *err)
@@ -100,7 +104,8 @@ wt_status quantity_impossible(wt_quantity quantity, const char *found, wt_error 
     const unit_words *w = unit_words_of(quantity);
     (void)wt_fail(err, WT_E_RANGE, "beyond anything that there is");
     const bool bare = strcmp(w->unit, "1") == 0;
-    wt_error_expected(err, "at most %g%s%s", w->most, bare ? "" : " ", bare ? "" : w->unit);
+    wt_error_expected(err, "at most %g%s%s", quantity_most(quantity), bare ? "" : " ",
+                      bare ? "" : w->unit);
     wt_error_found(err, "%s", found);
     return WT_E_RANGE;
 }

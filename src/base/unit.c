@@ -324,6 +324,25 @@ static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, doub
     return wt_unit_to_si(unit, quantity, factor, offset, err);
 }
 
+/* What is meant by a unit of temperature as it is written in words; NULL: nothing known. "C" is
+ * coulomb, "F" is farad. */
+static const char *find_degrees(const char *unit, wt_quantity quantity)
+{
+    static const struct {
+        const char *written, *advice;
+    } known[] = {{"C", "degrees Celsius are degC, as in 20degC"},
+                 {"deg", "degrees Celsius are degC, as in 20degC"},
+                 {"degrees", "degrees Celsius are degC, as in 20degC"},
+                 {"centigrade", "degrees Celsius are degC, as in 20degC"},
+                 {"F", "degrees Fahrenheit are degF, as in 68degF"}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(unit, known[i].written) == 0)
+            return quantity == WT_Q_TEMPERATURE              ? known[i].advice
+                   : quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "a difference is in kelvin: 5K"
+                                                             : NULL;
+    return NULL;
+}
+
 wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -345,6 +364,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         reason = advice;
     } else {
         status = to_si_of_frequency(unit, quantity, &factor, &offset, err);
+        reason = status == WT_E_UNIT ? find_degrees(unit, quantity) : NULL;
         result = number * factor + offset;
         if (status == WT_OK && !isfinite(result))
             status = wt_fail(err, WT_E_RANGE, "the value is too large");

@@ -5,12 +5,15 @@
 
 static export_options no_options(void)
 {
-    return (export_options){WT_EXPORT_TSV};
+    return (export_options){.form = WT_EXPORT_TSV};
 }
 
 static const wt_param rows[] = {
     {PARAM_CHOICE_OF("as", export_options, form, "tsv|csv|json|stream"),
      .help = "how it is written; without this a name after -o that ends in .csv or .json says so"},
+    {PARAM_FLAG_OF("formulas", export_options, formulas),
+     .help = "leave a text of tsv and csv that begins with = + - or @ as it is; without this an "
+             "apostrophe before it keeps a spreadsheet from taking it for a formula"},
 };
 PARAM_TABLE(export_params, export_options, rows, no_options, NO_PARTS)
 
@@ -30,6 +33,7 @@ wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *tab
     cmd_sink sink;
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
     if (status == WT_OK)
-        status = wt_table_export(sink.stream, table, form_of(s->common.output, part), &s->err);
+        status = wt_table_export(sink.stream, table, form_of(s->common.output, part),
+                                 ((const export_options *)part->structure)->formulas, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
 }

@@ -8,6 +8,7 @@
 /* Options of a subcommand that exports. */
 typedef struct export_options {
     wt_export_form form;
+    bool formulas;
 } export_options;
 const wt_params *export_params(void);
 

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "cmd/cmd.h"
 
 int cmd_full_argc;
@@ -71,10 +72,18 @@ static int close_stdout(int status)
 static int dispatch(int argc, char **argv)
 {
     const char *name = argv[0];
-    for (const cmd_command *c = cmd_commands; c->name != NULL; c++)
+    nearest_name near = nearest_to(name, strlen(name));
+    for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
         if (c->run != NULL && strcmp(c->name, name) == 0)
             return c->run(argc, argv);
-    cmd_say("weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
+        if (c->run != NULL)
+            nearest_try(&near, c->name, strlen(c->name));
+    }
+    if (near.name != NULL)
+        cmd_say("weartrack: there is no subcommand '%s'; did you mean %s? See weartrack --help\n",
+                name, near.name);
+    else
+        cmd_say("weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
     return CMD_USAGE;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/utf8.h"
 #include "cmd/found.h"
 
 /* What is not known stands in the case as these words, which no quantity and no tip is. */
@@ -14,7 +15,7 @@
 typedef enum place { BULK, TRACK, DMA, ROUGHNESS, UNUSED } place;
 
 typedef struct entry {
-    char *path;
+    char *path, *in_case; /* as given, and as it holds from the folder of the case */
     place place;
     const char *word; /* of its path that says bulk or track; NULL: none does */
     bool of_folder;   /* that word is in the name of a folder */
@@ -27,6 +28,66 @@ typedef struct new_case {
     entry *entries;
     size_t n;
 } new_case;
+
+/* ---- names in XML ---------------------------------------------------------------------------- */
+
+/* Well-formed UTF-8, but no character of XML: U+FFFE and U+FFFF. */
+static bool is_no_character(const char *text)
+{
+    return strncmp(text, "\xEF\xBF\xBE", 3) == 0 || strncmp(text, "\xEF\xBF\xBF", 3) == 0;
+}
+
+/* What keeps a name from being read back from a case as it is; NULL: nothing. */
+static const char *find_unfit(const char *name)
+{
+    const size_t n = strlen(name);
+    if (utf8_check(name, n) < n)
+        return "bytes that are not UTF-8";
+    for (const char *p = name; *p != '\0'; p++) {
+        if ((unsigned char)*p < ' ' || *p == 0x7f)
+            return "a control character";
+        if (is_no_character(p))
+            return "a character that XML does not have";
+    }
+    return n > 0 && (name[0] == ' ' || name[n - 1] == ' ') ? "a blank at its beginning or end"
+                                                           : NULL;
+}
+
+/* The path as it holds from the folder of the case; NULL: no memory. */
+static char *path_in_case(const new_case *c, const char *path)
+{
+    const char *const output = c->s->common.output;
+    char *whole = NULL;
+    if (output != NULL && strchr(output, '/') != NULL && path[0] != '/')
+        whole = realpath(path, NULL);
+    return whole != NULL ? whole : strdup(path);
+}
+
+static void put_text(FILE *out, const char *text)
+{
+    static const char marks[] = "&<>\"";
+    static const char *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
+    for (const char *p = text; *p != '\0'; p++) {
+        const char *const mark = strchr(marks, *p);
+        if (mark != NULL)
+            fputs(names[mark - marks], out);
+        else
+            putc(*p, out);
+    }
+}
+
+/* In a comment two hyphens must not follow one another. */
+static void put_comment(FILE *out, const char *text)
+{
+    const size_t length = strlen(text);
+    for (size_t i = 0, n; i<length; i += n> 0 ? n : 1) {
+        n = utf8_character(text + i, length - i);
+        if (n == 0 || (unsigned char)text[i] < ' ' || is_no_character(text + i))
+            putc('?', out);
+        else if (!(text[i] == '-' && i > 0 && text[i - 1] == '-'))
+            fwrite(text + i, 1, n, out);
+    }
+}
 
 /* ---- what the files are ---------------------------------------------------------------------- */
 
@@ -99,11 +160,28 @@ static place place_of(const found_file *found)
                                              : UNUSED;
 }
 
+/* Whether its name can stand in a case, where it must be read back as it is. */
+static wt_status check_name(new_case *c, entry *e)
+{
+    wt_error *const err = &c->s->err;
+    e->in_case = path_in_case(c, e->path);
+    const char *const unfit = e->in_case != NULL ? find_unfit(e->in_case) : NULL;
+    if (e->in_case == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (unfit == NULL)
+        return WT_OK;
+    (void)wt_fail(err, WT_E_ARG, "the name cannot stand in a case file: it has %s", unfit);
+    wt_error_file(err, e->path);
+    wt_error_advice(err, "give the file, or its folder, another name");
+    return WT_E_ARG;
+}
+
 static void look_at_entry(new_case *c, entry *e)
 {
     const wt_read_options options = wt_read_defaults();
     wt_table *facts = NULL;
-    if (found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
+    if (check_name(c, e) == WT_OK &&
+        found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
         e->place = place_of(&e->found);
     } else {
         cmd_fail_one(c->s);
@@ -200,38 +278,6 @@ static size_t count_entries(const new_case *c, place where)
 
 /* ---- writing --------------------------------------------------------------------------------- */
 
-static void put_text(FILE *out, const char *text)
-{
-    for (const char *p = text; *p != '\0'; p++) {
-        if (*p == '&')
-            fputs("&amp;", out);
-        else if (*p == '<')
-            fputs("&lt;", out);
-        else if (*p == '"')
-            fputs("&quot;", out);
-        else
-            putc(*p, out);
-    }
-}
-
-/* In a comment two hyphens must not follow one another. */
-static void put_comment(FILE *out, const char *text)
-{
-    for (const char *p = text; *p != '\0'; p++)
-        if (!(p[0] == '-' && (p > text) && p[-1] == '-'))
-            putc(*p, out);
-}
-
-/* The path as it holds from the folder of the case. */
-static void put_path(FILE *out, const char *output, const char *path)
-{
-    char *whole = NULL;
-    if (output != NULL && strchr(output, '/') != NULL && path[0] != '/')
-        whole = realpath(path, NULL);
-    put_text(out, whole != NULL ? whole : path);
-    free(whole);
-}
-
 /* Why a file of force curves stands where it stands. */
 static void put_reason(FILE *out, const entry *e)
 {
@@ -265,7 +311,7 @@ static void put_files(FILE *out, const new_case *c, place where, const char *ele
             if (e->found.missing[k])
                 fprintf(out, " %s=\"" FILL_IN "\"", found_missing_rows[k].name);
         putc('>', out);
-        put_path(out, c->s->common.output, e->path);
+        put_text(out, e->in_case);
         fprintf(out, "</%s>\n", element);
     }
 }
@@ -428,10 +474,12 @@ int cmd_new_case(int argc, char **argv)
     }
     if (made != WT_OK)
         cmd_fail(&s);
-    else if (s.common.output != NULL && !s.common.quiet)
+    else if (s.common.output != NULL && !s.common.quiet && s.status != CMD_FAILED)
         cmd_say("next: fill in what is missing, then weartrack run %s\n", s.common.output);
-    for (size_t i = 0; i < c.n; i++)
+    for (size_t i = 0; i < c.n; i++) {
         free(c.entries[i].path);
+        free(c.entries[i].in_case);
+    }
     free(c.entries);
     return cmd_session_free(&s);
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "cmd/cmd.h"
 
 enum { MAX_OPTIONS = 64, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
@@ -198,7 +199,30 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
         }
     if (n_like == 1)
         return cmd_usage_error(s, "--%s takes no value", like->name);
-    return cmd_usage_error(s, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
+    if (n_like > 1)
+        return cmd_usage_error(s, "ambiguous option '%s'", word);
+    nearest_name near = nearest_to(word + 2, length > 2 ? length - 2 : 0);
+    for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
+        nearest_try(&near, o->name, strlen(o->name));
+    return near.name != NULL
+               ? cmd_usage_error(s, "unknown option '%s'; did you mean --%s?", word, near.name)
+               : cmd_usage_error(s, "unknown option '%s'", word);
+}
+
+/* What is written is text or HDF5, whatever the name says. */
+static bool check_output(cmd_session *s)
+{
+    static const char *const sheets[] = {".xlsx", ".xlsm", ".xls", ".ods"};
+    const char *const output = s->common.output;
+    const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
+    for (size_t i = 0; dot != NULL && i < COUNT_OF(sheets); i++)
+        if (strcasecmp(dot, sheets[i]) == 0)
+            return cmd_usage_error(
+                s,
+                "-o %s: no spreadsheet is written; write the result as .h5 or .tsv, then "
+                "`weartrack table RESULT NAME -o TABLE.csv` gives a table that one opens",
+                output);
+    return true;
 }
 
 /* A usage error if one of the inputs is empty or is standard input a second time, or if the file of
@@ -364,7 +388,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
         print_help(usage, &list);
         good = false;
     }
-    good = good && list_files(s, (size_t)(argc - optind), argv + optind) &&
+    good = good && check_output(s) && list_files(s, (size_t)(argc - optind), argv + optind) &&
            check_required(s, &list) && check_inputs(s, inputs, n_inputs, &n_pipes) &&
            check_inputs(s, s->files, s->n_files, &n_pipes) && check_number(s, usage);
     free(inputs);

@@ -1,5 +1,6 @@
 /* What every subcommand sets up before its job and says after it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/nearest.h"
 #include "cmd/cmd.h"
 
 #include <string.h>
@@ -49,9 +50,16 @@ bool cmd_begin_reading(cmd_session *s, const char *format)
     s->log = wt_parselog_new();
     if (!cmd_read_formats(s))
         return false;
-    if (format != NULL && wt_formats_find(s->formats, format) == NULL)
-        return cmd_usage_error(s, "--format: there is no format '%s', see weartrack formats list",
-                               format);
+    if (format != NULL && wt_formats_find(s->formats, format) == NULL) {
+        nearest_name near = nearest_to(format, strlen(format));
+        for (size_t i = 0; i < wt_formats_count(s->formats); i++) {
+            const char *const id = wt_formats_get(s->formats, i)->id;
+            nearest_try(&near, id, strlen(id));
+        }
+        return cmd_usage_error(
+            s, "--format: there is no format '%s'%s%s, see weartrack formats list", format,
+            near.name != NULL ? "; did you mean " : "", near.name != NULL ? near.name : "");
+    }
     s->work.formats = s->formats;
     return cmd_begin(s);
 }

@@ -38,7 +38,7 @@ int cmd_summary(int argc, char **argv)
             "Exit status 3 if a file could not be read, which then has no row; 1 if none could.",
         .n_files = CMD_SOME,
         .files = "no result given"};
-    export_options form = {WT_EXPORT_TSV};
+    export_options form = {.form = WT_EXPORT_TSV};
     cmd_part part = {export_params(), &form, NULL, 0};
     cmd_session s = cmd_session_defaults();
     wt_table *summary = NULL;

@@ -1,7 +1,10 @@
 /* weartrack table: one table of a result for other programs. SPDX-License-Identifier:
  * GPL-3.0-or-later */
+#include "base/nearest.h"
 #include "cmd/export.h"
 #include "cmd/tables.h"
+
+#include <string.h>
 
 typedef struct own_options {
     bool list, keys;
@@ -30,8 +33,17 @@ static wt_status choose_table(const wt_result *result, const char *path, const c
         wt_fail(err, WT_E_NOT_FOUND, "there is no table '%s'", name);
     else
         wt_fail(err, WT_E_MISSING, "there are %zu tables: say which", n);
+    nearest_name near = nearest_to(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
+    for (size_t i = 0; i < n; i++) {
+        const char *const other = wt_table_name(wt_result_table(result, i));
+        nearest_try(&near, other, strlen(other));
+    }
     wt_error_file(err, path);
-    wt_error_advice(err, "`weartrack table --list %s` shows them", path);
+    if (near.name != NULL)
+        wt_error_advice(err, "did you mean %s? `weartrack table --list %s` shows all", near.name,
+                        path);
+    else
+        wt_error_advice(err, "`weartrack table --list %s` shows them", path);
     return err->status;
 }
 
@@ -46,7 +58,7 @@ int cmd_table(int argc, char **argv)
         .common = "output",
         .notes = "NAME may be left out if there is one table only."};
     own_options own = {0};
-    export_options form = {WT_EXPORT_TSV};
+    export_options form = {.form = WT_EXPORT_TSV};
     cmd_part parts[] = {{own_params(), &own, NULL, 0}, {export_params(), &form, NULL, 0}};
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;

@@ -9,15 +9,23 @@
 
 /* ---- cells with a separator ------------------------------------------------------------------ */
 
-/* As RFC 4180 has it, also between tabs. */
-static void put_cell(FILE *out, const char *text, char separator)
+/* A spreadsheet takes a text that begins so for a formula, and obeys it; a number is none. */
+static bool is_formula(const char *text)
+{
+    double number;
+    return text[0] != '\0' && strchr("=+-@\t\r", text[0]) != NULL && text[1] != '\0' &&
+           !wt_number_parse(text, strlen(text), '.', &number);
+}
+
+/* As RFC 4180 has it, also between tabs; the mark before the text. */
+static void put_cell(FILE *out, const char *mark, const char *text, char separator)
 {
     const char special[] = {separator, '"', '\n', '\r', '\0'};
     if (strpbrk(text, special) == NULL) {
-        (void)fputs(text, out);
+        (void)fprintf(out, "%s%s", mark, text);
         return;
     }
-    (void)putc('"', out);
+    (void)fprintf(out, "\"%s", mark);
     for (const char *p = text; *p != '\0'; p++) {
         if (*p == '"')
             (void)putc('"', out);
@@ -46,7 +54,7 @@ static void put_header(FILE *out, const wt_table *table, bool blocks, char separ
                        wt_table_column_name(table, i), unit);
         if (i > 0)
             (void)putc(separator, out);
-        put_cell(out, name, separator);
+        put_cell(out, "", name, separator);
     }
     (void)putc('\n', out);
 }
@@ -58,7 +66,7 @@ static bool has_blocks(const wt_table *table)
     return n > 0 && wt_table_block(table, n - 1) > 0;
 }
 
-static void put_separated(FILE *out, const wt_table *table, char separator)
+static void put_separated(FILE *out, const wt_table *table, char separator, bool formulas)
 {
     char number[32];
     const bool blocks = has_blocks(table);
@@ -70,7 +78,8 @@ static void put_separated(FILE *out, const wt_table *table, char separator)
             if (i > 0)
                 (void)putc(separator, out);
             if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
-                put_cell(out, wt_table_text(table, row, i), separator);
+                put_cell(out, !formulas && is_formula(wt_table_text(table, row, i)) ? "'" : "",
+                         wt_table_text(table, row, i), separator);
             else
                 (void)fputs(number_words(wt_table_number(table, row, i), number), out);
         }
@@ -178,13 +187,14 @@ static void put_json(FILE *out, const wt_table *table)
     (void)fputs("]}\n", out);
 }
 
-wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form, wt_error *err)
+wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form, bool formulas,
+                          wt_error *err)
 {
     if (form == WT_EXPORT_STREAM)
         return wt_stream_write(out, table, NULL, err);
     if (form == WT_EXPORT_JSON)
         put_json(out, table);
     else
-        put_separated(out, table, form == WT_EXPORT_CSV ? ',' : '\t');
+        put_separated(out, table, form == WT_EXPORT_CSV ? ',' : '\t', formulas);
     return ferror(out) ? wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno)) : WT_OK;
 }

@@ -11,9 +11,12 @@
 
 static const double degree = M_PI / 180.0; /* [rad] */
 
+/* Of pyramids and cones: sharper than any needle that is made. */
+#define SHARPEST (M_PI / 180.0)
+
 const wt_param tip_dimensions[TIP_N_DIMENSIONS] = {
     [TIP_HALF_ANGLE] = {PARAM("half-angle", wt_tip, half_angle, WT_Q_ANGLE,
-                              BRACED(0, M_PI_2, false, false))},
+                              FROM_BELOW(SHARPEST, M_PI_2))},
     [TIP_RADIUS] = {PARAM("radius", wt_tip, radius, WT_Q_LENGTH, AT_LEAST(0))},
     [TIP_SIDES] = {PARAM("sides", wt_tip, sides, WT_Q_NONE, FROM_TO(3, 1e6))},
     [TIP_TRANSITION] = {PARAM("transition", wt_tip, transition_radius, WT_Q_LENGTH, AT_LEAST(0))},
@@ -44,7 +47,7 @@ static wt_status check_half_angle(double half_angle, wt_error *err)
     if (is_within(TIP_HALF_ANGLE, half_angle))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "half-angle of the tip is not usable");
-    wt_error_expected(err, "an angle from the axis to the face between 0 and 90 degrees");
+    wt_error_expected(err, "an angle from the axis to the face between 1 and 90 degrees");
     wt_error_found(err, "%g degrees", half_angle / degree);
     return status;
 }

@@ -216,6 +216,15 @@ static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error 
 {
     wt_fail(err, WT_E_EMPTY, "this format holds no %s", kind_words(kinds));
     wt_error_found(err, "%s (%s)", reader->info.title, reader->info.id);
+    const unsigned held = reader->info.kinds;
+    const char *const fits = (held & WT_KIND_FORCE) != 0      ? "weartrack indent"
+                             : (held & WT_KIND_SWEEP) != 0    ? "weartrack master"
+                             : (held & WT_KIND_IMAGE) != 0    ? "weartrack spot"
+                             : (held & WT_KIND_NOISE) != 0    ? "weartrack thermal"
+                             : (held & WT_KIND_SPECTRUM) != 0 ? "weartrack friction --roughness"
+                                                              : NULL;
+    if (fits != NULL)
+        wt_error_advice(err, "`%s` takes %s", fits, kind_words(held & (~held + 1)));
     return WT_E_EMPTY;
 }
 
@@ -269,11 +278,26 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
     return fail_unknown(input, err);
 }
 
+/* A tar archive of one text would be read as that text, between its header and its zeros, and of
+ * several as one that goes on. */
+static bool is_tar(wt_input *input)
+{
+    static const char mark[] = "ustar";
+    enum { MARK = 257 };
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    bool whole = false;
+    return wt_input_peek(input, FIRST_PEEK, &bytes, &length, &whole, NULL) == WT_OK &&
+           length > MARK + sizeof mark && memcmp(bytes + MARK, mark, sizeof mark - 1) == 0;
+}
+
 wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,
                         unsigned kinds, const file_reader **reader, wt_error *err)
 {
     wt_status status = WT_E_NOT_FOUND;
-    if (format == NULL) {
+    if (is_tar(input)) {
+        status = fail_unknown(input, err);
+    } else if (format == NULL) {
         status = detect(formats, input, kinds, reader, err);
     } else {
         const file_reader *found = formats_find_reader(formats, format);

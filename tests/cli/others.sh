@@ -13,6 +13,27 @@ expect() { [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"; }
 "$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
   -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o result.h5
 "$weartrack" table stream.tsv friction -o t.tsv
+
+# The order of the files changes no bit.
+c=$fixtures/case
+one="$c/bulk-1.jpk-force-map $c/bulk-2.jpk-force-map $c/bulk-3.jpk-force-map"
+other="$c/bulk-3.jpk-force-map $c/bulk-1.jpk-force-map $c/bulk-2.jpk-force-map"
+"$weartrack" indent -q --no-provenance --tip pyramid:half-angle=20deg,radius=20nm $one > a.tsv
+"$weartrack" indent -q --no-provenance --tip pyramid:half-angle=20deg,radius=20nm $other > b.tsv
+cmp a.tsv b.tsv || fail "indent: another order, other numbers"
+"$weartrack" indent -q --tip pyramid:half-angle=20deg,radius=20nm "$c/track-1.jpk-force-map" --group track -o t.h5
+for g in a b; do "$weartrack" compare -q --no-provenance $g.tsv t.h5 > compare-$g.tsv; done
+cmp compare-a.tsv compare-b.tsv || fail "compare: another order, other numbers"
+for t in 0 20 40; do
+  awk -v t=$t 'BEGIN {print "f,E_stor,E_loss,T\nHz,MPa,MPa,C"; for (i = 0; i < 9; i++) {
+    w = 10 ^ (i / 4 - 1 - t / 20); printf "%g,%.9g,%.9g,%g\n", 10 ^ (i / 4 - 1), 2 + 100 * w / (1 + w), 20 * sqrt(w) / (1 + w), t}}' > i$t.csv
+done
+"$weartrack" master -q --no-provenance i0.csv i20.csv i40.csv > a.tsv
+"$weartrack" master -q --no-provenance i40.csv i0.csv i20.csv > b.tsv
+cmp a.tsv b.tsv || fail "master: another order, other numbers"
+"$weartrack" summary stream.tsv result.h5 | grep -v '^##' | sort > a.tsv
+"$weartrack" summary result.h5 stream.tsv | grep -v '^##' | sort > b.tsv
+cmp a.tsv b.tsv || fail "summary: another order, other rows"
 "$weartrack" table stream.tsv friction -o t.csv
 "$weartrack" table stream.tsv friction -o t.json
 "$weartrack" table stream.tsv contact_area -o blocks.tsv

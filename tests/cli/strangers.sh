@@ -30,6 +30,40 @@ cp "$fixtures/case/dma.txt" "$name"
 "$weartrack" convert "$name" -o µ.tsv 2> said || fail "a name"; plain
 refused 1 "absent-µ" report -o r absent-µ.h5
 
+# names in a case: they are read back as they are, or the case does without them and says so
+mkdir names other; cp "$fixtures/case/bulk-1.jpk-force-map" other/plain
+for name in 'a]]>b' 'a--b-->c' 'a&lt;"b' ' a' 'a[b]*?'; do
+  cp other/plain "names/$name"
+  "$weartrack" new-case -q --tip sphere:radius=5um "names/$name" -o c.xml 2> said || fail "$name"
+  "$weartrack" run --no-report --no-provenance c.xml -o c.h5 > out 2> said || fail "$name: the case does not run"
+  rm "names/$name"
+done
+for name in "$(printf 'a\001b')" "$(printf 'a\rb')" "$(printf 'a\nb')" "$(printf 'a\377b')" "$(printf 'a\357\277\276b')" 'a '; do
+  cp other/plain "names/$name"
+  refused 1 'the name cannot stand in a case file' new-case --tip sphere:radius=5um "names/$name"
+  refused 3 'the name cannot stand in a case file' new-case --tip sphere:radius=5um "names/$name" other/plain -o c.xml; plain
+  "$weartrack" run --plan c.xml > out 2> said || fail "a case without the name"
+  [ "$(grep -c '<files>' c.xml)" = 1 ] || fail "a file of a name that cannot be"
+  rm "names/$name"
+done
+
+# cells that a spreadsheet would obey
+printf '## table: t\n# a[text]\tb[1]\n=1+2\t-1\n@x,y\t1\n-5\t1\n+\t1\n-x\t1\nplain\t1\n##\n' > cells.tsv
+"$weartrack" table cells.tsv --as csv > out 2> said || fail "table"
+printf "a,b\n'=1+2,-1\n\"'@x,y\",1\n-5,1\n+,1\n'-x,1\nplain,1\n" | cmp - out || fail "cells that begin with a sign"
+"$weartrack" table cells.tsv --as csv --formulas > out 2> said || fail "table --formulas"
+grep -q '^=1+2,' out || fail "--formulas"
+
+# an archive of one text is not that text
+if command -v tar > /dev/null; then
+  cp "$fixtures/case/dma.txt" one.txt; cp one.txt two.txt
+  tar cf texts.tar one.txt two.txt; tar czf texts.tgz one.txt two.txt
+  for name in texts.tar texts.tgz; do
+    refused 1 'found a tar archive; give its files' master "$name"
+    refused 1 'found a tar archive; give its files' convert --format trios-lims "$name"
+  done
+fi
+
 # pipes
 mkfifo pipe
 refused 1 'named pipe' info pipe
@@ -58,7 +92,7 @@ grep -q 'line 5: "NaN" in column 3 (E_loss) is no value' said || fail "nan"
 
 # values beyond reason
 refused 2 'at most 1e+06 m' indent --tip sphere:radius=1e300m x
-refused 2 'at most 100000 K' master --reference-temperature 1e300K x
+refused 2 'at most 2000 K' master --reference-temperature 1e300K x
 refused 2 'at most 1e+15 Pa' friction -m x --roughness y -v 1m/s -p 1e300Pa
 "$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
 refused 2 'at most 1e+15 rad/m' friction -m m.h5 --roughness self-affine:q0=1rad/m,q1=1e300rad/m,hurst=0.8,c0=1m^4 -v 1m/s -p 1Pa

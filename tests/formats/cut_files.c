@@ -8,111 +8,12 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/read.h"
-
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-typedef struct numbers {
-    double *values;
-    size_t n, room;
-} numbers;
-
-static void keep(numbers *all, const double *values, size_t n)
-{
-    for (size_t i = 0; values != NULL && i < n; i++) {
-        if (all->n == all->room) {
-            all->room = 2 * all->room + 1024;
-            all->values = realloc(all->values, all->room * sizeof *all->values);
-            if (all->values == NULL)
-                abort();
-        }
-        all->values[all->n++] = values[i];
-    }
-}
+#include "read_numbers.h"
 
 static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
-}
-
-static wt_status read_curves(const wt_formats *formats, wt_input *input, wt_parselog *log,
-                             numbers *all)
-{
-    const wt_read_options options = wt_read_defaults();
-    wt_force_source *source = NULL;
-    wt_force_curve curve = {0};
-    wt_status status = wt_force_open(formats, input, &options, log, &source, NULL);
-    while (status == WT_OK) {
-        status = wt_force_next(source, &curve, NULL);
-        for (size_t s = 0; status == WT_OK && s < curve.n_segments; s++)
-            for (size_t c = 0; c < curve.segments[s].n_channels; c++)
-                keep(all, curve.segments[s].channels[c].values, curve.segments[s].n_points);
-    }
-    wt_force_close(source);
-    wt_force_curve_clear(&curve);
-    return status == WT_END ? WT_OK : status;
-}
-
-static wt_status read_sweep(const wt_formats *formats, wt_input *input, wt_parselog *log,
-                            numbers *all)
-{
-    wt_read_options options = wt_read_defaults();
-    options.any_temperature = true;
-    wt_sweep sweep = {.n_isotherms = 0};
-    const wt_status status = wt_sweep_read(formats, input, &options, log, &sweep, NULL);
-    for (size_t i = 0; i < sweep.n_isotherms; i++) {
-        const wt_isotherm *const t = &sweep.isotherms[i];
-        keep(all, t->angular_frequency, t->n);
-        keep(all, t->storage_modulus, t->n);
-        keep(all, t->loss_modulus, t->n);
-    }
-    wt_sweep_clear(&sweep);
-    return status;
-}
-
-static wt_status read_spectra(const wt_formats *formats, wt_input *input, unsigned kind,
-                              wt_parselog *log, numbers *all)
-{
-    const wt_read_options options = wt_read_defaults();
-    wt_power_spectrum spectrum = {.n = 0};
-    wt_noise_spectrum noise = {.n = 0};
-    wt_status status = WT_OK;
-    if (kind == WT_KIND_NOISE)
-        status = wt_noise_read(formats, input, &options, log, &noise, NULL);
-    else
-        status = wt_power_spectrum_read(formats, input, &options, log, &spectrum, NULL);
-    keep(all, noise.frequency, noise.n);
-    keep(all, spectrum.wavenumber, spectrum.n);
-    wt_power_spectrum_clear(&spectrum);
-    wt_noise_spectrum_clear(&noise);
-    return status;
-}
-
-/* Reads the bytes as the first kind that they are; WT_E_FORMAT if they are none. */
-static wt_status read_any(const wt_formats *formats, const char *bytes, size_t n, wt_parselog *log,
-                          numbers *all)
-{
-    static const unsigned kinds[] = {WT_KIND_FORCE, WT_KIND_SWEEP, WT_KIND_SPECTRUM, WT_KIND_NOISE};
-    wt_status status = WT_E_FORMAT;
-    for (size_t k = 0; k < 4 && status != WT_OK; k++) {
-        wt_input *input = NULL;
-        if (wt_input_open_memory(bytes, n, "cut", &input, NULL) != WT_OK)
-            abort();
-        all->n = 0;
-        if (kinds[k] == WT_KIND_FORCE)
-            status = read_curves(formats, input, log, all);
-        else if (kinds[k] == WT_KIND_SWEEP)
-            status = read_sweep(formats, input, log, all);
-        else
-            status = read_spectra(formats, input, kinds[k], log, all);
-        wt_input_close(input);
-    }
-    return status;
 }
 
 static bool says(const wt_parselog *log, const char *words)
@@ -136,16 +37,9 @@ typedef struct file {
 static void load(const wt_formats *formats, const char *path, file *f)
 {
     *f = (file){.path = path};
-    FILE *const in = fopen(path, "rb");
-    if (in == NULL)
+    f->bytes = (char *)load_bytes(path, &f->n);
+    if (f->bytes == NULL)
         return;
-    (void)fseek(in, 0, SEEK_END);
-    f->n = (size_t)ftell(in);
-    rewind(in);
-    f->bytes = malloc(f->n + 1);
-    if (f->bytes == NULL || fread(f->bytes, 1, f->n, in) != f->n)
-        abort();
-    (void)fclose(in);
     wt_parselog *const log = wt_parselog_new();
     f->read = read_any(formats, f->bytes, f->n, log, &f->whole) == WT_OK && f->n > 2;
     if (f->read && says(log, "no line end")) {
@@ -214,15 +108,6 @@ static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally 
     free(bytes);
     free(some.values);
     wt_parselog_free(log);
-}
-
-/* xorshift64* */
-static size_t draw(uint64_t *state, size_t n)
-{
-    *state ^= *state >> 12;
-    *state ^= *state << 25;
-    *state ^= *state >> 27;
-    return (size_t)((*state * 2685821657736338717u) >> 11) % n;
 }
 
 int main(int argc, char **argv)

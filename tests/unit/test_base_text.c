@@ -1,4 +1,5 @@
 /* Errors, the parse log, numbers, paths. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/nearest.h"
 #include "base/utf8.h"
 #include "near.h"
 #include "weartrack/base.h"
@@ -326,6 +327,42 @@ static void paths(void **state)
     }
 }
 
+static void nearest_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *a, *b;
+        size_t distance;
+    } pairs[] = {{"", "", 0},           {"master", "master", 0}, {"mster", "master", 1},
+                 {"quite", "quiet", 1}, {"ab", "ba", 1},         {"kitten", "sitting", 3},
+                 {"", "abc", 3},        {"ca", "abc", 3}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        const char *const a = pairs[i].a, *const b = pairs[i].b;
+        assert_int_equal(nearest_distance(a, strlen(a), b, strlen(b)), pairs[i].distance);
+        assert_int_equal(nearest_distance(b, strlen(b), a, strlen(a)), pairs[i].distance);
+    }
+    char lengthy[64];
+    memset(lengthy, 'a', sizeof lengthy);
+    assert_int_equal(nearest_distance(lengthy, 63, lengthy, 63), 0);
+    assert_true(nearest_distance(lengthy, 64, lengthy, 64) == SIZE_MAX);
+
+    static const char *const names[] = {"indent", "dwell", "master", "ramp", "run"};
+    static const struct {
+        const char *word, *name;
+    } words[] = {{"identt", "indent"}, {"mater", "master"}, {"rum", "run"},
+                 {"ran", "run"},       {"ram", "ramp"},     {"plot", NULL},
+                 {"x", NULL},          {"", NULL},          {"rm", NULL}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        nearest_name near = nearest_to(words[i].word, strlen(words[i].word));
+        for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+            nearest_try(&near, names[k], strlen(names[k]));
+        if (words[i].name == NULL)
+            assert_null(near.name);
+        else
+            assert_string_equal(near.name, words[i].name);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -339,6 +376,7 @@ int main(void)
         cmocka_unit_test(shortest_numbers),
         cmocka_unit_test(foreign_locale),
         cmocka_unit_test(paths),
+        cmocka_unit_test(nearest_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,7 +93,7 @@ static void refused_in_clear_words(void **state)
         {"pyramid:half-angle=35deg,radius=20nm,sides=2", WT_E_RANGE, "3 or more"},
         {"pyramid:half-angle=35deg,radius=20nm,sides=-4", WT_E_RANGE, "3 or more"},
         {"pyramid:half-angle=65deg,radius=20nm", WT_E_RANGE, "concave"},
-        {"pyramid:half-angle=95deg,radius=20nm", WT_E_RANGE, "between 0 and 90"},
+        {"pyramid:half-angle=95deg,radius=20nm", WT_E_RANGE, "between 1 and 90"},
         {"sphere:radius=-5um", WT_E_RANGE, "above 0"},
         {"punch:radius=0um", WT_E_RANGE, "above 0"},
         {"punch:half-angle=35deg", WT_E_ARG, "punch:radius=2um"},

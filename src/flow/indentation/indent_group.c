@@ -34,6 +34,7 @@ wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
         memcpy(more[to->n], fit->contact_by, sizeof *more);
     }
     to->n++;
+    to->deepest = fmax(to->deepest, fit->max_indentation);
     if (isnan(fit->misfit[0]))
         return WT_OK;
     double(*misfits)[WT_CURVE_WAVES] = array_grow(to->misfits, to->n_misfits, sizeof *misfits);
@@ -166,9 +167,28 @@ static wt_status say_contacts(const indent_together *together, const wt_indent_j
     return WT_OK;
 }
 
+/* Of a sphere pressed in by less than this share of its radius little but its roughness touches,
+ * and the force of an AFM is not enough: the unit of the radius is most likely another one. */
+static const double least_depth_of_radius = 1.0 / 5000;
+
+static void say_radius(const indent_together *together, const wt_indent_job *job,
+                       const wt_job *work)
+{
+    char radius[32];
+    const bool round = job->tip.shape == WT_TIP_SPHERE || job->tip.shape == WT_TIP_PARABOLOID;
+    if (!round || together->n == 0 || together->deepest >= least_depth_of_radius * job->tip.radius)
+        return;
+    wt_format_si(job->tip.radius, "m", 3, radius, sizeof radius);
+    wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                    "%s: the radius of the tip, %s, is %.0f times the deepest indentation: is its "
+                    "unit right?",
+                    job->group, radius, job->tip.radius / together->deepest);
+}
+
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
                               const wt_job *work, table_writer *rows, wt_error *err)
 {
+    say_radius(together, job, work);
     say_shifts(together, job, work, rows);
     pool_curves(together, job, work, rows);
     return say_contacts(together, job, work, err);

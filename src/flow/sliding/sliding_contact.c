@@ -43,12 +43,23 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
+/* Tyres press by less than 1 MPa, seals and bearings by less than 100 MPa: above it rubber fails.
+ */
+static const double most_borne = 100e6; /* [Pa] */
+
 wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_error *err)
 {
     if (sliding == NULL || sliding->rubber == NULL || sliding->surface == NULL)
         return wt_fail(err, WT_E_ARG, "sliding needs a rubber and a surface");
     wt_status status = param_check(wt_sliding_params(), sliding, err);
-    return status == WT_OK ? param_check(wt_job_params(), work, err) : status;
+    if (status == WT_OK)
+        status = param_check(wt_job_params(), work, err);
+    if (status == WT_OK && sliding->pressure.value > most_borne)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
+                        "is its unit right?",
+                        1e-6 * sliding->pressure.value, 1e-6 * most_borne);
+    return status;
 }
 
 double flow_reference_velocity(const wt_sliding *sliding)

@@ -173,6 +173,12 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     return status;
 }
 
+static int by_name(const void *a, const void *b)
+{
+    const flow_file *const p = a, *const q = b;
+    return strcmp(p->path, q->path);
+}
+
 wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err)
 {
@@ -181,6 +187,8 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
+    if (files->n > 1)
+        qsort(files->file, files->n, sizeof *files->file, by_name);
     if (status != WT_OK)
         flow_files_clear(files);
     return status;

@@ -31,7 +31,8 @@ typedef struct flow_files {
     void *paths; /* the same for tsearch */
 } flow_files;
 
-/* All files of the sets in their order. A file that is named twice is taken once, with a warning. A
+/* All files of the sets in the order of their paths, so that no sum depends on the order in which
+ * they are given. A file that is named twice is taken once, with a warning. A
  * pattern without a match is recorded as a failure (or ends the job, see wt_job.failures). */
 wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err) WT_NODISCARD;

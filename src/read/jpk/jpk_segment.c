@@ -150,8 +150,12 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     const char *path = properties_find(&segment->header, prefix, "data.file.name");
     int length = snprintf(name, sizeof name, "%s%s", folder, path != NULL ? path : "");
     if (path == NULL || length < 0 || (size_t)length >= sizeof name ||
-        !archive_find(file->archive, name, &channel->entry))
+        !archive_find(file->archive, name, &channel->entry)) {
+        if (path != NULL)
+            wt_parselog_add(file->log, WT_WARNING, file->name, name,
+                            "the header names these samples, but they are not in the file");
         return WT_OK;
+    }
     size_t size = 0;
     wt_status status = archive_size(file->archive, channel->entry, &size, err);
     if (status != WT_OK)
@@ -159,6 +163,12 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     size_t held = size / sample_width(channel->lcd.encoding);
     channel->has_file = true;
     channel->n_points = isnan(announced) || held < n ? held : n;
+    if (!isnan(announced) && size > n * sample_width(channel->lcd.encoding))
+        wt_parselog_add(
+            file->log, WT_WARNING, file->name, name,
+            "the channel has %zu bytes for %zu samples, which is too many: if some were "
+            "put in, those behind them are shifted",
+            size, n);
     return WT_OK;
 }
 

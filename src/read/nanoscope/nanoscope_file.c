@@ -153,10 +153,31 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
     return WT_OK;
 }
 
+/* Measured files end where their last block does: bytes that are too many were put in somewhere,
+ * and what is behind them is not where the header says. */
+static void check_end(const nanoscope_file *f, wt_parselog *log)
+{
+    static const char *const lists[] = {BLOCK, IMAGE};
+    size_t end = 0;
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0, section;
+             (section = nanoscope_section(&f->header, lists[k], i)) != SIZE_MAX; i++) {
+            const size_t here =
+                whole_of(f, section, "Data offset", 0) + whole_of(f, section, "Data length", 0);
+            end = here > end ? here : end;
+        }
+    if (f->length > end)
+        wt_parselog_add(log, WT_WARNING, f->name, NULL,
+                        "the file is %zu bytes longer than its header says: if they stand inside, "
+                        "what is behind them is shifted; copy the file again from the instrument",
+                        f->length - end);
+}
+
 /* A block that goes on behind the end of the file holds the curves until there. */
 static wt_status cut_curves(nanoscope_file *f, wt_parselog *log, wt_error *err)
 {
     f->n_curves = f->n_planned;
+    check_end(f, log);
     for (size_t i = 0; i < f->n_channels; i++) {
         const nanoscope_channel *c = &f->channels[i];
         const size_t there = c->offset < f->length ? f->length - c->offset : 0;

@@ -51,10 +51,10 @@ typedef struct park_file {
     const unsigned char *curve; /* its samples, until the next one is taken */
     park_channel channels[CHANNELS];
     size_t n_channels, n_samples, n_curves;
+    size_t end; /* of what the directory names */
 } park_file;
 
-/* ---- the file ---------------------------------------------------------------------------------
- */
+/* ---- the file -------------------------------------------------------------------------------- */
 
 /* Where the bytes of a tag are. */
 typedef struct park_tag {
@@ -118,6 +118,15 @@ static wt_status check_end(const input_window *w, const park_tags *tags, wt_erro
     wt_error_found(err, "%zu", w->size);
     wt_error_advice(err, "copy the file again from the instrument");
     return WT_E_CORRUPT;
+}
+
+static void warn_of_more(size_t size, size_t end, const char *name, wt_parselog *log)
+{
+    if (size > end)
+        wt_parselog_add(log, WT_WARNING, name, NULL,
+                        "the file is %zu bytes longer than its directory says: if they stand "
+                        "inside, what is behind them is shifted; copy the file again",
+                        size - end);
 }
 
 static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
@@ -247,6 +256,7 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
         return fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
                              "a TIFF file of Park Systems");
     status = check_end(&f->window, &tags, err);
+    f->end = tags.end;
     if (status != WT_OK)
         return status;
     if (!tags.header.there)
@@ -320,8 +330,7 @@ static force_facts facts_of(const park_file *f, size_t half)
     return facts;
 }
 
-/* ---- curves -----------------------------------------------------------------------------------
- */
+/* ---- curves ---------------------------------------------------------------------------------- */
 
 typedef struct park_source {
     wt_force_source base;
@@ -374,6 +383,8 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
         wt_parselog_add(base->log, WT_WARNING, base->name, NULL,
                         "no channel Time Stamp: samples that were not measured cannot be told from "
                         "those that were");
+    if (status == WT_OK)
+        warn_of_more(f->window.size, f->end, base->name, base->log);
     base->n_curves = f->n_curves;
     return status;
 }
@@ -395,8 +406,7 @@ static const force_stream park_force = {.size = sizeof(park_source),
                                         .seek = seek,
                                         .close = close_source};
 
-/* ---- the picture ------------------------------------------------------------------------------
- */
+/* ---- the picture ----------------------------------------------------------------------------- */
 
 /* Where things are in its header. */
 enum {
@@ -500,12 +510,13 @@ static wt_status park_images(const file_reader *self, wt_input *input,
                                "260 bytes or more");
     if (status == WT_OK)
         status = read_picture(&window, &tags, &list, err);
+    if (status == WT_OK)
+        warn_of_more(window.size, tags.end, wt_input_name(input), log);
     window_close(&window);
     return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
-/* ---- the descriptor ---------------------------------------------------------------------------
- */
+/* ---- the descriptor -------------------------------------------------------------------------- */
 
 /* The directory may stand at the end. */
 static recognition detect(const file_reader *self, file_peek *peek)
