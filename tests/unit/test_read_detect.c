@@ -199,7 +199,7 @@ static void unknown_files_are_described(void **state)
         {"PK\3\4\24\0\0\0 some other archive", 27, "ZIP", "unpack", WT_E_UNSUPPORTED},
         {"\1\260\223\377\0\0\0\0", 8, "NT-MDT", "Nova", WT_E_UNSUPPORTED},
         {"\1\2\3\4\20\0\0\0ARDF", 12, "Asylum", ".ibw", WT_E_UNSUPPORTED},
-        {"\320\317\021\340\241\261\032\341", 8, "Excel", "CSV or text", WT_E_FORMAT},
+        {"\320\317\021\340\241\261\032\341", 8, "Excel", "CSV or text", WT_E_CORRUPT},
         {"\1\2\3\0\0\0\0\0", 8, "binary", "export it as text", WT_E_FORMAT},
         {"%PDF-1.4", 8, "PDF", "CSV", WT_E_FORMAT},
         {"Dear diary, no columns today.\n", 30, "text", "weartrack formats list", WT_E_FORMAT},

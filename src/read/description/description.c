@@ -101,6 +101,11 @@ static const struct {
      "columns of frequency and complex modulus, and of loss modulus or loss factor",
      {Q(FREQUENCY) | Q(ANGULAR_FREQUENCY), Q(COMPLEX_MODULUS) | Q(SHEAR_COMPLEX_MODULUS),
       Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+    {WT_KIND_SWEEP,
+     "sweep",
+     "columns of time, and of relaxation modulus or creep compliance",
+     {Q(TIME), Q(RELAXATION_MODULUS) | Q(SHEAR_RELAXATION_MODULUS) | Q(CREEP_COMPLIANCE) |
+                   Q(SHEAR_CREEP_COMPLIANCE)}},
     {WT_KIND_SPECTRUM,
      "spectrum",
      "columns of wavenumber and power spectrum",

@@ -7,6 +7,22 @@
 #include <math.h>
 #include <string.h>
 
+/* A table with a frequency is of an oscillation, whatever else it has. */
+static void find_step(const text_table *t, bool tension, sweep_columns *c)
+{
+    const text_column *const modulus =
+        text_table_column(t, tension ? WT_Q_RELAXATION_MODULUS : WT_Q_SHEAR_RELAXATION_MODULUS, -1);
+    const text_column *const compliance =
+        text_table_column(t, tension ? WT_Q_CREEP_COMPLIANCE : WT_Q_SHEAR_CREEP_COMPLIANCE, -1);
+    if (c->frequency != NULL || c->time == NULL || (modulus == NULL && compliance == NULL))
+        return;
+    c->step = modulus != NULL ? modulus : compliance;
+    c->loading = modulus != NULL ? WT_RELAXATION : WT_CREEP;
+    c->has_storage = true; /* in its place */
+    c->has_loss = false;
+    c->strain = c->factor = NULL; /* a strain that creeps is no amplitude */
+}
+
 sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
 {
     sweep_columns c = {.to_angular = 1};
@@ -31,11 +47,14 @@ sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
     const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
     c.has_storage = c.storage != NULL || two;
     c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
+    find_step(t, tension, &c);
     return c;
 }
 
 double sweep_angular(const sweep_builder *b, size_t row)
 {
+    if (b->c.step != NULL)
+        return 1 / text_table_value(b->table, row, b->c.time);
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
@@ -48,6 +67,10 @@ double sweep_storage(const sweep_builder *b, size_t row)
 {
     if (!b->c.has_storage)
         return (double)NAN;
+    if (b->c.step != NULL) {
+        const double value = text_table_value(b->table, row, b->c.step);
+        return b->c.loading == WT_CREEP ? 1 / value : value;
+    }
     if (b->c.storage != NULL)
         return text_table_value(b->table, row, b->c.storage);
     if (b->c.magnitude == NULL) {
@@ -95,6 +118,9 @@ bool sweep_is_point(const sweep_builder *b, size_t row)
     /* Some programs part segments by rows of a negative time. */
     const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
     const bool alone = !c->has_storage && !c->has_loss;
+    /* The step itself is at no time, and nothing has crept yet. */
+    if (c->step != NULL && !(isfinite(sweep_angular(b, row)) && isfinite(sweep_storage(b, row))))
+        return false;
     return !marker && sweep_angular(b, row) > 0 &&
            !(c->has_storage && isnan(sweep_storage(b, row))) &&
            !(c->has_loss && isnan(sweep_loss(b, row))) && !(alone && isnan(sweep_factor(b, row)));
