@@ -103,6 +103,11 @@ static const struct {
       Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
     {WT_KIND_SWEEP,
      "sweep",
+     "columns of strain or temperature, and of storage and loss modulus, and the frequency",
+     {Q(STRAIN) | Q(TEMPERATURE), Q(STORAGE_MODULUS) | Q(SHEAR_STORAGE_MODULUS),
+      Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+    {WT_KIND_SWEEP,
+     "sweep",
      "columns of time, and of relaxation modulus or creep compliance",
      {Q(TIME), Q(RELAXATION_MODULUS) | Q(SHEAR_RELAXATION_MODULUS) | Q(CREEP_COMPLIANCE) |
                    Q(SHEAR_CREEP_COMPLIANCE)}},

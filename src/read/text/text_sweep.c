@@ -299,6 +299,11 @@ static wt_status read_table(sweep_builder *b)
     b->c = sweep_find_columns(b->table, b->options->deformation);
     if ((b->c.step != NULL) != b->steps)
         return WT_OK;
+    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency)) {
+        b->lacks_frequency = true;
+        return text_table_problem(
+            b->table, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY), b->err);
+    }
     if (n_sweeps(b->sweep) > 0 && b->c.loading != b->sweep->loading)
         return fail_mixed(b->sweep->loading, b->c.loading, b->err);
     if (n_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
@@ -365,6 +370,7 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
 {
     wt_sweep made = {.n_isotherms = 0};
     wt_status status = WT_OK;
+    const text_table *lacking = NULL;
     size_t n_steps = 0;
     /* Of a file of several tests the steps of strain or stress only if it has no sweep. */
     for (int pass = 0; pass < 2 && n_sweeps(&made) == 0; pass++)
@@ -378,6 +384,7 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
                                .err = err};
             status = read_table(&b);
             n_steps += pass == 0 && b.c.step != NULL;
+            lacking = b.lacks_frequency ? b.table : lacking;
         }
     if (n_steps > 0 && made.loading == WT_OSCILLATION)
         wt_parselog_add(log, WT_NOTE, file->name, NULL,
@@ -386,6 +393,12 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
     for (size_t i = 0; i < file->steps.n; i++)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps.items[i]);
+    if (status == WT_OK && n_sweeps(&made) == 0 && lacking != NULL) {
+        status = wt_fail(err, WT_E_MISSING, "no frequency");
+        wt_error_place(err, "table at line %zu", lacking->names_line);
+        wt_error_expected(err, "a column of frequency");
+        wt_error_advice(err, "give the one of all points with --frequency 10Hz");
+    }
     if (status == WT_OK && n_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
     if (status == WT_OK)

@@ -28,9 +28,10 @@ typedef struct sweep_builder {
     wt_sweep *sweep;
     size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
     size_t n;
-    bool steps;      /* only tables of relaxation or creep are read, else only others */
-    bool amplitudes; /* they took turns, so that an isotherm has its own in its name */
-    size_t sample;   /* of the rows, or NO_SAMPLE */
+    bool steps;           /* only tables of relaxation or creep are read, else only others */
+    bool lacks_frequency; /* of the table, and nobody says it */
+    bool amplitudes;      /* they took turns, so that an isotherm has its own in its name */
+    size_t sample;        /* of the rows, or NO_SAMPLE */
     wt_error *err;
 } sweep_builder;
 
