@@ -198,7 +198,12 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_VOLTAGE_DENSITY, "voltage_density", "V.Hz^-0.5",                                        \
       "amplitude spectral density of the detector")                                                \
     X(WT_Q_MASS_DENSITY, "mass_density", "kg/m^3", "mass per volume")                              \
-    X(WT_Q_THERMAL_EXPANSION, "thermal_expansion", "1/K", "coefficient of linear expansion")
+    X(WT_Q_THERMAL_EXPANSION, "thermal_expansion", "1/K", "coefficient of linear expansion")       \
+    X(WT_Q_RELAXATION_MODULUS, "relaxation_modulus", "Pa", "tensile relaxation modulus E(t)")      \
+    X(WT_Q_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "Pa",                             \
+      "shear relaxation modulus G(t)")                                                             \
+    X(WT_Q_CREEP_COMPLIANCE, "creep_compliance", "1/Pa", "tensile creep compliance D(t)")          \
+    X(WT_Q_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "1/Pa", "shear creep compliance J(t)")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

@@ -106,8 +106,13 @@ WT_API wt_height_map wt_height_map_of(const wt_image *image);
 
 typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G */
 
+/* What the isotherms of a sweep were measured by. */
+typedef enum wt_loading { WT_OSCILLATION, WT_RELAXATION, WT_CREEP } wt_loading;
+
 /* One temperature of a sweep, points in the order of rising frequency. A modulus that was not
- * measured is NaN at all points. */
+ * measured is NaN at all points. Of a step of strain (relaxation) or stress (creep), 1/t stands in
+ * the place of the angular frequency, and E(t), or 1/D(t), in that of the storage modulus (of shear
+ * G(t), 1/J(t)), so that it rises like one. */
 typedef struct wt_isotherm {
     double temperature;        /* mean of the points, or the nominal one if no column says [K] */
     double temperature_spread; /* standard deviation of the points [K], NaN if not measured */
@@ -156,6 +161,7 @@ typedef struct wt_strain_sweep {
  * sweeps in the order of rising frequency, strain sweeps in that of temperature and frequency. */
 typedef struct wt_sweep {
     wt_deformation deformation;
+    wt_loading loading; /* of the isotherms, all of them; there are no other sweeps beside a step */
     size_t n_isotherms;
     wt_isotherm *isotherms;
     size_t n_ramps;

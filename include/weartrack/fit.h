@@ -758,6 +758,7 @@ typedef struct wt_posterior wt_posterior;
  * everything together. */
 typedef struct wt_master {
     wt_deformation deformation;
+    wt_loading loading;
     double reference_temperature; /* [K] */
     wt_vertical_shift vertical;
     wt_shift_route shift_route;
@@ -770,10 +771,13 @@ typedef struct wt_master {
     double *log_storage, *log_loss; /* [n] log10 of E' or G' [Pa], vertical shift applied */
     wt_interval *fitted_storage, *fitted_loss; /* [n] log10 of the moduli of the spectrum there */
     wt_interval *fitted_loss_factor;           /* [n] log10 of its tan delta */
-    size_t *isotherm;                          /* [n] which of `shifts` */
-    bool *left_out;                            /* [n] an outlier in a modulus */
-    double noise_storage, noise_loss;          /* relative standard deviation */
-    double correlation;                        /* of the noise of neighbouring points */
+    double *log_step; /* [n] log10 of what was measured after a step, at the reduced time that is
+                         one over the frequency: E(t) or, of creep, 1/J(t) [Pa]; else NaN */
+    wt_interval *fitted_step;         /* [n] log10 of the same of the spectrum */
+    size_t *isotherm;                 /* [n] which of `shifts` */
+    bool *left_out;                   /* [n] an outlier in a modulus */
+    double noise_storage, noise_loss; /* relative standard deviation */
+    double correlation;               /* of the noise of neighbouring points */
     size_t n_outliers;
 
     wt_shift_law law;                      /* kind NONE: no law, `no_law` says why */

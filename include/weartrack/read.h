@@ -120,6 +120,10 @@ typedef struct wt_read_options {
     const char *sample; /* of DMA sweeps of several samples: its name; "all" = they are of one
                            material, whatever they are called; NULL = none is chosen */
     wt_sample_by sample_by;
+    const char *temperature_in_name; /* pattern of the names of files that say no temperature: a "#"
+                                        stands where it does, in degrees Celsius, a "*" for
+                                        anything; NULL = none */
+    double frequency; /* [Hz] of sweeps of strain or temperature whose file gives none; NaN */
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

@@ -56,6 +56,7 @@ static const unit_words *unit_words_of(wt_quantity quantity)
                                          {"Hz", "10Hz", 1e30},
                                          {"rad/s", "63rad/s", 1e30},
                                          {"Pa", "0.4MPa", 1e15},
+                                         {"1/Pa", "0.5MPa^-1", 1e6},
                                          {"rad/m", "1e6rad/m", 1e15},
                                          {"m^4", "1e-30m^4", 1e12},
                                          {"m^3", "1e-24m^3", 1e12},

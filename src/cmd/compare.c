@@ -201,7 +201,9 @@ int cmd_compare(int argc, char **argv)
                           "at-temperature at-frequency sample-error", 0},
         [OF_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
         [OF_READING] = {wt_read_params(), &call.set.read,
-                        "temperature units format sheet deformation strain sample sample-by", 0}};
+                        "temperature temperature-in-name units format sheet deformation strain "
+                        "sample sample-by",
+                        0}};
     if (cmd_parse(&call.s, &usage, parts, PARTS, argc, argv) &&
         read_inputs(&call, own.master != NULL ? 1 : 2)) {
         const bool dwells =

@@ -91,7 +91,8 @@ int cmd_formats(int argc, char **argv)
         .common = "output formats columns provenance"};
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read,
-                     "spring-constant sensitivity temperature units sheet deformation", 0};
+                     "spring-constant sensitivity temperature frequency units sheet deformation",
+                     0};
     cmd_session s = cmd_session_defaults();
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv))
         return cmd_session_free(&s);

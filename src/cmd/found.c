@@ -6,7 +6,7 @@
 
 const found_missing found_missing_rows[FOUND_N_MISSING] = {
     {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
-    {"units", "\"E'=MPa\""},       {"deformation", "tension"},
+    {"units", "\"E'=MPa\""},       {"deformation", "tension"}, {"frequency", "10Hz"},
 };
 
 void found_value(const char *value, const char *unit, char *out, size_t size)

@@ -6,7 +6,7 @@
 #include "cmd/cmd.h"
 
 /* What a file does not say and the user must. */
-enum { FOUND_N_MISSING = 5 };
+enum { FOUND_N_MISSING = 6 };
 /* The name of the option and of the attribute in a case; a value as an example. */
 typedef struct found_missing {
     const char *name, *example;

@@ -207,7 +207,9 @@ int cmd_master(int argc, char **argv)
         [EXPORTED] = {exported_params(), &own, NULL, 0},
         [COMMON] = {wt_common_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
-         "temperature units format sheet deformation strain sample sample-by", 0}};
+         "temperature temperature-in-name frequency units format sheet deformation strain sample "
+         "sample-by",
+         0}};
     cmd_session s = cmd_session_defaults();
     wt_result *given = NULL;
     wt_samples samples = {0, NULL};

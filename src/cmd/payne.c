@@ -18,7 +18,9 @@ int cmd_payne(int argc, char **argv)
     wt_payne_job job = wt_payne_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_part parts[] = {{wt_read_params(), &set.read,
-                         "units format sheet temperature deformation sample sample-by", 0}};
+                         "units format sheet temperature temperature-in-name frequency deformation "
+                         "sample sample-by",
+                         0}};
     cmd_session s = cmd_session_defaults();
     wt_payne_tables made = {0};
     wt_table **const tables[] = {&made.payne, &made.payne_sweep};

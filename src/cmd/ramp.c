@@ -18,7 +18,9 @@ int cmd_ramp(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_part parts[] = {
         {wt_ramp_job_params(), &job, NULL, 0},
-        {wt_read_params(), &set.read, "units format sheet deformation strain sample sample-by", 0}};
+        {wt_read_params(), &set.read,
+         "temperature-in-name frequency units format sheet deformation strain sample sample-by",
+         0}};
     cmd_session s = cmd_session_defaults();
     wt_ramp_tables made = {0};
     wt_table **const tables[] = {&made.glass_transition, &made.moduli_at, &made.ramp};

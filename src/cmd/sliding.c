@@ -46,9 +46,10 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->parts[CMD_MASTER] = (cmd_part){wt_master_job_params(), &s->master, NULL, 0};
     s->parts[CMD_RUBBER] = (cmd_part){wt_rubber_options_params(), &s->options, NULL, 0};
     s->parts[CMD_TRANSVERSE] = (cmd_part){wt_transverse_params(), &s->transverse, NULL, 0};
-    s->parts[CMD_READ] =
-        (cmd_part){wt_read_params(), &s->set.read,
-                   "temperature units format sheet deformation strain sample sample-by", 0};
+    s->parts[CMD_READ] = (cmd_part){
+        wt_read_params(), &s->set.read,
+        "temperature temperature-in-name units format sheet deformation strain sample sample-by",
+        0};
     s->parts[CMD_OWN] = own;
 }
 

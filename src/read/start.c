@@ -7,6 +7,7 @@
 #include "read/params.h"
 
 #include <math.h>
+#include <string.h>
 
 wt_read_options wt_read_defaults(void)
 {
@@ -21,7 +22,19 @@ wt_read_options wt_read_defaults(void)
         .n_units = 0,
         .sheet = NULL,
         .strain = (double)NAN,
+        .frequency = (double)NAN,
     };
+}
+
+static wt_status check_pattern(const void *member, wt_error *err)
+{
+    const char *pattern = *(const char *const *)member;
+    const char *place = pattern != NULL ? strchr(pattern, '#') : NULL;
+    if (pattern == NULL || (place != NULL && strchr(place + 1, '#') == NULL))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "\"%s\" does not say where in a name the temperature stands", pattern);
+    wt_error_expected(err, "one # in its place, such as \"*_#degC*\"");
+    return WT_E_ARG;
 }
 
 static const wt_param rows[] = {
@@ -29,6 +42,14 @@ static const wt_param rows[] = {
     SENSITIVITY(wt_read_options, PARAM_NO_CASE, NULL),
     {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
      .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
+    {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
+     .unset = "",
+     .help = "where in the names of DMA files that say no temperature it stands, in degrees "
+             "Celsius: # is the number and * anything, such as \"*_#C.txt\"",
+     .check = check_pattern},
+    {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
+     .unset = "",
+     .help = "frequency of strain and temperature sweeps whose files say none, such as 10Hz"},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
      .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
     {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",

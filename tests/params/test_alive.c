@@ -115,6 +115,8 @@ static const struct {
     {NULL, "strain", "for isotherms of several amplitudes: tests/cli/payne.txt"},
     {NULL, "deformation", "for moduli whose names leave it open: tests/formats"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},
+    {NULL, "temperature-in-name", "for files without a temperature: tests/cli/samples.txt"},
+    {NULL, "frequency", "for sweeps without a frequency: tests/cli/payne.txt"},
     {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},
     {NULL, "dma", "the base has it"},
     {NULL, "master", "the base has it"},

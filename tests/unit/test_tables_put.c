@@ -287,6 +287,29 @@ static void test_joined_law(void **state)
     unlink(path);
 }
 
+/* After a step of strain, and of stress. */
+static void step_jobs(void **state)
+{
+    (void)state;
+    static const char *const files[] = {FORMATS "table-step/relaxation-two-temperatures.txt",
+                                        FORMATS "table-step/creep-two-temperatures.txt"};
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        const wt_file_set set = {
+            .patterns = &files[i], .n_patterns = 1, .read = wt_read_defaults()};
+        wt_master_job job = wt_master_job_defaults();
+        wt_job common = wt_job_defaults();
+        wt_master_tables tables = {0};
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_string_equal(wt_table_key(tables.shift_factors, "shifted_by"),
+                            i == 0 ? "relaxation modulus" : "creep compliance");
+        see(tables.master_curve);
+        wt_master_tables_clear(&tables);
+    }
+}
+
 /* One spectrum fails in the cold, or everywhere: of a part, or shifts by overlaps. */
 static void test_no_superposition(void **state)
 {
@@ -524,6 +547,10 @@ static void test_conversions(void **state)
     convert(CASE "dma.txt", WT_KIND_SWEEP);
     convert(FORMATS "stare/isotherm.txt", WT_KIND_SWEEP);
     convert(FORMATS "table-units/loss-factor-only.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/relaxation.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/tensile-creep.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/relaxation-two-temperatures.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/creep-two-temperatures.txt", WT_KIND_SWEEP);
     convert(FORMATS "table-spectrum/surface.txt", WT_KIND_SPECTRUM);
     convert(FORMATS "table-spectrum/line.csv", WT_KIND_SPECTRUM);
 }
@@ -931,6 +958,7 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(step_jobs),
         cmocka_unit_test(test_cases),
         cmocka_unit_test(test_joined_law),
         cmocka_unit_test(test_no_superposition),

@@ -48,7 +48,8 @@
 /* The moduli in tension or in shear, as measured. */
 #define SWEEP_COLUMNS(X)                                                                           \
     X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \
-    X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY))    \
+    X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY),    \
+      OPTIONAL, SPARSE)                                                                            \
     X(SWEEP_STORAGE_MODULUS, "storage_modulus", "tensile storage modulus E'", SI(STORAGE_MODULUS), \
       OPTIONAL, SPARSE)                                                                            \
     X(SWEEP_LOSS_MODULUS, "loss_modulus", "tensile loss modulus E''", SI(LOSS_MODULUS), OPTIONAL,  \
@@ -60,7 +61,16 @@
     X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL, SPARSE)                    \
     X(SWEEP_LOSS_FACTOR, "loss_factor", "loss factor tan delta, where it was measured alone",      \
       SI(LOSS_FACTOR), OPTIONAL, SPARSE)                                                           \
-    X(SWEEP_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)
+    X(SWEEP_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)                        \
+    X(SWEEP_TIME, "time", "time after a step of strain or stress", SI(TIME), OPTIONAL, SPARSE)     \
+    X(SWEEP_RELAXATION_MODULUS, "relaxation_modulus", "tensile relaxation modulus E(t)",           \
+      SI(RELAXATION_MODULUS), OPTIONAL, SPARSE)                                                    \
+    X(SWEEP_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "shear relaxation modulus G(t)", \
+      SI(SHEAR_RELAXATION_MODULUS), OPTIONAL, SPARSE)                                              \
+    X(SWEEP_CREEP_COMPLIANCE, "creep_compliance", "tensile creep compliance D(t)",                 \
+      SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
+    X(SWEEP_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "shear creep compliance J(t)",       \
+      SI(SHEAR_CREEP_COMPLIANCE), OPTIONAL, SPARSE)
 #define SWEEP_KEYS(X)
 
 /* The density of a surface or of a line, as measured. */

@@ -183,7 +183,34 @@
     X(MASTER_CURVE_OWN_STORAGE, AS(own_storage), "storage modulus at this temperature",            \
       SI(STORAGE_MODULUS))                                                                         \
     X(MASTER_CURVE_OWN_LOSS, AS(own_loss), "loss modulus at this temperature", SI(LOSS_MODULUS))   \
-    X(MASTER_CURVE_LOSS_FACTOR, AS(loss_factor), "tan delta as measured", NUMBER, SPARSE)
+    X(MASTER_CURVE_LOSS_FACTOR, AS(loss_factor), "tan delta as measured", NUMBER, SPARSE)          \
+    X(MASTER_CURVE_TIME, AS(time), "reduced time after a step, one over the frequency", SI(TIME),  \
+      OPTIONAL, SPARSE)                                                                            \
+    X(MASTER_CURVE_RELAXATION_MODULUS, AS(relaxation_modulus), "relaxation modulus, shifted",      \
+      SI(RELAXATION_MODULUS), OPTIONAL, SPARSE)                                                    \
+    X(MASTER_CURVE_FITTED_RELAXATION, AS(fitted_relaxation), "relaxation modulus of the spectrum", \
+      SI(RELAXATION_MODULUS),                                                                      \
+      INTERVAL(MASTER_CURVE_FITTED_RELAXATION_LOW, MASTER_CURVE_FITTED_RELAXATION_HIGH), OPTIONAL, \
+      SPARSE)                                                                                      \
+    X(MASTER_CURVE_FITTED_RELAXATION_LOW, "fitted_relaxation_low",                                 \
+      "lower end of its 95 % interval", SI(RELAXATION_MODULUS), OPTIONAL, SPARSE)                  \
+    X(MASTER_CURVE_FITTED_RELAXATION_HIGH, "fitted_relaxation_high",                               \
+      "upper end of its 95 % interval", SI(RELAXATION_MODULUS), OPTIONAL, SPARSE)                  \
+    X(MASTER_CURVE_OWN_RELAXATION, AS(own_relaxation),                                             \
+      "relaxation modulus at the temperature it was measured at", SI(RELAXATION_MODULUS),          \
+      OPTIONAL, SPARSE)                                                                            \
+    X(MASTER_CURVE_CREEP_COMPLIANCE, AS(creep_compliance), "creep compliance, shifted",            \
+      SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
+    X(MASTER_CURVE_FITTED_CREEP, AS(fitted_creep), "creep compliance of the spectrum",             \
+      SI(CREEP_COMPLIANCE),                                                                        \
+      INTERVAL(MASTER_CURVE_FITTED_CREEP_LOW, MASTER_CURVE_FITTED_CREEP_HIGH), OPTIONAL, SPARSE)   \
+    X(MASTER_CURVE_FITTED_CREEP_LOW, "fitted_creep_low", "lower end of its 95 % interval",         \
+      SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
+    X(MASTER_CURVE_FITTED_CREEP_HIGH, "fitted_creep_high", "upper end of its 95 % interval",       \
+      SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
+    X(MASTER_CURVE_OWN_CREEP, AS(own_creep),                                                       \
+      "creep compliance at the temperature it was measured at", SI(CREEP_COMPLIANCE), OPTIONAL,    \
+      SPARSE)
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
     X(MASTER_CURVE_KEY_NOISE_STORAGE, AS(noise_storage), PLAIN,                                    \

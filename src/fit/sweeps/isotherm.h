@@ -29,7 +29,8 @@ typedef struct shift_curve {
 
 /* All isotherms in the order of rising temperature. */
 typedef struct shift_set {
-    wt_shift_by by;    /* never MODULI if a modulus is missing */
+    wt_shift_by by; /* never MODULI if a modulus is missing */
+    wt_loading loading;
     bool used[MODULI]; /* by tan delta alone it stands in the place of LOSS */
     size_t n;
     shift_curve *curves;

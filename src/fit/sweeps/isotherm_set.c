@@ -253,10 +253,15 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log,
     struct order *order = pool_alloc(memory, n, sizeof *order);
     struct point *scratch = pool_alloc(memory, n_longest, sizeof *scratch);
     double *next = pool_numbers(memory, (1 + MODULI) * n_points);
-    *set = (shift_set){.n = n, .curves = pool_alloc(memory, n, sizeof *set->curves)};
+    *set = (shift_set){
+        .n = n, .loading = sweep->loading, .curves = pool_alloc(memory, n, sizeof *set->curves)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     status = choose_quantity(sweep, by, set, err);
+    if (status == WT_OK && set->loading != WT_OSCILLATION && set->by != WT_BY_STORAGE) {
+        status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");
+        wt_error_expected(err, "shift-by moduli, which takes it");
+    }
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){sweep->isotherms[i].temperature, i};
     qsort(order, n, sizeof *order, by_temperature);

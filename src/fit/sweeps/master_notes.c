@@ -115,7 +115,12 @@ static void note_quantity(const master_work *work, wt_parselog *log)
             "fitted to the loss factor alone: shifts and their law, but no level of "
             "the moduli, no vertical shift and no series, and superposition is not "
             "tested"};
-    if (work->set.by != WT_BY_MODULI)
+    if (work->set.loading != WT_OSCILLATION)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "fitted to %s: storage and loss modulus are those of the spectrum, and "
+                        "superposition is not tested",
+                        work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
+    else if (work->set.by != WT_BY_MODULI)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 

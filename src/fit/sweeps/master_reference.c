@@ -19,7 +19,7 @@ static const double close = 1e-6;
 static double factor_at(const wt_posterior *p, double log_frequency)
 {
     wt_interval modulus[WITH_LOSS_FACTOR];
-    posterior_moduli(p, log_frequency * M_LN10, modulus);
+    posterior_moduli(p, log_frequency * M_LN10, false, modulus);
     return modulus[LOSS_FACTOR].value;
 }
 

@@ -183,9 +183,9 @@ static int by_x(const void *left, const void *right)
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/* What the spectrum says at the points: on a grid, and between its points by lines, for nothing
- * turns within a tenth of a decade. */
-static void fill_fitted(const wt_posterior *p, wt_master *m)
+/* What the spectrum says at the points (of_step: of what was measured, after a step): on a grid,
+ * and between its points by lines, for nothing turns within a tenth of a decade. */
+static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
 {
     const double step = 0.1;
     wt_interval low[WITH_LOSS_FACTOR], high[WITH_LOSS_FACTOR];
@@ -196,13 +196,15 @@ static void fill_fitted(const wt_posterior *p, wt_master *m)
             if (from == at + step)
                 memcpy(low, high, sizeof low);
             else
-                posterior_moduli(p, from * M_LN10, low);
-            posterior_moduli(p, (from + step) * M_LN10, high);
+                posterior_moduli(p, from * M_LN10, of_step, low);
+            posterior_moduli(p, (from + step) * M_LN10, of_step, high);
             at = from;
         }
         const double share = (x - from) / step;
-        const bool told[] = {has_level(p->by), p->by != WT_BY_LOSS_FACTOR, p->by != WT_BY_LOSS};
-        wt_interval *const fitted[] = {m->fitted_storage, m->fitted_loss, m->fitted_loss_factor};
+        const bool told[] = {has_level(p->by), p->by != WT_BY_LOSS_FACTOR && !of_step,
+                             p->by != WT_BY_LOSS && !of_step};
+        wt_interval *const fitted[] = {of_step ? m->fitted_step : m->fitted_storage, m->fitted_loss,
+                                       m->fitted_loss_factor};
         for (int q = 0; q < WITH_LOSS_FACTOR; q++)
             if (told[q])
                 fitted[q][j] =
@@ -222,13 +224,14 @@ static double factor_of_point(const spectrum *s, size_t k)
 static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
 {
     const spectrum *s = work->s;
+    const bool of_step = s->loading != WT_OSCILLATION;
     wt_posterior *p = work->posterior;
     p->measured_factor = pool_numbers(&p->memory, s->n);
     struct order *order = malloc((s->n + 1) * sizeof *order);
-    m->log_frequency = malloc(3 * (s->n + 1) * sizeof *m->log_frequency);
+    m->log_frequency = malloc(4 * (s->n + 1) * sizeof *m->log_frequency);
     m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
     m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
-    m->fitted_storage = malloc(3 * (s->n + 1) * sizeof *m->fitted_storage);
+    m->fitted_storage = malloc(4 * (s->n + 1) * sizeof *m->fitted_storage);
     if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
         m->fitted_storage == NULL || p->memory.failed) {
         free(order);
@@ -238,6 +241,8 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     m->log_loss = m->log_storage + s->n;
     m->fitted_loss = m->fitted_storage + s->n;
     m->fitted_loss_factor = m->fitted_loss + s->n;
+    m->fitted_step = m->fitted_loss_factor + s->n;
+    m->log_step = m->log_loss + s->n;
     for (size_t i = 0; i < m->n_shifts; i++) {
         if (!m->shifts[i].determined)
             continue; /* may not be among the curves of the spectrum */
@@ -255,16 +260,21 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         m->isotherm[j] = i;
         m->log_frequency[j] = order[j].x;
         const double b = m->shifts[i].log_b.value, unknown = (double)NAN;
-        m->log_storage[j] = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
+        const double storage = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
+        m->log_storage[j] = of_step ? unknown : storage;
+        m->log_step[j] = of_step ? storage : unknown;
         m->log_loss[j] = s->used[LOSS] && !s->ratio ? s->y[LOSS][k] / M_LN10 + b : unknown;
         p->measured_factor[j] = factor_of_point(s, k);
         m->left_out[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
                          (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
     }
     for (size_t j = 0; j < m->n; j++)
-        m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = unknown_interval;
+        m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = m->fitted_step[j] =
+            unknown_interval;
     if (!work->options.series_only)
-        fill_fitted(work->posterior, m);
+        fill_fitted(work->posterior, false, m);
+    if (!work->options.series_only && of_step)
+        fill_fitted(work->posterior, true, m);
     free(order);
     return WT_OK;
 }
@@ -358,7 +368,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     m->equilibrium = interval_of(e, exp);
     double lowest = HUGE_VAL;
     for (size_t i = 0; i < m->n; i++)
-        lowest = fmin(lowest, m->log_storage[i]);
+        lowest = fmin(lowest, m->loading == WT_OSCILLATION ? m->log_storage[i] : m->log_step[i]);
     m->equilibrium_limit = !(e.low >= log(known_equilibrium) + lowest * M_LN10);
     if (!m->equilibrium_limit)
         return WT_OK;
@@ -376,6 +386,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
                         wt_master *master, wt_error *err)
 {
     wt_master m = {.deformation = sweep->deformation,
+                   .loading = sweep->loading,
                    .reference_temperature = work->reference,
                    .vertical = work->options.vertical,
                    .shift_route = work->route,
@@ -444,7 +455,7 @@ void wt_master_moduli(const wt_master *master, double angular_frequency, wt_inte
 {
     wt_interval modulus[WITH_LOSS_FACTOR];
     const wt_shift_by by = master->posterior->by;
-    posterior_moduli(master->posterior, log(angular_frequency), modulus);
+    posterior_moduli(master->posterior, log(angular_frequency), false, modulus);
     *log_storage =
         has_level(by) ? interval_times(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
     *log_loss =

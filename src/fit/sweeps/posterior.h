@@ -80,7 +80,9 @@ wt_interval posterior_slope(const wt_posterior *p, double temperature); /* decad
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
 /* ln E', ln E'' and ln tan delta at ln w and the reference temperature. */
 enum { LOSS_FACTOR = MODULI, WITH_LOSS_FACTOR };
-void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR]);
+/* `measured`: what a step shows in the place of E', and nothing else, if one was measured. */
+void posterior_moduli(const wt_posterior *p, double x, bool measured,
+                      wt_interval modulus[WITH_LOSS_FACTOR]);
 /* ln of the equilibrium modulus, wherever the spectrum ends. */
 wt_interval posterior_equilibrium(const wt_posterior *p);
 /* Where it does in a draw. */

@@ -158,7 +158,8 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
 }
 
 /* scratch: with log a, terms, and by the unknowns for both moduli and the loss factor. */
-void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR])
+void posterior_moduli(const wt_posterior *p, double x, bool measured,
+                      wt_interval modulus[WITH_LOSS_FACTOR])
 {
     const size_t n = p->frame.n_unknowns;
     mixture_part part[WITH_LOSS_FACTOR][MOST_PARTS];
@@ -172,7 +173,8 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
         if (p->parts[i].cell != last) {
             last = p->parts[i].cell;
             spectrum_terms(&p->frame, last->value, term);
-            spectrum_at(&p->frame, term, x + mean[0] * M_LN10, value, slope, gradient);
+            (measured ? spectrum_measured_at : spectrum_at)(&p->frame, term, x + mean[0] * M_LN10,
+                                                            value, slope, gradient);
             value[LOSS_FACTOR] = value[LOSS] - value[STORAGE];
             slope[LOSS_FACTOR] = slope[LOSS] - slope[STORAGE];
             for (size_t u = 0; u < n; u++)

@@ -33,8 +33,24 @@ typedef struct spectrum_beyond {
     double weight[3], mean, precision;
 } spectrum_beyond;
 
+/* Retardation times of a spectrum (spectrum_step.c), kept while its terms are the same. */
+typedef struct spectrum_modes {
+    bool known;
+    double *of;             /* [n_linear] terms they are for */
+    double instantaneous;   /* modulus */
+    size_t n;               /* terms that count, slow ones first */
+    size_t *index;          /* [n] of a term */
+    double *modulus, *rate; /* [n] */
+    double *root;           /* [n] one over a retardation time */
+    double *slope, *bend;   /* [n] of the transform there, times root and over the slope */
+    double *decay;          /* [n] scratch */
+    double *share;          /* [n * n] root / (rate - root), root by root */
+} spectrum_modes;
+
 typedef struct spectrum {
-    pool memory; /* of all below */
+    pool memory;        /* of all below */
+    wt_loading loading; /* of a step x is ln of 1/t, and E(t) or 1/J(t) in the place of STORAGE */
+    spectrum_modes *modes; /* of creep */
     /* data: the curves that take part, point by point */
     size_t n_curves, n;
     size_t *first;          /* [n_curves + 1] first point of a curve */
@@ -114,6 +130,15 @@ double spectrum_b_of(const spectrum *s, const double *value, size_t curve);
 /* ln E', ln E'' at x of the spectrum, and their derivatives; slope: by x. gradient: [n_linear]. */
 void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
                  double slope[MODULI], double *const gradient[MODULI]);
+/* The same of what was measured: LOSS is 0 after a step. */
+void spectrum_measured_at(const spectrum *s, const double *term, double x,
+                          double log_modulus[MODULI], double slope[MODULI],
+                          double *const gradient[MODULI]);
+/* ---- spectrum_step.c: ln E(t) or ln 1/J(t) at x = -ln t, as `loading` says, its slope by x and,
+ * unless NULL, its derivatives by ln of the terms [n_linear] */
+void spectrum_step_at(const spectrum *s, const double *term, double x, double *log_modulus,
+                      double *slope, double *gradient);
+void spectrum_modes_new(spectrum *s);
 void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n_linear] */
 
 /* ---- spectrum_model.c: rows, normal equations, priors */

@@ -60,6 +60,8 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
     s->side = pool_numbers(m, BLOCK_SIDE * s->n_curves);
     s->gradient = pool_vector(m, most);
     s->direction = pool_vector(m, most);
+    if (s->loading == WT_CREEP)
+        spectrum_modes_new(s);
     return m->failed
                ? wt_fail(err, WT_E_MEMORY, "no memory for a spectrum of %zu terms", s->n_terms)
                : WT_OK;
@@ -133,6 +135,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
     *s = (spectrum){.liquid = liquid,
+                    .loading = set->loading,
                     .used = {set->used[STORAGE], set->used[LOSS]},
                     .ratio = set->by == WT_BY_LOSS_FACTOR,
                     .step = M_LN10 / terms_per_decade};
@@ -327,6 +330,21 @@ void spectrum_at(const spectrum *s, const double *term, double x, double log_mod
     }
 }
 
+void spectrum_measured_at(const spectrum *s, const double *term, double x,
+                          double log_modulus[MODULI], double slope[MODULI],
+                          double *const gradient[MODULI])
+{
+    if (s->loading == WT_OSCILLATION) {
+        spectrum_at(s, term, x, log_modulus, slope, gradient);
+        return;
+    }
+    log_modulus[LOSS] = slope[LOSS] = 0.0;
+    if (gradient != NULL)
+        memset(gradient[LOSS], 0, s->n_linear * sizeof *gradient[LOSS]);
+    spectrum_step_at(s, term, x, &log_modulus[STORAGE], &slope[STORAGE],
+                     gradient != NULL ? gradient[STORAGE] : NULL);
+}
+
 /* ---- rows ------------------------------------------------------------------------------------ */
 
 double spectrum_weight(const spectrum *s, size_t k, int q)
@@ -393,7 +411,7 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
             double modulus[MODULI], slope[MODULI];
-            spectrum_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
+            spectrum_measured_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
             if (s->ratio)
                 to_factor(s, modulus, slope, with_rows ? row : NULL);
             for (int q = 0; q < MODULI; q++) {

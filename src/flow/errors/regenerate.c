@@ -1,5 +1,6 @@
 /* A case drawn anew from its own fit. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/errors/regenerate.h"
+#include "flow/sweeps/sweep_input.h"
 #include "flow/work/draws.h"
 
 #include "base/array.h"
@@ -72,7 +73,7 @@ wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint6
                            wt_sweep *sweep, double *shift, wt_error *err)
 {
     double at_reference = (double)NAN;
-    wt_status status = WT_OK;
+    wt_status status = flow_needs_oscillation(measured, "drawing isotherms anew", err);
     size_t k = 0;
     sweep->deformation = measured->deformation;
     for (size_t i = 0; i < fit->n_shifts; i++)

@@ -1,6 +1,7 @@
 /* A rubber whose moduli no series tells: the points of a table, those of a master curve, or a
  * fractional Zener law. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/materials/rubber.h"
+#include "flow/sweeps/sweep_input.h"
 #include "flow/work/inputs.h"
 #include "flow/work/law_text.h"
 
@@ -115,6 +116,8 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
     if (status == WT_OK)
         status = wt_sweep_read(work->formats, input, &read, work->log, &made.sweep, err);
     wt_input_close(input);
+    if (status == WT_OK)
+        status = flow_needs_oscillation(&made.sweep, "a table of the material", err);
     if (status == WT_OK && made.sweep.n_isotherms != 1) {
         status = wt_fail(err, WT_E_ARG, "a table of the material has one temperature");
         wt_error_found(err, "%zu isotherms", made.sweep.n_isotherms);

@@ -391,6 +391,8 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
         status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
     if (status == WT_OK)
+        status = flow_needs_oscillation(&sweep, "a temperature sweep", err);
+    if (status == WT_OK)
         status = add_isotherms(&sweep, err);
     if (status == WT_OK && sweep.n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");

@@ -6,6 +6,7 @@
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
+#include "base/array.h"
 #include "data/tables/rows.h"
 #include "model/material.h"
 
@@ -39,7 +40,7 @@ static const wt_param rows[] = {
      .unset = "",
      .help = "leave out isotherms and points of the DMA: temperature:LOW..HIGH or "
              "frequency:LOW..HIGH, such as temperature:..-20degC, or one value, such as "
-             "frequency:50Hz; repeatable",
+             "frequency:50Hz; of relaxation and creep time:LOW..HIGH; repeatable",
      .check = check_cuts},
     {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
      .help = "law that gives all horizontal shifts of the DMA: "
@@ -72,8 +73,11 @@ static const char *vertical_name(wt_vertical_shift vertical)
     return names[vertical];
 }
 
-static const char *shifted_by_name(wt_shift_by by)
+static const char *shifted_by_name(const wt_master *m)
 {
+    const wt_shift_by by = wt_master_shifted_by(m);
+    if (m->loading != WT_OSCILLATION)
+        return m->loading == WT_CREEP ? "creep compliance" : "relaxation modulus";
     static const char *const names[] = {"both moduli", "storage modulus alone",
                                         "loss modulus alone", "loss factor alone"};
     return names[by];
@@ -163,8 +167,7 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
                             0, 0);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(m->vertical));
     if (wt_master_shifted_by(m) != WT_BY_MODULI)
-        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY,
-                               shifted_by_name(wt_master_shifted_by(m)));
+        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shifted_by_name(m));
     set_route(&t, m);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
                            flow_deformation_name(m->deformation));
@@ -175,15 +178,26 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
 TABLE_ROW(master_curve, MASTER_CURVE, double angular_frequency, storage_modulus, loss_modulus,
           loss_factor, temperature;
           wt_interval fitted_storage, fitted_loss, fitted_loss_factor;
-          double own_frequency, own_storage, own_loss; bool left_out;)
+          double own_frequency, own_storage, own_loss; bool left_out;
+          double time, relaxation_modulus, creep_compliance;
+          wt_interval fitted_relaxation, fitted_creep; double own_relaxation, own_creep;)
 
 TABLE_KEYS_OF(master_curve, MASTER_CURVE, wt_master)
+
+/* A compliance is one over what stands in the place of the modulus. */
+static wt_interval inverse_of(wt_interval x)
+{
+    return flow_power_of_ten((wt_interval){-x.value, x.standard_error, -x.high, -x.low});
+}
 
 static void put_point(table_writer *t, const wt_master *m, size_t i)
 {
     const wt_master_shift *shift = &m->shifts[m->isotherm[i]];
     const double frequency = m->log_frequency[i], storage = m->log_storage[i],
-                 loss = m->log_loss[i];
+                 loss = m->log_loss[i], step = m->log_step[i], none = (double)NAN;
+    const double own_step = step - shift->log_b.value;
+    const wt_interval unknown = {none, none, none, none};
+    const bool relaxes = m->loading == WT_RELAXATION, creeps = m->loading == WT_CREEP;
     TABLE_ADD(master_curve, t, .angular_frequency = pow(10, frequency),
               .storage_modulus = pow(10, storage), .loss_modulus = pow(10, loss),
               .loss_factor = wt_master_loss_factor(m, i), .temperature = shift->temperature,
@@ -192,12 +206,38 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
               .fitted_loss_factor = flow_power_of_ten(m->fitted_loss_factor[i]),
               .own_frequency = pow(10, frequency - shift->log_a.value + m->offset.value),
               .own_storage = pow(10, storage - shift->log_b.value),
-              .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->left_out[i]);
+              .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->left_out[i],
+              .time = relaxes || creeps ? pow(10, -frequency) : none,
+              .relaxation_modulus = relaxes ? pow(10, step) : none,
+              .creep_compliance = creeps ? pow(10, -step) : none,
+              .fitted_relaxation = relaxes ? flow_power_of_ten(m->fitted_step[i]) : unknown,
+              .fitted_creep = creeps ? inverse_of(m->fitted_step[i]) : unknown,
+              .own_relaxation = relaxes ? pow(10, own_step) : none,
+              .own_creep = creeps ? pow(10, -own_step) : none);
+}
+
+/* Columns of what was not measured. */
+static uint64_t not_measured(const wt_master *m)
+{
+    static const master_curve_column relaxation[] = {
+        MASTER_CURVE_RELAXATION_MODULUS, MASTER_CURVE_FITTED_RELAXATION,
+        MASTER_CURVE_FITTED_RELAXATION_LOW, MASTER_CURVE_FITTED_RELAXATION_HIGH,
+        MASTER_CURVE_OWN_RELAXATION};
+    static const master_curve_column creep[] = {
+        MASTER_CURVE_CREEP_COMPLIANCE, MASTER_CURVE_FITTED_CREEP, MASTER_CURVE_FITTED_CREEP_LOW,
+        MASTER_CURVE_FITTED_CREEP_HIGH, MASTER_CURVE_OWN_CREEP};
+    uint64_t left = m->loading == WT_OSCILLATION ? SCHEMA_BIT(MASTER_CURVE_TIME) : 0;
+    for (size_t i = 0; m->loading != WT_RELAXATION && i < COUNT_OF(relaxation); i++)
+        left |= SCHEMA_BIT(relaxation[i]);
+    for (size_t i = 0; m->loading != WT_CREEP && i < COUNT_OF(creep); i++)
+        left |= SCHEMA_BIT(creep[i]);
+    return left;
 }
 
 static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)
 {
-    table_writer t = table_begin(&master_curve_schema, err);
+    table_writer t = table_begin_variant(&master_curve_schema,
+                                         (table_variant){.left_out = not_measured(m)}, err);
     for (size_t k = 0; k < m->n_shifts; k++) {
         table_block(&t);
         for (size_t i = 0; i < m->n; i++)

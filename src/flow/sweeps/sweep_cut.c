@@ -11,7 +11,8 @@
 static const double same_temperature = 0.5, same_frequency = 0.01;
 
 typedef struct cut {
-    bool of_frequency;
+    bool of_frequency; /* or of time, which isotherms have as one over it */
+    bool of_time;
     double low, high; /* [K] or [rad/s] */
 } cut;
 
@@ -22,15 +23,19 @@ static wt_status bad_text(const char *text, wt_error *err)
     wt_fail(err, WT_E_ARG, "\"%s\" does not say what to leave out", text);
     wt_error_expected(err,
                       "temperature:-40degC..-20degC, temperature:..-20degC, temperature:25degC, "
-                      "or frequency: and hertz in the same way");
+                      "or frequency: and hertz, or time: and seconds, in the same way");
     return WT_E_ARG;
 }
 
 static wt_status read_value(const cut *c, const char *text, double *value, wt_error *err)
 {
-    const wt_status status =
-        wt_quantity_parse(text, c->of_frequency ? WT_Q_FREQUENCY : WT_Q_TEMPERATURE, value, err);
-    if (status == WT_OK && c->of_frequency)
+    const wt_quantity quantity = c->of_time        ? WT_Q_TIME
+                                 : c->of_frequency ? WT_Q_FREQUENCY
+                                                   : WT_Q_TEMPERATURE;
+    const wt_status status = wt_quantity_parse(text, quantity, value, err);
+    if (status == WT_OK && c->of_time)
+        *value = 1 / *value;
+    else if (status == WT_OK && c->of_frequency)
         *value *= 2 * M_PI;
     return status;
 }
@@ -47,19 +52,23 @@ static wt_status read_range(const char *text, cut *c, wt_error *err)
     }
     char *low = strndup(text, (size_t)(dots - text));
     wt_status status = low == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    *c = (cut){c->of_frequency, -HUGE_VAL, HUGE_VAL};
+    double *const from = c->of_time ? &c->high : &c->low, *const to =
+                                                              c->of_time ? &c->low : &c->high;
+    c->low = -HUGE_VAL;
+    c->high = HUGE_VAL;
     if (status == WT_OK && low[0] != '\0')
-        status = read_value(c, low, &c->low, err);
+        status = read_value(c, low, from, err);
     if (status == WT_OK && dots[2] != '\0')
-        status = read_value(c, dots + 2, &c->high, err);
+        status = read_value(c, dots + 2, to, err);
     free(low);
     return status == WT_OK && !(c->low < c->high) ? bad_text(text, err) : status;
 }
 
 static wt_status read_cut(const char *text, cut *c, wt_error *err)
 {
-    static const char temperature[] = "temperature:", frequency[] = "frequency:";
-    *c = (cut){.of_frequency = strncmp(text, frequency, strlen(frequency)) == 0};
+    static const char temperature[] = "temperature:", frequency[] = "frequency:", time[] = "time:";
+    *c = (cut){.of_time = strncmp(text, time, strlen(time)) == 0};
+    c->of_frequency = c->of_time || strncmp(text, frequency, strlen(frequency)) == 0;
     const char *range = strchr(text, ':');
     if ((!c->of_frequency && strncmp(text, temperature, strlen(temperature)) != 0) ||
         strcmp(range, ":") == 0 || strcmp(range, ":..") == 0)
@@ -139,6 +148,11 @@ static wt_status take_out(const char *text, wt_sweep *sweep, wt_parselog *log, w
 {
     cut c;
     wt_status status = read_cut(text, &c, err);
+    if (status == WT_OK && c.of_frequency && c.of_time != (sweep->loading != WT_OSCILLATION)) {
+        status = wt_fail(err, WT_E_ARG, "\"%s\" is of no point of this DMA", text);
+        wt_error_expected(err, c.of_time ? "frequency: for an oscillation"
+                                         : "time: for relaxation and creep");
+    }
     gone g = {.sweep = {.isotherms = calloc(sweep->n_isotherms + 1, sizeof *sweep->isotherms),
                         .ramps = calloc(sweep->n_ramps + 1, sizeof *sweep->ramps)}};
     if (status == WT_OK && (g.sweep.isotherms == NULL || g.sweep.ramps == NULL))

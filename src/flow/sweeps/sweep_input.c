@@ -78,6 +78,7 @@ static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
 {
     bool good = true;
     to->deformation = from->deformation;
+    to->loading = from->loading;
     for (size_t i = 0; i < from->n_isotherms && good; i++)
         good = copy_isotherm(to, &from->isotherms[i]);
     for (size_t i = 0; i < from->n_ramps && good; i++)
@@ -133,6 +134,17 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
     const wt_status status = read_sweeps(sets, n_sets, work, sweep, err);
     return status == WT_OK && n_sets > 0 ? flow_sample_take(sweep, sets[0].read.sample, err)
                                          : status;
+}
+
+wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what, wt_error *err)
+{
+    if (sweep->loading == WT_OSCILLATION)
+        return WT_OK;
+    wt_fail(err, WT_E_UNSUPPORTED, "%s needs an oscillation", what);
+    wt_error_found(err, "isotherms of %s",
+                   sweep->loading == WT_CREEP ? "creep" : "stress relaxation");
+    wt_error_advice(err, "`weartrack master` makes storage and loss modulus of them");
+    return WT_E_UNSUPPORTED;
 }
 
 wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,

@@ -12,6 +12,9 @@ const char *flow_deformation_name(wt_deformation deformation);
  * first set names; cleared by the caller, also on failure. */
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                            wt_sweep *sweep, wt_error *err) WT_NODISCARD;
+/* WT_E_UNSUPPORTED for isotherms after a step: `what` is of an oscillation. */
+wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what,
+                                 wt_error *err) WT_NODISCARD;
 /* The samples of isotherms and temperature sweeps; `samples` is empty, and to be cleared. */
 wt_status flow_samples_find(const wt_sweep *sweep, wt_samples *samples, wt_error *err) WT_NODISCARD;
 /* Takes out the sweeps of other samples than `name`, unless NULL or "all". WT_E_NOT_FOUND if there

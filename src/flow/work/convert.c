@@ -130,6 +130,7 @@ static double value_or_nan(const double *values, size_t i)
 typedef struct dma_table {
     table_writer writer;
     sweep_column storage, loss;
+    wt_loading loading;
     uint64_t used; /* bits of the columns that some point has */
     bool counting; /* nothing is written yet */
 } dma_table;
@@ -148,9 +149,12 @@ static void put_point(dma_table *t, const dma_point *p)
     if (!t->counting) {
         table_row(&t->writer);
         sweep_put(&t->writer, SWEEP_TEMPERATURE, p->temperature);
-        sweep_put(&t->writer, SWEEP_ANGULAR_FREQUENCY, p->angular_frequency);
     }
-    put_known(t, t->storage, p->storage);
+    if (t->loading == WT_OSCILLATION)
+        put_known(t, SWEEP_ANGULAR_FREQUENCY, p->angular_frequency);
+    else
+        put_known(t, SWEEP_TIME, 1 / p->angular_frequency);
+    put_known(t, t->storage, t->loading == WT_CREEP ? 1 / p->storage : p->storage);
     put_known(t, t->loss, p->loss);
     put_known(t, SWEEP_STRAIN, p->strain);
     put_known(t, SWEEP_LOSS_FACTOR, p->factor);
@@ -172,11 +176,13 @@ static void put_sweep(dma_table *t, const wt_sweep *sweep)
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
         const wt_isotherm *s = &sweep->isotherms[k];
         put_block(t);
-        for (size_t i = 0; i < s->n; i++)
+        for (size_t row = 0; row < s->n; row++) {
+            const size_t i = t->loading == WT_OSCILLATION ? row : s->n - 1 - row; /* rising time */
             put_point(t,
                       &(dma_point){s->temperature, s->angular_frequency[i], s->storage_modulus[i],
                                    s->loss_modulus[i], value_or_nan(s->strain, i),
                                    value_or_nan(s->loss_factor, i), s->sample});
+        }
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
         const wt_ramp *s = &sweep->ramps[k];
@@ -199,15 +205,27 @@ static void put_sweep(dma_table *t, const wt_sweep *sweep)
 /* Columns that no point has are left out. */
 static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
 {
-    static const sweep_column maybe[] = {SWEEP_STORAGE_MODULUS,
+    static const sweep_column maybe[] = {SWEEP_ANGULAR_FREQUENCY,
+                                         SWEEP_TIME,
+                                         SWEEP_RELAXATION_MODULUS,
+                                         SWEEP_SHEAR_RELAXATION_MODULUS,
+                                         SWEEP_CREEP_COMPLIANCE,
+                                         SWEEP_SHEAR_CREEP_COMPLIANCE,
+                                         SWEEP_STORAGE_MODULUS,
                                          SWEEP_LOSS_MODULUS,
                                          SWEEP_SHEAR_STORAGE_MODULUS,
                                          SWEEP_SHEAR_LOSS_MODULUS,
                                          SWEEP_STRAIN,
                                          SWEEP_LOSS_FACTOR,
                                          SWEEP_SAMPLE};
+    /* by what was measured, in tension and in shear */
+    static const sweep_column moduli[][2] = {
+        [WT_OSCILLATION] = {SWEEP_STORAGE_MODULUS, SWEEP_SHEAR_STORAGE_MODULUS},
+        [WT_RELAXATION] = {SWEEP_RELAXATION_MODULUS, SWEEP_SHEAR_RELAXATION_MODULUS},
+        [WT_CREEP] = {SWEEP_CREEP_COMPLIANCE, SWEEP_SHEAR_CREEP_COMPLIANCE}};
     const bool shear = sweep->deformation == WT_SHEAR;
-    dma_table t = {.storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS,
+    dma_table t = {.storage = moduli[sweep->loading][shear],
+                   .loading = sweep->loading,
                    .loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS,
                    .counting = true};
     uint64_t left_out = 0;

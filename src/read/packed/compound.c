@@ -54,7 +54,7 @@ bool compound_is(const unsigned char *bytes, size_t length)
 static wt_status damaged(wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "the file is damaged or its end is missing");
-    wt_error_found(err, "a chain of sectors that leads out of the file or has no end");
+    wt_error_found(err, "an old Excel or Word file; a chain of its sectors leads out of it");
     wt_error_advice(err, "copy the file again; or save it as .xlsx, CSV or text");
     return WT_E_CORRUPT;
 }

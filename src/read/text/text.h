@@ -97,10 +97,13 @@ typedef enum column_problem {
 } column_problem;
 
 #define MODULI_OF_TENSION                                                                          \
-    (WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) | WT_Q_BIT(WT_Q_COMPLEX_MODULUS))
+    (WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) |                                \
+     WT_Q_BIT(WT_Q_COMPLEX_MODULUS) | WT_Q_BIT(WT_Q_RELAXATION_MODULUS) |                          \
+     WT_Q_BIT(WT_Q_CREEP_COMPLIANCE))
 #define MODULI_OF_SHEAR                                                                            \
     (WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS) |                    \
-     WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS))
+     WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_RELAXATION_MODULUS) |              \
+     WT_Q_BIT(WT_Q_SHEAR_CREEP_COMPLIANCE))
 
 /* A column of a table that is known by its name. */
 typedef struct text_column {

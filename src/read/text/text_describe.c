@@ -118,12 +118,17 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
     }
     facts_add(facts, "deformation", "", "", "%s",
               sweep.deformation == WT_TENSION ? "tension (E)" : "shear (G)");
+    const bool step = sweep.loading != WT_OSCILLATION;
+    if (step)
+        facts_add(facts, "loading", "", "", "%s",
+                  sweep.loading == WT_CREEP ? "creep" : "stress relaxation");
     facts_add(facts, "isotherms", "", "", "%zu", sweep.n_isotherms);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {
         const wt_isotherm *s = &sweep.isotherms[i];
-        facts_add(facts, "isotherm", "", s->source, "%.2f degC, %zu points, %.4g to %.4g rad/s",
-                  s->temperature - WT_ZERO_CELSIUS, s->n, s->angular_frequency[0],
-                  s->angular_frequency[s->n - 1]);
+        const double first = s->angular_frequency[0], last = s->angular_frequency[s->n - 1];
+        facts_add(facts, "isotherm", "", s->source, "%.2f degC, %zu points, %.4g to %.4g %s",
+                  s->temperature - WT_ZERO_CELSIUS, s->n, step ? 1 / last : first,
+                  step ? 1 / first : last, step ? "s" : "rad/s");
     }
     if (sweep.n_ramps > 0)
         facts_add(facts, "temperature sweeps", "", "", "%zu", sweep.n_ramps);

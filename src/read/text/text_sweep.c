@@ -19,9 +19,9 @@ static void warn_of_shifted(const sweep_builder *b, double low, double high)
     const double decades = log10(high / low);
     if (decades > most_decades)
         wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
-                        "frequencies over %.1f decades at one temperature: this looks like a "
+                        "%s over %.1f decades at one temperature: this looks like a "
                         "master curve that was shifted already; export the measured isotherms",
-                        decades);
+                        b->c.step != NULL ? "times" : "frequencies", decades);
 }
 
 /* An isotherm of one of several amplitudes has it behind its source. */
@@ -47,8 +47,8 @@ static wt_status end_isotherm(sweep_builder *b)
         return WT_OK;
     if (!(high > low * (1 + SAME_FREQUENCY))) {
         wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
-                        "%s%s%zu points at one frequency: not a frequency sweep, left out", title,
-                        title[0] != '\0' ? ": " : "", b->n);
+                        "%s%s%zu points at one %s, left out", title, title[0] != '\0' ? ": " : "",
+                        b->n, b->c.step != NULL ? "time" : "frequency: not a frequency sweep");
         b->n = 0;
         return WT_OK;
     }
@@ -141,10 +141,11 @@ static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 /* Rows of one sample. */
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
-    wt_status status = strain_sweeps_take(b, rows, &n);
-    if (status == WT_OK)
+    const bool swept = b->c.step == NULL;
+    wt_status status = swept ? strain_sweeps_take(b, rows, &n) : WT_OK;
+    if (status == WT_OK && swept)
         status = ramps_take(b, rows, &n);
-    if (status == WT_OK && b->c.strain != NULL)
+    if (status == WT_OK && swept && b->c.strain != NULL)
         part_amplitudes(b, rows, n);
     return status == WT_OK ? split_rows(b, rows, n) : status;
 }
@@ -240,6 +241,8 @@ static size_t n_sweeps(const wt_sweep *s)
 static void say_what_follows(const sweep_builder *b)
 {
     const sweep_columns *c = &b->c;
+    if (c->step != NULL)
+        return;
     if (!c->has_storage || !c->has_loss)
         wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL, "only the %s was measured",
                         c->has_storage ? "storage modulus"
@@ -276,12 +279,33 @@ static wt_status check_deformation(const sweep_builder *b)
     return WT_OK;
 }
 
+/* One master curve is of one kind. */
+static wt_status fail_mixed(wt_loading before, wt_loading now, wt_error *err)
+{
+    static const char *const words[] = {[WT_OSCILLATION] = "oscillation",
+                                        [WT_RELAXATION] = "stress relaxation",
+                                        [WT_CREEP] = "creep"};
+    wt_fail(err, WT_E_UNIT, "%s and %s in one sweep", words[before], words[now]);
+    wt_error_expected(err, "isotherms that were all measured in one way");
+    wt_error_advice(err, "give the files of each apart");
+    return WT_E_UNIT;
+}
+
 static wt_status read_table(sweep_builder *b)
 {
     wt_status status = text_table_require(b->table, WT_KIND_SWEEP, b->err);
     if (status != WT_OK)
         return status;
     b->c = sweep_find_columns(b->table, b->options->deformation);
+    if ((b->c.step != NULL) != b->steps)
+        return WT_OK;
+    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency)) {
+        b->lacks_frequency = true;
+        return text_table_problem(
+            b->table, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY), b->err);
+    }
+    if (n_sweeps(b->sweep) > 0 && b->c.loading != b->sweep->loading)
+        return fail_mixed(b->sweep->loading, b->c.loading, b->err);
     if (n_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
         wt_fail(b->err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_place(b->err, "line %zu", b->table->names_line);
@@ -292,6 +316,7 @@ static wt_status read_table(sweep_builder *b)
     if (status != WT_OK)
         return status;
     b->sweep->deformation = b->c.deformation;
+    b->sweep->loading = b->c.loading;
     say_what_follows(b);
     b->rows = malloc((b->table->n_rows + 1) * sizeof *b->rows);
     if (b->rows == NULL)
@@ -312,6 +337,8 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
                           to->deformation == WT_TENSION ? "tension (E)" : "shear (G)");
         return WT_E_UNIT;
     }
+    if (n_sweeps(to) > 0 && to->loading != from->loading)
+        return fail_mixed(to->loading, from->loading, err);
     wt_isotherm *isotherms =
         realloc(to->isotherms, (n + from->n_isotherms + 1) * sizeof *to->isotherms);
     to->isotherms = isotherms != NULL ? isotherms : to->isotherms;
@@ -332,6 +359,7 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
     to->n_isotherms = n + from->n_isotherms;
     to->n_ramps = n_ramps + from->n_ramps;
     to->deformation = from->deformation;
+    to->loading = from->loading;
     from->n_isotherms = from->n_ramps = from->n_strain_sweeps = 0;
     wt_sweep_sort(to);
     return WT_OK;
@@ -342,18 +370,35 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
 {
     wt_sweep made = {.n_isotherms = 0};
     wt_status status = WT_OK;
-    for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
-        sweep_builder b = {.file = file,
-                           .table = &file->tables[i],
-                           .options = options,
-                           .log = log,
-                           .sweep = &made,
-                           .err = err};
-        status = read_table(&b);
-    }
+    const text_table *lacking = NULL;
+    size_t n_steps = 0;
+    /* Of a file of several tests the steps of strain or stress only if it has no sweep. */
+    for (int pass = 0; pass < 2 && n_sweeps(&made) == 0; pass++)
+        for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
+            sweep_builder b = {.file = file,
+                               .table = &file->tables[i],
+                               .options = options,
+                               .log = log,
+                               .sweep = &made,
+                               .steps = pass == 1,
+                               .err = err};
+            status = read_table(&b);
+            n_steps += pass == 0 && b.c.step != NULL;
+            lacking = b.lacks_frequency ? b.table : lacking;
+        }
+    if (n_steps > 0 && made.loading == WT_OSCILLATION)
+        wt_parselog_add(log, WT_NOTE, file->name, NULL,
+                        "%zu test%s of relaxation or creep left out beside the sweeps", n_steps,
+                        n_steps > 1 ? "s" : "");
     for (size_t i = 0; i < file->steps.n; i++)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps.items[i]);
+    if (status == WT_OK && n_sweeps(&made) == 0 && lacking != NULL) {
+        status = wt_fail(err, WT_E_MISSING, "no frequency");
+        wt_error_place(err, "table at line %zu", lacking->names_line);
+        wt_error_expected(err, "a column of frequency");
+        wt_error_advice(err, "give the one of all points with --frequency 10Hz");
+    }
     if (status == WT_OK && n_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
     if (status == WT_OK)

@@ -12,8 +12,9 @@
 
 typedef struct sweep_columns {
     const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain,
-        *time;
+        *time, *step;  /* step: relaxation modulus or creep compliance */
     double to_angular; /* 2 pi for a frequency in Hz */
+    wt_loading loading;
     wt_deformation deformation;
     bool has_storage, has_loss; /* measured, or following from what was */
 } sweep_columns;
@@ -27,8 +28,10 @@ typedef struct sweep_builder {
     wt_sweep *sweep;
     size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
     size_t n;
-    bool amplitudes; /* they took turns, so that an isotherm has its own in its name */
-    size_t sample;   /* of the rows, or NO_SAMPLE */
+    bool steps;           /* only tables of relaxation or creep are read, else only others */
+    bool lacks_frequency; /* of the table, and nobody says it */
+    bool amplitudes;      /* they took turns, so that an isotherm has its own in its name */
+    size_t sample;        /* of the rows, or NO_SAMPLE */
     wt_error *err;
 } sweep_builder;
 

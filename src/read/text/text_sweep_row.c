@@ -7,6 +7,22 @@
 #include <math.h>
 #include <string.h>
 
+/* A table with a frequency is of an oscillation, whatever else it has. */
+static void find_step(const text_table *t, bool tension, sweep_columns *c)
+{
+    const text_column *const modulus =
+        text_table_column(t, tension ? WT_Q_RELAXATION_MODULUS : WT_Q_SHEAR_RELAXATION_MODULUS, -1);
+    const text_column *const compliance =
+        text_table_column(t, tension ? WT_Q_CREEP_COMPLIANCE : WT_Q_SHEAR_CREEP_COMPLIANCE, -1);
+    if (c->frequency != NULL || c->time == NULL || (modulus == NULL && compliance == NULL))
+        return;
+    c->step = modulus != NULL ? modulus : compliance;
+    c->loading = modulus != NULL ? WT_RELAXATION : WT_CREEP;
+    c->has_storage = true; /* in its place */
+    c->has_loss = false;
+    c->strain = c->factor = NULL; /* a strain that creeps is no amplitude */
+}
+
 sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
 {
     sweep_columns c = {.to_angular = 1};
@@ -31,11 +47,16 @@ sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
     const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
     c.has_storage = c.storage != NULL || two;
     c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
+    find_step(t, tension, &c);
     return c;
 }
 
 double sweep_angular(const sweep_builder *b, size_t row)
 {
+    if (b->c.step != NULL)
+        return 1 / text_table_value(b->table, row, b->c.time);
+    if (b->c.frequency == NULL)
+        return 2 * M_PI * b->options->frequency;
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
@@ -48,6 +69,10 @@ double sweep_storage(const sweep_builder *b, size_t row)
 {
     if (!b->c.has_storage)
         return (double)NAN;
+    if (b->c.step != NULL) {
+        const double value = text_table_value(b->table, row, b->c.step);
+        return b->c.loading == WT_CREEP ? 1 / value : value;
+    }
     if (b->c.storage != NULL)
         return text_table_value(b->table, row, b->c.storage);
     if (b->c.magnitude == NULL) {
@@ -95,6 +120,9 @@ bool sweep_is_point(const sweep_builder *b, size_t row)
     /* Some programs part segments by rows of a negative time. */
     const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
     const bool alone = !c->has_storage && !c->has_loss;
+    /* The step itself is at no time, and nothing has crept yet. */
+    if (c->step != NULL && !(isfinite(sweep_angular(b, row)) && isfinite(sweep_storage(b, row))))
+        return false;
     return !marker && sweep_angular(b, row) > 0 &&
            !(c->has_storage && isnan(sweep_storage(b, row))) &&
            !(c->has_loss && isnan(sweep_loss(b, row))) && !(alone && isnan(sweep_factor(b, row)));
@@ -115,6 +143,56 @@ void sweep_source(const sweep_builder *b, char *source, size_t size)
     const size_t length = strlen(end);
     text_copy(source, size - length, (text_span){name, strlen(name)});
     memcpy(source + strlen(source), end, length + 1);
+}
+
+/* A number at the beginning of the text, as long as it can be; its length, or 0. */
+static size_t number_length(const char *text)
+{
+    const char *at = text + strspn(text, "+-");
+    const size_t whole = strspn(at, "0123456789");
+    if (at - text > 1 || whole == 0)
+        return 0;
+    at += whole;
+    if ((*at == '.' || *at == ',') && strspn(at + 1, "0123456789") > 0)
+        at += 1 + strspn(at + 1, "0123456789");
+    return (size_t)(at - text);
+}
+
+/* Whether the name is of the pattern; *value: what stands for its "#". A number is taken whole. */
+static bool match_name(const char *pattern, const char *name, double *value)
+{
+    for (; *pattern != '\0'; pattern++, name++) {
+        if (*pattern == '*') {
+            for (;; name++) {
+                if (match_name(pattern + 1, name, value))
+                    return true;
+                if (*name == '\0')
+                    return false;
+            }
+        }
+        if (*pattern == '#') {
+            const size_t n = number_length(name);
+            const char mark = memchr(name, ',', n) != NULL ? ',' : '.';
+            return n > 0 && wt_number_parse(name, n, mark, value) &&
+                   match_name(pattern + 1, name + n, &(double){0});
+        }
+        if (*pattern != *name)
+            return false;
+    }
+    return *name == '\0';
+}
+
+static wt_status temperature_in_name(const sweep_builder *b, double *temperature)
+{
+    const char *pattern = b->options->temperature_in_name, *name = wt_path_base(b->file->name);
+    if (!match_name(pattern, name, temperature)) {
+        wt_fail(b->err, WT_E_MISSING, "no temperature in the name of the file");
+        wt_error_expected(b->err, "a name like \"%s\"", pattern);
+        wt_error_found(b->err, "\"%s\"", name);
+        return WT_E_MISSING;
+    }
+    *temperature += WT_ZERO_CELSIUS;
+    return WT_OK;
 }
 
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread)
@@ -141,6 +219,10 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
                             header - WT_ZERO_CELSIUS);
     } else if (n > 0) {
         *temperature = mean;
+    } else if (b->options->temperature_in_name != NULL) {
+        const wt_status status = temperature_in_name(b, temperature);
+        if (status != WT_OK)
+            return status;
     } else if (!isnan(b->options->temperature) || b->options->any_temperature) {
         *temperature = b->options->temperature;
     } else {
@@ -150,7 +232,8 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         wt_fail(b->err, WT_E_MISSING, "no temperature");
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
         wt_error_expected(b->err, "a column of temperature or a header line that tells it");
-        wt_error_advice(b->err, "give it with --temperature 25degC");
+        wt_error_advice(b->err, "give it with --temperature 25degC, or say where it stands in the "
+                                "names of the files with --temperature-in-name \"*_#C*\"");
         return WT_E_MISSING;
     }
     if (*temperature <= 0) {

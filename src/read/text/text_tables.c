@@ -58,7 +58,12 @@ static const char *usual_unit(wt_quantity quantity)
     case WT_Q_LOSS_MODULUS:
     case WT_Q_SHEAR_STORAGE_MODULUS:
     case WT_Q_SHEAR_LOSS_MODULUS:
+    case WT_Q_RELAXATION_MODULUS:
+    case WT_Q_SHEAR_RELAXATION_MODULUS:
         return "MPa";
+    case WT_Q_CREEP_COMPLIANCE:
+    case WT_Q_SHEAR_CREEP_COMPLIANCE:
+        return "1/MPa";
     case WT_Q_TEMPERATURE:
         return "degC";
     case WT_Q_HEIGHT:
