@@ -91,8 +91,12 @@ extern const double master_largest_sigma;
 wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
 /* Whether the lack of fit is real and matters. */
 bool master_misfit_is_real(const lack_of_fit *lack);
+/* Whether superposition is not said to hold for a lack of fit, be it small. */
+bool master_misfit_is_likely(const lack_of_fit *lack);
 /* Whether a factor on all E'' is real and matters. */
 bool master_loss_is_off(const lack_of_fit *lack);
+/* Whether it is all that does: it leaves the shifts what they are. */
+bool master_is_factor(const lack_of_fit *lack);
 
 /* For the reference of the options. *better: where the fit failed for want of overlap, NaN or the
  * temperature of an isotherm that changes much more than the one it was started from. */

@@ -98,35 +98,37 @@ static double doubt_of_spectrum(const master_work *work, size_t i)
     bool given = false;
     for (size_t k = 0; k < work->set.n; k++)
         given = given || work->set.curves[k].given;
-    if (given || master_loss_is_off(&work->lack))
+    if (given || master_is_factor(&work->lack))
         return 0.0; /* what is given may be what misses; a factor on all E'' leaves the shifts */
-    return hypot(work->lack.parted * work->own_a[i],
-                 missed_shift(work, work->missed[STORAGE], work->anchor, i));
+    const double missed = sqrt(work->lack.beyond) * work->missed[STORAGE];
+    return hypot(work->lack.parted * work->own_a[i], missed_shift(work, missed, work->anchor, i));
 }
 
-/* Of one shift, by both. Where the overlaps tell little they are no reason to doubt a spectrum. */
+/* Of one shift by the overlaps. Where they tell little they are no reason to doubt a spectrum. */
 static double squared_doubt(const master_work *work, size_t i)
 {
     const overlap_link *link = &work->link[i];
     const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
-    const double own = by_overlap ? 0.0 : pow(doubt_of_spectrum(work, i), 2);
     if (!link->placed)
-        return own;
+        return 0.0;
     const double square = common_steps(work, i, i) + link->error * link->error;
     double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
     if (!by_overlap)
         off = fmax(off - agree * sqrt(square), 0.0);
-    return (by_overlap ? square : own) + link->spread * link->spread + off * off;
+    return (by_overlap ? square : 0.0) + link->spread * link->spread + off * off;
 }
 
-/* The error of a shift where superposition fails: what the places of the overlaps disagree by, and
- * what spectrum and overlaps do. The law takes it as that of steps that err one by one, larger by
- * so much that the errors are as large together: that all err in the same way leaves its form
- * alone. */
+/* The error of a shift where superposition fails or may do so: what the places of the overlaps
+ * disagree by, what spectrum and overlaps do, and what the misfit leaves open. The law takes it as
+ * that of steps that err one by one, larger by so much that the errors are as large together: that
+ * all err in the same way leaves its form alone. What only may be, it takes for nothing: in the
+ * place of a law of the shifts as they are it would have none. */
 static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     wt_posterior *p = work->posterior;
+    const bool may = work->route != WT_SHIFTS_OF_OVERLAP && !master_misfit_is_real(&work->lack);
+    const bool fails = !may && !master_loss_is_off(&work->lack);
     double all = 0.0, steps = 0.0;
     p->doubt = pool_numbers(&p->memory, work->s->n_curves);
     p->doubts = pool_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
@@ -135,9 +137,11 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     for (size_t i = 0; i < n; i++) {
         if (!work->placed[i])
             continue;
+        const double own = work->route == WT_SHIFTS_OF_OVERLAP ? 0.0 : doubt_of_spectrum(work, i);
         const double square = squared_doubt(work, i);
-        p->doubt[work->curve[i]] = sqrt(square);
-        all += work->link[i].placed ? square : 0.0;
+        const double sure = fails ? square + own * own : square;
+        p->doubt[work->curve[i]] = hypot(sqrt(square), own);
+        all += work->link[i].placed ? sure : 0.0;
         steps += work->link[i].placed ? common_steps(work, i, i) : 0.0;
         for (size_t k = 0; k < n; k++)
             if (work->placed[k] && work->link[i].placed && work->link[k].placed &&
@@ -145,10 +149,12 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
                 gsl_matrix_set(p->doubts, work->curve[i], work->curve[k], common_steps(work, i, k));
     }
     gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
+    if (may)
+        gsl_matrix_set_zero(p->doubts);
     for (size_t i = 0; i < n; i++) /* without an overlap it errs alone */
         if (work->placed[i] && !work->link[i].placed)
             gsl_matrix_set(p->doubts, work->curve[i], work->curve[i],
-                           pow(p->doubt[work->curve[i]], 2));
+                           fails ? pow(p->doubt[work->curve[i]], 2) : 0.0);
     return WT_OK;
 }
 

@@ -163,10 +163,11 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
     }
     if (!overlap && status == WT_OK && work->gross)
         status = fit_plainly(work, &failure);
-    if (!overlap && status == WT_OK && work->tested && master_misfit_is_real(&work->lack) &&
+    if (!overlap && status == WT_OK && work->tested && master_misfit_is_likely(&work->lack) &&
         work->set.used[STORAGE])
         status = master_doubt(work, &failure);
-    if (!overlap && status == WT_OK && master_doubts_all(work)) {
+    if (!overlap && status == WT_OK && master_misfit_is_real(&work->lack) &&
+        master_doubts_all(work)) {
         status = master_may_overlap(work, &overlap, err);
         if (status != WT_OK)
             return status;

@@ -24,6 +24,13 @@ static size_t count_outliers(const spectrum *s, size_t curve)
 static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
                             wt_master_shift *shift)
 {
+    /* one that may be open because superposition may fail, or E'' is off and a little more with it,
+     * is told, with an error that says so */
+    const bool fails = work->posterior->doubt != NULL && master_misfit_is_real(&work->lack) &&
+                       !master_loss_is_off(&work->lack);
+    const double own = fails || !work->placed[i]
+                           ? a->standard_error
+                           : posterior_fit_error(work->posterior, work->curve[i]);
     if (work->set.curves[i].n < SHIFT_MIN_POINTS)
         master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
     else if (!work->placed[i])
@@ -32,13 +39,12 @@ static bool is_undetermined(const master_work *work, size_t i, const wt_interval
                                : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_OF_OVERLAP)
         return false; /* each step is */
-    else if (!(a->standard_error <= master_largest_sigma) && work->posterior->doubt != NULL &&
+    else if (fails && !(a->standard_error <= master_largest_sigma) &&
              work->posterior->doubt[work->curve[i]] > master_largest_sigma)
         master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
                     a->standard_error);
-    else if (!(a->standard_error <= master_largest_sigma))
-        master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
-                    a->standard_error);
+    else if (!(own <= master_largest_sigma))
+        master_note(shift, "not determined: no slope decides, error of log aT %.2g decade", own);
     else if (work->options.vertical == WT_VERTICAL_FREE &&
              fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > master_largest_sigma)
         master_note(shift,

@@ -51,6 +51,16 @@ bool master_misfit_is_real(const lack_of_fit *lack)
     return lack->p_sure < significant && lack->misfit_low > matters;
 }
 
+bool master_misfit_is_likely(const lack_of_fit *lack)
+{
+    return lack->p < doubtful;
+}
+
+bool master_is_factor(const lack_of_fit *lack)
+{
+    return master_loss_is_off(lack) && !(lack->p_beyond < significant);
+}
+
 bool master_loss_is_off(const lack_of_fit *lack)
 {
     return lack->kk < loss_significant &&
@@ -151,7 +161,7 @@ void master_judge(const master_work *work, wt_master *m)
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
             "points, would tell",
             at_most(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
-    } else if (lack->p < doubtful) {
+    } else if (master_misfit_is_likely(lack)) {
         clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
                       number_chance(lack->p).text, at_most(lack->misfit_high));
     } else if (window < least_window) {

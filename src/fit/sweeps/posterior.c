@@ -259,6 +259,29 @@ static wt_status parts_without_law(wt_posterior *p, wt_error *err)
     return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
 }
 
+/* Factor of the covariance of the doubts; of what has none, as the reference, it is 0. */
+static wt_status factor_doubts(wt_posterior *p, wt_error *err)
+{
+    const size_t n = p->frame.n_curves;
+    if (p->doubts == NULL)
+        return WT_OK;
+    gsl_matrix *root = p->doubts_root = pool_matrix(&p->memory, n, n);
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k <= i; k++) {
+            double sum = gsl_matrix_get(p->doubts, i, k);
+            for (size_t j = 0; j < k; j++)
+                sum -= gsl_matrix_get(root, i, j) * gsl_matrix_get(root, k, j);
+            const double pivot = gsl_matrix_get(root, k, k);
+            gsl_matrix_set(root, i, k,
+                           i == k        ? sqrt(fmax(sum, 0.0))
+                           : pivot > 0.0 ? sum / pivot
+                                         : 0.0);
+        }
+    return WT_OK;
+}
+
 wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
 {
     const size_t n = p->frame.n_curves;
@@ -272,6 +295,9 @@ wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
                          .scratch = pool_numbers(&p->memory, n * (LAW_MOST + 2))};
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
+    const wt_status doubts = factor_doubts(p, err);
+    if (doubts != WT_OK)
+        return doubts;
     weigh_cells(p);
     shifts_of(p, posterior_best(p));
     wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")

@@ -46,8 +46,9 @@ struct wt_posterior {
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
     wt_shift_by by;
     double *doubt; /* [n_curves] error of the shifts beside that of the fit [decade], or NULL */
-    gsl_matrix *doubts; /* [n_curves^2] its covariance as the law takes it */
-    double anchor_a;    /* log10 a of the anchor against the reference temperature */
+    gsl_matrix *doubts;      /* [n_curves^2] its covariance as the law takes it */
+    gsl_matrix *doubts_root; /* factor of it */
+    double anchor_a;         /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;
     size_t n_cells, n_parts;
@@ -70,7 +71,8 @@ wt_status posterior_close(wt_posterior *p, double reference, wt_error *err) WT_N
 /* Column of the unknown a of a curve; false for the anchor. */
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
 
-wt_interval posterior_a(const wt_posterior *p, size_t curve); /* decades, as measured */
+wt_interval posterior_a(const wt_posterior *p, size_t curve);    /* decades, as measured */
+double posterior_fit_error(const wt_posterior *p, size_t curve); /* of that, without doubts */
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve);
 wt_interval posterior_b(const wt_posterior *p, size_t curve);
 /* What log a moves by with log b, along the valley of equally good fits. */

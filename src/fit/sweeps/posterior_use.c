@@ -45,6 +45,12 @@ wt_interval posterior_a(const wt_posterior *p, size_t curve)
                      doubt_of(p, curve));
 }
 
+double posterior_fit_error(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
+        .standard_error;
+}
+
 /* ln b of a curve whose b is no unknown. */
 static double held_b(const wt_posterior *p, size_t curve)
 {
@@ -370,6 +376,16 @@ static void keep_linear(const wt_posterior *p, const posterior_part *part, doubl
     }
 }
 
+/* Takes from the gap what the shifts may err by beside the fit; e: [n_curves] scratch. */
+static void draw_doubts(const wt_posterior *p, struct stream *s, double *e, gsl_vector *gap)
+{
+    for (size_t k = 0; k < p->frame.n_curves; k++) {
+        e[k] = draw_normal(s);
+        for (size_t i = 0; i <= k; i++)
+            *gsl_vector_ptr(gap, k) -= gsl_matrix_get(p->doubts_root, k, i) * e[i];
+    }
+}
+
 /* Spectrum and shifts drawn without the law, then pulled to what the drawn law foretells. */
 wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
                          double unknown[LAW_MOST], double *log_b, wt_error *err)
@@ -398,6 +414,8 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
                          a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
             gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * draw_normal(&s));
         }
+        if (p->doubts_root != NULL)
+            draw_doubts(p, &s, e->data, gap);
         gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
         add_pull(p, part, pull, 1.0, value);
     }

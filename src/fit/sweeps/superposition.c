@@ -22,7 +22,7 @@ static const int first_power[MODULI] = {1, 0};
 enum { LEAST_PARABOLA = 6, POWERS = 3 };
 /* Places in the spectrum where slow times may part from fast ones: few, so that they see what grows
  * with the shift and is small in each isotherm. */
-enum { PARTINGS = 3 };
+enum { PARTINGS = 3, FACTOR = PARTINGS, WITH_FACTOR };
 /* The smaller p of so many counts, times their number. */
 static const double tests = 2.0;
 /* What is left of a column, of its square, below which the model has it: 1e-3 of its
@@ -53,6 +53,12 @@ struct columns {
     double *border[MOST_COLUMNS];                /* [n_linear] with the terms, shifts taken out */
 };
 
+/* Squares of the residuals that so many columns explain, which have only the terms in common. */
+typedef struct explanation {
+    double explained;
+    size_t rank;
+} explanation;
+
 struct extra {
     const spectrum *s;
     pool memory;
@@ -62,8 +68,7 @@ struct extra {
     gsl_matrix *together; /* [n_linear^2] what the columns have in common through the terms */
     double *toward;       /* [n_linear] the same with the residuals */
     double *share;        /* [PARTINGS * n_terms] how much a term follows a parting */
-    double explained;     /* squares, of columns that have only the terms in common */
-    size_t rank;
+    explanation got;
     double squares, points, freedom;
     double uncertainty; /* variance of ln of the variance of what columns explain */
 };
@@ -226,17 +231,18 @@ static void take_out_terms(const struct extra *x, struct columns *c)
 }
 
 /* How far the times of the measured range part from the shifts, as a share of those: half of the
- * range of what the partings, fitted together, make of the terms. */
+ * range of what the partings, fitted together with the factor, make of the terms. */
 static double parted_share(const struct extra *x, const struct columns *c)
 {
     const spectrum *s = x->s;
-    double matrix[PARTINGS * PARTINGS] = {0.0}, by[PARTINGS], low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t p = 0; p < PARTINGS; p++) {
+    double matrix[WITH_FACTOR * WITH_FACTOR] = {0.0}, by[WITH_FACTOR], low = HUGE_VAL,
+                                high = -HUGE_VAL;
+    for (size_t p = 0; p < WITH_FACTOR; p++) {
         by[p] = c->right[p];
         for (size_t k = 0; k <= p; k++)
-            matrix[p * PARTINGS + k] = c->product[p * MOST_COLUMNS + k];
+            matrix[p * WITH_FACTOR + k] = c->product[p * MOST_COLUMNS + k];
     }
-    if (!cholesky_solve(matrix, PARTINGS, PARTINGS, 0.0, by))
+    if (!cholesky_solve(matrix, WITH_FACTOR, WITH_FACTOR, 0.0, by))
         return 1.0; /* too little is left of them to tell: it may be all of a shift */
     for (size_t j = s->n_fast; j < s->n_measured; j++) {
         double sum = 0.0;
@@ -293,8 +299,8 @@ static void orthogonalise(struct extra *x, struct columns *c)
         }
     }
     for (size_t i = 0; i < c->n; i++)
-        x->explained += c->right[i] * c->right[i];
-    x->rank += c->n;
+        x->got.explained += c->right[i] * c->right[i];
+    x->got.rank += c->n;
 }
 
 /* What orthogonal columns of an isotherm have in common with all others. */
@@ -334,8 +340,8 @@ static wt_status take_out_together(struct extra *x, wt_error *err)
         double sum = 0.0;
         for (size_t i = 0; i < m; i++)
             sum += gsl_matrix_get(vector, i, k) * x->toward[i];
-        x->explained += left > least_left ? sum * sum / left : -sum * sum / taken;
-        x->rank -= left > least_left ? 0 : 1;
+        x->got.explained += left > least_left ? sum * sum / left : -sum * sum / taken;
+        x->got.rank -= left > least_left ? 0 : 1;
     }
     return WT_OK;
 }
@@ -343,8 +349,7 @@ static wt_status take_out_together(struct extra *x, wt_error *err)
 /* A line and a parabola of each isotherm. */
 static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error *err)
 {
-    x->explained = 0.0;
-    x->rank = 0;
+    x->got = (explanation){0.0, 0};
     for (size_t i = 0; i < x->s->n_curves; i++) {
         fill_columns(x, i);
         clear_products(x, x->n, c);
@@ -356,8 +361,9 @@ static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error 
     return take_out_together(x, err);
 }
 
-/* A second process has a law of its own: slow and fast times part in proportion to the shift. */
-static wt_status explain_partings(struct extra *x, struct columns *c, double *parted, wt_error *err)
+/* A second process has a law of its own: slow and fast times part in proportion to the shift. With
+ * the columns of the partings is that of a factor on E''. */
+static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
 {
     const spectrum *s = x->s;
     double *share = x->share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
@@ -366,7 +372,7 @@ static wt_status explain_partings(struct extra *x, struct columns *c, double *pa
     if (x->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
     follow_partings(s, share);
-    clear_products(x, PARTINGS, c);
+    clear_products(x, WITH_FACTOR, c);
     for (size_t i = 0; i < s->n_curves; i++) {
         clear_columns(x);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
@@ -374,15 +380,21 @@ static wt_status explain_partings(struct extra *x, struct columns *c, double *pa
         for (size_t p = 0; p < PARTINGS; p++)
             for (int q = 0; q < MODULI; q++)
                 spectrum_whiten(s, i, q, column_of(x, p, q), 1);
+        x->n = FACTOR;
+        add_column(x, i, LOSS, 0);
         add_products(x, i, c);
     }
     scale_products(x, c);
     take_out_terms(x, c);
-    *parted = parted_share(x, c);
-    x->explained = 0.0;
-    x->rank = 0;
-    orthogonalise(x, c);
     return WT_OK;
+}
+
+/* What the partings explain. */
+static void explain_partings(struct extra *x, struct columns *c)
+{
+    c->n = PARTINGS;
+    x->got = (explanation){0.0, 0};
+    orthogonalise(x, c);
 }
 
 /* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
@@ -434,16 +446,26 @@ static double known_freedom(const struct extra *x, double left)
     return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(least_known, left));
 }
 
+/* Degrees of freedom that k columns leave, and the variance that is left once they explain q. */
+static double left_by(const struct extra *x, double k)
+{
+    return fmax(x->points - x->freedom - k, 1.0);
+}
+
+static double variance_left(const struct extra *x, double q, double k)
+{
+    return fmax(x->squares - q, least_squares * x->squares) / left_by(x, k);
+}
+
 /* Probability and misfit of what the columns explain, if that is less likely than what is in
  * `result`; the misfit is the larger one. */
 static void judge_columns(const struct extra *x, lack_of_fit *result)
 {
     const spectrum *s = x->s;
-    const double q = x->explained, k = (double)x->rank;
-    if (x->rank == 0)
+    const double q = x->got.explained, k = (double)x->got.rank, left = left_by(x, k);
+    const double variance = variance_left(x, q, k);
+    if (x->got.rank == 0)
         return;
-    const double left = fmax(x->points - x->freedom - k, 1.0);
-    const double variance = fmax(x->squares - q, least_squares * x->squares) / left;
     const double known = known_freedom(x, left);
     const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
     const double above = q / variance;
@@ -454,23 +476,21 @@ static void judge_columns(const struct extra *x, lack_of_fit *result)
         fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
 }
 
-/* One column of all isotherms: a factor on E''. */
-static void test_factor(struct extra *x, struct columns *c, lack_of_fit *result)
+/* The column of all isotherms is a factor on E''. It is among those of the isotherms, of which
+ * `lines` explain so much: what they explain beside it is no matter of a factor. */
+static void test_factor(const struct extra *x, const struct columns *c, explanation lines,
+                        lack_of_fit *result)
 {
-    clear_products(x, 1, c);
-    for (size_t i = 0; i < x->s->n_curves; i++) {
-        clear_columns(x);
-        add_column(x, i, LOSS, 0);
-        add_products(x, i, c);
-    }
-    scale_products(x, c);
-    take_out_terms(x, c);
-    const double d = c->product[0], r = c->right[0], scale = c->length[0];
-    const double left = fmax(x->points - x->freedom - 1.0, 1.0);
+    const double d = c->product[FACTOR * MOST_COLUMNS + FACTOR], r = c->right[FACTOR];
+    const double left = left_by(x, 1.0), q = fmax(lines.explained - r * r / d, 0.0);
     const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
-    const double known = known_freedom(x, left);
-    result->factor = r / d / scale;
-    result->factor_error = sqrt(spread / d) / scale;
+    const double known = known_freedom(x, left), k = (double)lines.rank;
+    if (lines.rank > 1)
+        result->p_beyond = gsl_cdf_fdist_Q(q / variance_left(x, lines.explained, k) / (k - 1.0),
+                                           k - 1.0, known_freedom(x, left_by(x, k)));
+    result->beyond = lines.explained > 0.0 ? q / lines.explained : 1.0;
+    result->factor = r / d / c->length[FACTOR];
+    result->factor_error = sqrt(spread / d) / c->length[FACTOR];
     result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
 }
 
@@ -503,16 +523,19 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
         for (size_t k = 0; k < s->n; k++)
             x.points += s->weight[q][k] > 0.0;
     }
-    *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0};
+    *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0, .p_beyond = 1.0};
     if (status == WT_OK)
         status = explain_isotherms(&x, &c, err);
+    const explanation lines = x.got;
     if (status == WT_OK) {
         judge_columns(&x, result);
-        status = explain_partings(&x, &c, &result->parted, err);
+        status = fill_of_all(&x, &c, err);
     }
     if (status == WT_OK) {
+        test_factor(&x, &c, lines, result);
+        result->parted = parted_share(&x, &c);
+        explain_partings(&x, &c);
         judge_columns(&x, result);
-        test_factor(&x, &c, result);
     }
     pool_free(&x.memory);
     return status;

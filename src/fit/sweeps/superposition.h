@@ -10,7 +10,10 @@ typedef struct lack_of_fit {
     double p_sure;                   /* the same with what is not known of the noise */
     double misfit_low, misfit_high;  /* relative, 95 %: the larger of the two */
     double factor, factor_error, kk; /* ln of a common factor on E'' and p of it */
-    double parted; /* share of a shift by which slow and fast times part from it */
+    double p_beyond; /* p_sure of what lines and parabolas find beside that factor */
+    double beyond;   /* and share of the squares that they explain beside it */
+    double
+        parted; /* share of a shift by which slow and fast times part from it, beside that factor */
 } lack_of_fit;
 
 /* From a fit with free vertical shifts; uncertainty: that of its noise (spectrum_within). */
