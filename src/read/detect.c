@@ -33,8 +33,9 @@ typedef struct signature {
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
 #define CURVES "export force curves as text: columns of height and force with their units"
 #define ROUGHNESS                                                                                  \
-    "roughness is taken as a power spectrum: a table of wavenumber and C(q) with their units "     \
-    "(`weartrack formats show table-spectrum`)"
+    "height maps are read as .x3p, .gwy or .gsf: export it so, or open it in Gwyddion and save "   \
+    "it; "                                                                                         \
+    "roughness is taken as a power spectrum, too (`weartrack formats show table-spectrum`)"
 #define RESULT "a result of weartrack (text stream) without measured curves, sweeps or spectra"
 #define TABLES                                                                                     \
     "`weartrack table --list` shows its tables; where something is measured anew, give the file "  \
@@ -46,8 +47,6 @@ typedef struct signature {
     "--columns \"NAME=QUANTITY:UNIT\" for each; or describe its layout in a file "                 \
     "(weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
-    SIGNATURE_AT(30, "main.xml", "a topography (X3P, ISO 25178-72)", ROUGHNESS, true),
-    SIGNATURE_AT(30, "bindata/", "a topography (X3P, ISO 25178-72)", ROUGHNESS, true),
     NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
              "copy a JPK file or a spreadsheet again, unpack any other archive"),
     NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
@@ -57,7 +56,6 @@ static const signature signatures[] = {
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
-    NOT_READ("GWYP", "a Gwyddion file", CURVES "; " ROUGHNESS),
     TOPOGRAPHY("AliconaImaging", "Alicona"),
     TOPOGRAPHY("DIGITAL SURF", "Digital Surf, MountainsMap"),
     TOPOGRAPHY("DSCOMPRESSED", "Digital Surf, MountainsMap"),

@@ -1,6 +1,7 @@
 /* The list of images that a reader makes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/images.h"
 
+#include "base/utf8.h"
 #include "read/reader.h"
 
 #include <math.h>
@@ -32,6 +33,28 @@ void images_set_size(wt_image *head, double width, double height)
 {
     head->width = width * (double)(head->n_columns - 1) / (double)head->n_columns;
     head->height = height * (double)(head->n_rows - 1) / (double)head->n_rows;
+}
+
+void images_set_units(wt_image *head, const char *unit_xy, const char *unit_z, double width,
+                      double height, double *factor)
+{
+    double lateral = 1, offset = 0;
+    snprintf(head->x_unit, sizeof head->x_unit, "m");
+    if (unit_xy[0] == '\0' || wt_unit_to_si(unit_xy, WT_Q_LENGTH, &lateral, &offset, NULL) != WT_OK)
+        lateral = (double)NAN;
+    images_set_size(head, lateral * (width > 0 ? width : (double)NAN),
+                    lateral * (height > 0 ? height : (double)NAN));
+    const bool length =
+        unit_z[0] != '\0' && wt_unit_to_si(unit_z, WT_Q_LENGTH, factor, &offset, NULL) == WT_OK;
+    if (!length)
+        *factor = 1;
+    snprintf(head->unit, sizeof head->unit, "%s", length ? "m" : unit_z[0] != '\0' ? unit_z : "1");
+}
+
+void images_set_name(wt_image *head, const char *name)
+{
+    snprintf(head->name, sizeof head->name, "%s", name);
+    utf8_tidy(head->name);
 }
 
 static void note_missing(wt_image *image, const char *file, wt_parselog *log)

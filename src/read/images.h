@@ -20,6 +20,13 @@ typedef struct image_list {
 wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err);
 /* The size of an area of that many pixels side by side. */
 void images_set_size(wt_image *head, double width, double height);
+/* The area of that many pixels side by side and the unit of the values as texts say: SI units; what
+ * is no length keeps its unit, and without a unit or a size the pixels have no size. *factor makes
+ * the values SI. */
+void images_set_units(wt_image *head, const char *unit_xy, const char *unit_z, double width,
+                      double height, double *factor);
+/* Cut where it is too long, but not within a character. */
+void images_set_name(wt_image *head, const char *name);
 /* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. What is
  * missing of an image, pixels or its size, goes to the log; a size that is none is NaN. */
 wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,

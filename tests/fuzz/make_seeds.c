@@ -206,6 +206,87 @@ static int make_gsf(const char *folder)
                       0);
 }
 
+static void put_number(FILE *out, uint64_t value, size_t width)
+{
+    for (size_t i = 0; i < width; i++)
+        (void)fputc((int)(value >> (8 * i) & 0xff), out);
+}
+
+/* An object of a Gwyddion file, whose size stands before it. */
+static void put_object(FILE *out, const char *name, const char *components, size_t n)
+{
+    (void)fwrite(name, 1, strlen(name) + 1, out);
+    put_number(out, n, 4);
+    (void)fwrite(components, 1, n, out);
+}
+
+static int make_gwy(const char *folder)
+{
+    char path[512], *field = NULL, *unit = NULL, *container = NULL;
+    size_t n_field = 0, n_unit = 0, n_container = 0;
+    FILE *out = open_memstream(&unit, &n_unit);
+    (void)fwrite("unitstr\0sm", 1, 11, out);
+    (void)fclose(out);
+    out = open_memstream(&field, &n_field);
+    (void)fwrite("xres\0i\3\0\0\0yres\0i\2\0\0\0xreal\0d\0\0\0\0\0\0\xf0\x3f", 1, 35, out);
+    (void)fwrite("yreal\0d\0\0\0\0\0\0\xf0\x3fsi_unit_xy\0o", 1, 27, out);
+    put_object(out, "GwySIUnit", unit, n_unit);
+    (void)fwrite("si_unit_z\0o", 1, 11, out);
+    put_object(out, "GwySIUnit", unit, n_unit);
+    (void)fwrite("data\0D\6\0\0\0", 1, 10, out);
+    for (int i = 0; i < 6; i++)
+        put_number(out, UINT64_C(0x3ff0000000000000) + (uint64_t)i, 8);
+    (void)fclose(out);
+    out = open_memstream(&container, &n_container);
+    (void)fwrite("/0/data\0o", 1, 9, out);
+    put_object(out, "GwyDataField", field, n_field);
+    (void)fwrite("/0/data/title\0sHeight", 1, 22, out);
+    (void)fclose(out);
+    path_of(path, sizeof path, folder, "seed0.gwy");
+    out = fopen(path, "wb");
+    if (out == NULL)
+        return -1;
+    (void)fputs("GWYP", out);
+    put_object(out, "GwyContainer", container, n_container);
+    free(field);
+    free(unit);
+    free(container);
+    return fclose(out);
+}
+
+/* Lists of entries, which the target packs. */
+static int make_x3p(const char *folder)
+{
+    static const char *const heights[] = {
+        "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><ValidPointsLink>bindata/"
+        "valid.bin</ValidPointsLink></DataLink>",
+        "<DataList><Datum>1e-6</Datum><Datum/><Datum>3e-6</Datum><Datum>4e-6</Datum></DataList>"};
+    for (int kind = 0; kind < 2; kind++) {
+        char path[512], name[32];
+        snprintf(name, sizeof name, "seed%d.list", kind);
+        path_of(path, sizeof path, folder, name);
+        FILE *out = fopen(path, "wb");
+        if (out == NULL)
+            return -1;
+        fprintf(out,
+                "main.xml\x1e<ISO5436><Record1><FeatureType>SUR</FeatureType><Axes><CX><AxisType>I"
+                "</AxisType><Increment>1e-6</Increment></CX><CY><AxisType>I</AxisType><Increment>"
+                "1e-6</Increment></CY><CZ><AxisType>A</AxisType><DataType>%c</DataType></CZ></Axes>"
+                "</Record1><Record3><MatrixDimension><SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1"
+                "</SizeZ></MatrixDimension>%s</Record3></ISO5436>",
+                kind == 0 ? 'I' : 'D', heights[kind]);
+        if (kind == 0)
+            (void)fwrite("\x1f"
+                         "bindata/data.bin\x1e"
+                         "abcdefgh\x1f"
+                         "bindata/valid.bin\x1e\7",
+                         1, 47, out);
+        if (fclose(out) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 /* ---- NanoScope, Park --------------------------------------------------------------------------
  */
 
@@ -376,6 +457,7 @@ int main(int argc, char *argv[])
         int (*make)(const char *folder);
     } targets[] = {{"afmformats", make_afmformats},
                    {"gsf", make_gsf},
+                   {"gwy", make_gwy},
                    {"ibw", make_ibw},
                    {"jpk", make_jpk},
                    {"nanoscope", make_nanoscope},
@@ -384,7 +466,8 @@ int main(int argc, char *argv[])
                    {"ntmdt", make_ntmdt},
                    {"packed", make_packed},
                    {"park", make_park},
-                   {"properties", make_properties}};
+                   {"properties", make_properties},
+                   {"x3p", make_x3p}};
     char folder[256];
     if (argc != 2) {
         fprintf(stderr, "usage: make_seeds FOLDER\n");

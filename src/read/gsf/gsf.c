@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/number.h"
-#include "base/utf8.h"
 #include "read/bytes/window.h"
 #include "read/images.h"
 #include "read/reader.h"
@@ -112,27 +111,12 @@ static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
     return WT_OK;
 }
 
-/* SI units; what is no length keeps its unit. Without the size of an area the pixels have none.
- * Places count from the lower left corner: the offsets, which point downwards, are not taken. */
+/* Places count from the lower left corner: the offsets, which point downwards, are not taken. */
 static void make_head(const gsf_header *h, wt_image *head, double *factor)
 {
-    double lateral = 1, offset = 0;
-    *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows, .x_unit = "m"};
-    if (h->unit_xy[0] == '\0' ||
-        wt_unit_to_si(h->unit_xy, WT_Q_LENGTH, &lateral, &offset, NULL) != WT_OK)
-        lateral = (double)NAN;
-    images_set_size(head, lateral * (h->width > 0 ? h->width : (double)NAN),
-                    lateral * (h->height > 0 ? h->height : (double)NAN));
-    snprintf(head->name, sizeof head->name, "%s", h->title[0] != '\0' ? h->title : "field");
-    utf8_tidy(head->name); /* it may be cut within a character */
-    const bool length = h->unit_z[0] != '\0' &&
-                        wt_unit_to_si(h->unit_z, WT_Q_LENGTH, factor, &offset, NULL) == WT_OK;
-    if (!length)
-        *factor = 1;
-    snprintf(head->unit, sizeof head->unit, "%s",
-             length                 ? "m"
-             : h->unit_z[0] != '\0' ? h->unit_z
-                                    : "1");
+    *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows};
+    images_set_units(head, h->unit_xy, h->unit_z, h->width, h->height, factor);
+    images_set_name(head, h->title[0] != '\0' ? h->title : "field");
 }
 
 static wt_status gsf_images(const file_reader *self, wt_input *input,

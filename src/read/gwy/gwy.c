@@ -1,0 +1,158 @@
+/* Gwyddion's own files (.gwy): "GWYP", then a container of objects, of which the data fields
+ * "/N/data" are images. Lines stand in them with the uppermost first.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/number.h"
+#include "read/gwy/gwy_object.h"
+#include "read/images.h"
+#include "read/reader.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* More fields than anybody keeps; each looks through the container for its title. */
+enum { MOST_FIELDS = 1000 };
+static const char signature[] = "GWYP";
+
+static wt_status corrupt(wt_error *err, const char *place, const char *message)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "%s", place);
+    wt_error_expected(err, "components that end with their object");
+    return WT_E_CORRUPT;
+}
+
+/* The number N of "/N" and what follows it; false for another key. */
+static bool channel_of(const char *key, const char *rest, unsigned long *number)
+{
+    char *end = NULL;
+    if (key[0] != '/' || key[1] < '0' || key[1] > '9')
+        return false;
+    *number = strtoul(key + 1, &end, 10);
+    return strcmp(end, rest) == 0;
+}
+
+/* The unit of an axis: an object with a text; "" if it is not there. */
+static const char *unit_of(gwy_bytes field, const char *key)
+{
+    gwy_component unit, text;
+    gwy_bytes inside;
+    const char *name = NULL;
+    if (!gwy_find(field, key, 'o', &unit) || !gwy_object(&unit.value, &name, &inside) ||
+        !gwy_find(inside, "unitstr", 's', &text))
+        return "";
+    return (const char *)text.value.at;
+}
+
+static double length_of(gwy_bytes field, const char *key)
+{
+    gwy_component c;
+    return gwy_find(field, key, 'd', &c) ? gwy_double(&c) : (double)NAN;
+}
+
+static wt_status add_field(image_list *list, gwy_bytes field, const char *key, const char *title,
+                           wt_error *err)
+{
+    gwy_component columns, rows, data;
+    double factor = 1, *values = NULL;
+    if (!gwy_find(field, "xres", 'i', &columns) || !gwy_find(field, "yres", 'i', &rows) ||
+        !gwy_find(field, "data", 'D', &data))
+        return corrupt(err, key, "a field without its size or its data");
+    wt_image head = {.n_columns = gwy_count(&columns), .n_rows = gwy_count(&rows)};
+    if (head.n_columns == 0 || head.n_rows == 0 || data.n / head.n_columns != head.n_rows ||
+        data.n % head.n_columns != 0) {
+        corrupt(err, key, "the data of a field contradict its size");
+        wt_error_found(err, "%zu x %zu pixels and %zu values", head.n_columns, head.n_rows, data.n);
+        return WT_E_CORRUPT;
+    }
+    images_set_units(&head, unit_of(field, "si_unit_xy"), unit_of(field, "si_unit_z"),
+                     length_of(field, "xreal"), length_of(field, "yreal"), &factor);
+    images_set_name(&head, title[0] != '\0' ? title : key);
+    const wt_status status = images_add(list, &head, &values, err);
+    for (size_t row = 0; status == WT_OK && row < head.n_rows; row++)
+        (void)samples_decode(SAMPLE_FLOAT64, false,
+                             data.value.at + sizeof(double) * head.n_columns * row, head.n_columns,
+                             factor, 0, values + (head.n_rows - 1 - row) * head.n_columns);
+    return status;
+}
+
+/* The data fields in the order of the file. */
+static wt_status add_fields(image_list *list, gwy_bytes container, const char *file,
+                            wt_parselog *log, wt_error *err)
+{
+    wt_status status = WT_OK, broken = WT_OK;
+    gwy_bytes rest = container;
+    gwy_component c;
+    unsigned long number = 0;
+    while (status == WT_OK && gwy_next(&rest, &c, &broken)) {
+        const char *name = NULL;
+        gwy_bytes field;
+        if (c.type == 'o' && channel_of(c.key, "/mask", &number))
+            wt_parselog_add(log, WT_NOTE, file, c.key,
+                            "a mask, which may mark anything, is not taken for missing heights");
+        if (c.type != 'o' || !channel_of(c.key, "/data", &number) ||
+            !gwy_object(&c.value, &name, &field) || strcmp(name, "GwyDataField") != 0)
+            continue;
+        if (list->n == MOST_FIELDS) {
+            status = wt_fail(err, WT_E_UNSUPPORTED, "more than %d fields in one file", MOST_FIELDS);
+            break;
+        }
+        char key[48];
+        gwy_component title;
+        snprintf(key, sizeof key, "/%lu/data/title", number);
+        const bool named = gwy_find(container, key, 's', &title);
+        status = add_field(list, field, c.key, named ? (const char *)title.value.at : "", err);
+    }
+    return status == WT_OK && broken != WT_OK
+               ? corrupt(err, "container", "a component goes on beyond its object")
+               : status;
+}
+
+static wt_status gwy_images(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            size_t *n_images, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    image_list list = {NULL, 0};
+    gwy_bytes all, container;
+    const char *name = NULL;
+    (void)self;
+    (void)options;
+    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    if (status != WT_OK)
+        return status;
+    all = (gwy_bytes){bytes + sizeof signature - 1, bytes + length};
+    if (length < sizeof signature || memcmp(bytes, signature, sizeof signature - 1) != 0 ||
+        !gwy_object(&all, &name, &container) || strcmp(name, "GwyContainer") != 0)
+        status = corrupt(err, "beginning of the file", "the file is cut, or holds no container");
+    if (status == WT_OK)
+        status = add_fields(&list, container, wt_input_name(input), log, err);
+    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+}
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    return recognised(PEEK_BEGINS(peek, signature), 95);
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
+}
+
+const file_reader reader_gwy = {
+    .info = {.id = "gwy",
+             .title = "Gwyddion (.gwy), images of any instrument",
+             .kinds = WT_KIND_IMAGE,
+             .verified = true,
+             .evidence = "a file of another program, whose numbers a third one agrees on",
+             .version = "1"},
+    .detect = detect,
+    .read_images = gwy_images,
+    .describe = describe,
+};

@@ -1,0 +1,133 @@
+/* Objects of a Gwyddion file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/gwy/gwy_object.h"
+
+#include "read/bytes/bytes.h"
+#include "read/bytes/samples.h"
+
+#include <string.h>
+
+static size_t left(const gwy_bytes *b)
+{
+    return (size_t)(b->end - b->at);
+}
+
+/* A text and its zero. */
+static bool take_text(gwy_bytes *b, const char **text)
+{
+    const unsigned char *zero = left(b) > 0 ? memchr(b->at, 0, left(b)) : NULL;
+    if (zero == NULL)
+        return false;
+    *text = (const char *)b->at;
+    b->at = zero + 1;
+    return true;
+}
+
+static bool take_size(gwy_bytes *b, size_t *size)
+{
+    if (left(b) < 4)
+        return false;
+    *size = le32(b->at);
+    b->at += 4;
+    return true;
+}
+
+bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components)
+{
+    size_t size = 0;
+    if (!take_text(from, name) || !take_size(from, &size) || size > left(from))
+        return false;
+    *components = (gwy_bytes){from->at, from->at + size};
+    from->at += size;
+    return true;
+}
+
+/* Width of an item of a type whose items are alike; 0: they are not. */
+static size_t width_of(char type)
+{
+    switch (type) {
+    case 'b':
+    case 'c':
+        return 1;
+    case 'i':
+        return 4;
+    case 'q':
+    case 'd':
+        return 8;
+    default:
+        return 0;
+    }
+}
+
+static bool skip_item(gwy_bytes *b, char type)
+{
+    const size_t width = width_of(type);
+    const char *name = NULL;
+    gwy_bytes inner;
+    if (type == 's')
+        return take_text(b, &name);
+    if (type == 'o')
+        return gwy_object(b, &name, &inner);
+    if (width == 0 || width > left(b))
+        return false;
+    b->at += width;
+    return true;
+}
+
+static bool skip_value(gwy_bytes *b, gwy_component *to)
+{
+    const bool array = to->type >= 'A' && to->type <= 'Z';
+    const char item = (char)(array ? to->type - 'A' + 'a' : to->type);
+    const size_t width = width_of(item);
+    to->n = 1;
+    if (array && !take_size(b, &to->n))
+        return false;
+    to->value.at = b->at;
+    if (width > 0) {
+        if (to->n > left(b) / width)
+            return false;
+        b->at += to->n * width;
+    } else {
+        /* Each of them takes a byte at least, so that a large number ends with the bytes. */
+        for (size_t i = 0; i < to->n; i++)
+            if (!skip_item(b, item))
+                return false;
+    }
+    to->value.end = b->at;
+    return true;
+}
+
+bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status)
+{
+    if (left(components) == 0)
+        return false;
+    if (take_text(components, &to->key) && left(components) > 0) {
+        to->type = (char)*components->at++;
+        if (skip_value(components, to))
+            return true;
+    }
+    *status = WT_E_CORRUPT;
+    return false;
+}
+
+bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *to)
+{
+    wt_status status = WT_OK;
+    while (gwy_next(&components, to, &status))
+        if (to->type == type && strcmp(to->key, key) == 0)
+            return true;
+    return false;
+}
+
+double gwy_double(const gwy_component *component)
+{
+    double value;
+    (void)samples_decode(SAMPLE_FLOAT64, false, component->value.at, 1, 1, 0, &value);
+    return value;
+}
+
+size_t gwy_count(const gwy_component *component)
+{
+    double value;
+    (void)samples_decode(SAMPLE_INT32, false, component->value.at, 1, 1, 0, &value);
+    return value > 0 ? (size_t)value : 0;
+}

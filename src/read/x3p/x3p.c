@@ -1,0 +1,212 @@
+/* X3P (ISO 25178-72, ISO 5436-2): height maps and profiles in a ZIP archive of main.xml, the
+ * heights and a bit for each that is valid, all of them in one folder or none.
+ *
+ * z = raw * Increment + Offset of whole numbers; of floating-point numbers z = raw, for nobody who
+ * writes such files applies the increment. The order of lines is that of the file, the first of
+ * them at the bottom, as y rises with its index.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/archive.h"
+#include "read/images.h"
+#include "read/reader.h"
+#include "read/x3p/x3p_document.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char document_name[] = "main.xml";
+/* A document with a list of its heights is larger than its other parts; at 30 bytes each half a
+ * million of them fit. */
+#define DOCUMENT_MAX ((size_t)1 << 24)
+/* As images_add has it, of eight bytes. */
+#define DATA_MAX ((size_t)1 << 31)
+
+typedef struct x3p_file {
+    zip_archive *archive;
+    char folder[64]; /* of main.xml, with its '/'; "" */
+    x3p_document document;
+    byte_buffer data;
+} x3p_file;
+
+/* main.xml at the top, or in one folder, which is not one that Macintosh computers add. */
+static bool find_document(x3p_file *f, size_t *at)
+{
+    for (size_t i = 0; i < f->archive->n; i++) {
+        const char *name = archive_name(f->archive, i), *slash = strchr(name, '/');
+        const size_t n = slash != NULL ? (size_t)(slash - name) + 1 : 0;
+        if (strcmp(name + n, document_name) != 0 || n >= sizeof f->folder ||
+            strncmp(name, "__MACOSX", 8) == 0)
+            continue;
+        snprintf(f->folder, sizeof f->folder, "%.*s", (int)n, name);
+        *at = i;
+        return true;
+    }
+    return false;
+}
+
+static wt_status read_document(x3p_file *f, wt_error *err)
+{
+    size_t at = 0;
+    if (!find_document(f, &at)) {
+        wt_fail(err, WT_E_CORRUPT, "the archive holds no main.xml");
+        wt_error_expected(err, "main.xml at the top or in one folder");
+        return WT_E_CORRUPT;
+    }
+    wt_status status = archive_read(f->archive, at, DOCUMENT_MAX, &f->data, err);
+    if (status == WT_OK)
+        status = x3p_document_parse(f->data.data, f->data.length, &f->document, err);
+    return status;
+}
+
+/* An entry that the document names, beside it. */
+static wt_status read_entry(x3p_file *f, const char *link, size_t length, wt_error *err)
+{
+    char name[sizeof f->folder + X3P_LINK];
+    size_t at = 0;
+    snprintf(name, sizeof name, "%s%s", f->folder, link + (strncmp(link, "./", 2) == 0 ? 2 : 0));
+    if (!archive_find(f->archive, name, &at)) {
+        wt_fail(err, WT_E_CORRUPT, "an entry is missing");
+        wt_error_expected(err, "%s, which main.xml names", name);
+        return WT_E_CORRUPT;
+    }
+    wt_status status = archive_read(f->archive, at, DATA_MAX, &f->data, err);
+    if (status == WT_OK && f->data.length != length) {
+        status = wt_fail(err, WT_E_CORRUPT, "the size of an entry contradicts main.xml");
+        wt_error_place(err, "%s", name);
+        wt_error_expected(err, "%zu bytes", length);
+        wt_error_found(err, "%zu", f->data.length);
+    }
+    return status;
+}
+
+/* ---- layers ---------------------------------------------------------------------------------- */
+
+static wt_status add_layers(const x3p_document *d, image_list *list, wt_error *err)
+{
+    const size_t nx = d->size[0], ny = d->size[1];
+    wt_status status = WT_OK;
+    for (size_t layer = 0; status == WT_OK && layer < d->size[2]; layer++) {
+        wt_image head = {.n_columns = nx, .n_rows = ny, .unit = "m", .x_unit = "m"};
+        double *values = NULL;
+        char name[40];
+        snprintf(name, sizeof name, d->size[2] > 1 ? "height, layer %zu" : "height", layer);
+        images_set_name(&head, name);
+        head.width = d->axis[0].increment * (double)(nx - 1);
+        head.height = ny > 1 ? d->axis[1].increment * (double)(ny - 1) : 0;
+        status = images_add(list, &head, &values, err);
+    }
+    return status;
+}
+
+/* Heights of the entry, or of the document itself. */
+static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
+{
+    const x3p_document *d = &f->document;
+    const x3p_axis *z = &d->axis[2];
+    const bool whole = z->type == SAMPLE_INT16 || z->type == SAMPLE_INT32;
+    const double increment = whole && !isnan(z->increment) ? z->increment : 1,
+                 offset = whole && !isnan(z->offset) ? z->offset : 0;
+    const size_t n = d->size[0] * d->size[1], width = sample_width(z->type);
+    if (d->points[0] != '\0') {
+        const wt_status status = read_entry(f, d->points, n * d->size[2] * width, err);
+        if (status != WT_OK)
+            return status;
+    } else if (d->n_list != n * d->size[2]) {
+        wt_fail(err, WT_E_CORRUPT, "the list of heights contradicts its size");
+        wt_error_expected(err, "%zu", n * d->size[2]);
+        wt_error_found(err, "%zu", d->n_list);
+        return WT_E_CORRUPT;
+    }
+    for (size_t layer = 0; layer < list->n; layer++) {
+        double *to = list->images[layer].values;
+        if (d->points[0] != '\0') {
+            (void)samples_decode(z->type, false, f->data.data + layer * n * width, n, increment,
+                                 offset, to);
+            continue;
+        }
+        for (size_t i = 0; i < n; i++)
+            to[i] = increment * d->list[layer * n + i] + offset;
+        (void)samples_mend(to, n);
+    }
+    return WT_OK;
+}
+
+/* One bit for each height, the lowest first. */
+static wt_status leave_out_invalid(x3p_file *f, const image_list *list, wt_error *err)
+{
+    const x3p_document *d = &f->document;
+    const size_t n = d->size[0] * d->size[1];
+    if (d->valid[0] == '\0')
+        return WT_OK;
+    const wt_status status = read_entry(f, d->valid, (n * d->size[2] + 7) / 8, err);
+    for (size_t layer = 0; status == WT_OK && layer < list->n; layer++)
+        for (size_t i = 0; i < n; i++) {
+            const size_t bit = layer * n + i;
+            if ((f->data.data[bit / 8] >> (bit % 8) & 1) == 0)
+                list->images[layer].values[i] = (double)NAN;
+        }
+    return status;
+}
+
+/* ---- the reader ------------------------------------------------------------------------------ */
+
+static wt_status x3p_images(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            size_t *n_images, wt_error *err)
+{
+    x3p_file f = {.archive = NULL};
+    image_list list = {NULL, 0};
+    (void)self;
+    (void)options;
+    wt_status status = archive_open(input, &f.archive, err);
+    if (status == WT_OK)
+        status = read_document(&f, err);
+    const x3p_document *d = &f.document;
+    /* before anything is multiplied */
+    if (status == WT_OK && (d->size[1] > DATA_MAX / 8 / d->size[0] ||
+                            d->size[2] > DATA_MAX / 8 / (d->size[0] * d->size[1])))
+        status = wt_fail(err, WT_E_CORRUPT, "impossible size of the matrix: %zu x %zu x %zu",
+                         d->size[0], d->size[1], d->size[2]);
+    if (status == WT_OK)
+        status = add_layers(d, &list, err);
+    if (status == WT_OK)
+        status = fill_layers(&f, &list, err);
+    if (status == WT_OK)
+        status = leave_out_invalid(&f, &list, err);
+    x3p_document_clear(&f.document);
+    free(f.data.data);
+    archive_close(f.archive);
+    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+}
+
+/* Names of entries stand unpacked in the archive; spreadsheets have neither of these two. */
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    if (!PEEK_BEGINS(peek, "PK\3\4"))
+        return recognised(false, 0);
+    return recognised(
+        input_has(peek->input, document_name) &&
+            (input_has(peek->input, "md5checksum.hex") || input_has(peek->input, "bindata/")),
+        95);
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
+}
+
+const file_reader reader_x3p = {
+    .info = {.id = "x3p",
+             .title = "X3P (ISO 25178-72), height maps and profiles",
+             .kinds = WT_KIND_IMAGE,
+             .verified = true,
+             .evidence = "measured files and those of the standard's authors",
+             .version = "1"},
+    .detect = detect,
+    .read_images = x3p_images,
+    .describe = describe,
+};

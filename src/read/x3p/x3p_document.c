@@ -1,0 +1,196 @@
+/* main.xml of an X3P file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/x3p/x3p_document.h"
+
+#include "base/number.h"
+
+#include <libxml/parser.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void x3p_document_clear(x3p_document *document)
+{
+    free(document->list);
+    document->list = NULL;
+}
+
+static bool is_called(const xmlNode *node, const char *name)
+{
+    return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
+}
+
+/* The first element of that name among the children; NULL. */
+static const xmlNode *child(const xmlNode *of, const char *name)
+{
+    for (const xmlNode *c = of != NULL ? of->children : NULL; c != NULL; c = c->next)
+        if (is_called(c, name))
+            return c;
+    return NULL;
+}
+
+/* The text of an element without blanks at its ends; "" if there is none. */
+static const char *text_of(const xmlNode *node, size_t *n)
+{
+    const xmlNode *inside = node != NULL ? node->children : NULL;
+    while (inside != NULL && inside->type == XML_COMMENT_NODE)
+        inside = inside->next;
+    const char *text =
+        inside != NULL && inside->type == XML_TEXT_NODE ? (const char *)inside->content : "";
+    text += strspn(text, " \t\r\n");
+    *n = strlen(text);
+    while (*n > 0 && strchr(" \t\r\n", text[*n - 1]) != NULL)
+        (*n)--;
+    return text;
+}
+
+static double value_of(const xmlNode *node)
+{
+    size_t n;
+    const char *text = text_of(node, &n);
+    double value = (double)NAN;
+    return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
+}
+
+static void copy_text(const xmlNode *node, char *to, size_t size)
+{
+    size_t n;
+    const char *text = text_of(node, &n);
+    snprintf(to, size, "%.*s", (int)(n < size ? n : size), text);
+}
+
+static wt_status lacking(const char *what, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s is missing or wrong", what);
+    wt_error_place(err, "main.xml");
+    wt_error_expected(err, "%s", expected);
+    return WT_E_CORRUPT;
+}
+
+static wt_status read_axis(const xmlNode *axes, const char *name, x3p_axis *to, wt_error *err)
+{
+    static const struct {
+        char letter;
+        sample_type type;
+    } types[] = {
+        {'I', SAMPLE_INT16}, {'L', SAMPLE_INT32}, {'F', SAMPLE_FLOAT32}, {'D', SAMPLE_FLOAT64}};
+    const xmlNode *axis = child(axes, name);
+    size_t n;
+    if (axis == NULL)
+        return lacking(name, "axes CX, CY and CZ", err);
+    const char *kind = text_of(child(axis, "AxisType"), &n);
+    to->incremental = n == 1 && kind[0] == 'I';
+    to->increment = value_of(child(axis, "Increment"));
+    to->offset = value_of(child(axis, "Offset"));
+    const char *type = text_of(child(axis, "DataType"), &n);
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (n == 1 && type[0] == types[i].letter) {
+            to->type = types[i].type;
+            return WT_OK;
+        }
+    /* That of x and y says nothing where the points are equally spaced. */
+    return strcmp(name, "CZ") == 0 ? lacking("DataType of CZ", "I, L, F or D", err) : WT_OK;
+}
+
+static size_t count_of(const xmlNode *node)
+{
+    const double value = value_of(node);
+    return value >= 1 && value <= 1e9 && value == floor(value) ? (size_t)value : 0;
+}
+
+/* Heights in the document itself; an empty one is missing. */
+static wt_status read_list(const xmlNode *list, x3p_document *to, wt_error *err)
+{
+    size_t n = 0;
+    for (const xmlNode *c = list->children; c != NULL; c = c->next)
+        n += is_called(c, "Datum") ? 1 : 0;
+    to->list = malloc((n + 1) * sizeof *to->list);
+    if (to->list == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu heights", n);
+    for (const xmlNode *c = list->children; c != NULL; c = c->next) {
+        size_t length;
+        if (!is_called(c, "Datum"))
+            continue;
+        const char *text = text_of(c, &length);
+        double value = (double)NAN;
+        if (length > 0 && !wt_number_parse(text, length, '.', &value)) {
+            lacking("a Datum", "one height, or nothing where it is missing", err);
+            wt_error_found(err, "%.*s", (int)(length < 40 ? length : 40), text);
+            return WT_E_CORRUPT;
+        }
+        to->list[to->n_list++] = value;
+    }
+    return WT_OK;
+}
+
+static wt_status read_matrix(const xmlNode *record, x3p_document *to, wt_error *err)
+{
+    const xmlNode *matrix = child(record, "MatrixDimension"), *link = child(record, "DataLink"),
+                  *list = child(record, "DataList");
+    static const char *const names[] = {"SizeX", "SizeY", "SizeZ"};
+    if (matrix == NULL) {
+        wt_fail(err, WT_E_UNSUPPORTED, "a cloud of points, not a matrix of heights");
+        wt_error_place(err, "main.xml");
+        wt_error_advice(err, "export the surface as a matrix (FeatureType SUR)");
+        return WT_E_UNSUPPORTED;
+    }
+    for (size_t i = 0; i < 3; i++) {
+        to->size[i] = count_of(child(matrix, names[i]));
+        if (to->size[i] == 0)
+            return lacking(names[i], "a whole number from 1 on", err);
+    }
+    copy_text(child(link, "PointDataLink"), to->points, sizeof to->points);
+    copy_text(child(link, "ValidPointsLink"), to->valid, sizeof to->valid);
+    if (to->points[0] == '\0' && list == NULL)
+        return lacking("the heights", "a PointDataLink or a DataList", err);
+    return to->points[0] == '\0' ? read_list(list, to, err) : WT_OK;
+}
+
+static wt_status read_root(const xmlNode *root, x3p_document *to, wt_error *err)
+{
+    const xmlNode *axes = child(child(root, "Record1"), "Axes");
+    static const char *const names[] = {"CX", "CY", "CZ"};
+    wt_status status = WT_OK;
+    copy_text(child(child(root, "Record1"), "FeatureType"), to->feature, sizeof to->feature);
+    for (size_t i = 0; status == WT_OK && i < 3; i++)
+        status = read_axis(axes, names[i], &to->axis[i], err);
+    const bool profile = strcmp(to->feature, "PRF") == 0;
+    if (status == WT_OK && !(to->axis[0].incremental && (to->axis[1].incremental || profile))) {
+        status = wt_fail(err, WT_E_UNSUPPORTED, "the points are not equally spaced");
+        wt_error_place(err, "main.xml");
+        wt_error_expected(err, "incremental axes CX and CY");
+    }
+    if (status == WT_OK)
+        status = read_matrix(child(root, "Record3"), to, err);
+    if (status == WT_OK && profile && to->size[1] != 1)
+        status = lacking("SizeY", "1 of a profile", err);
+    return status;
+}
+
+static void keep_quiet(void *user, xmlErrorPtr error)
+{
+    (void)user;
+    (void)error;
+}
+
+wt_status x3p_document_parse(const void *xml, size_t length, x3p_document *document, wt_error *err)
+{
+    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    const xmlStructuredErrorFunc previous = xmlStructuredError;
+    void *const previous_context = xmlStructuredErrorContext;
+    wt_status status = WT_OK;
+    *document = (x3p_document){.list = NULL};
+    xmlSetStructuredErrorFunc(NULL, keep_quiet);
+    const xmlDocPtr tree = xmlReadMemory(xml, (int)length, NULL, NULL,
+                                         XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
+                                             XML_PARSE_NOCDATA);
+    if (tree == NULL) {
+        status = wt_fail(err, WT_E_CORRUPT, "main.xml is not well-formed");
+    } else if (tree->intSubset != NULL) {
+        status = wt_fail(err, WT_E_UNSUPPORTED, "main.xml has a document type or entities");
+    } else {
+        status = read_root(xmlDocGetRootElement(tree), document, err);
+    }
+    xmlSetStructuredErrorFunc(previous_context, previous);
+    xmlFreeDoc(tree);
+    return status;
+}

@@ -1,0 +1,457 @@
+/* Height maps of Gwyddion and X3P, written byte by byte here, and measured ones against the numbers
+ * of other programs. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "made_file.h"
+
+#include "base/array.h"
+#include "fit/surface/surface_heights.h"
+#include "fuzz/pack_list.h"
+
+#include <math.h>
+
+/* ---- what is made ---------------------------------------------------------------------------- */
+
+enum { ROOM = 8192, COLUMNS = 5, ROWS = 3 };
+
+typedef struct made {
+    uint8_t bytes[ROOM];
+    size_t n;
+} made;
+
+static void add(made *m, const void *bytes, size_t n)
+{
+    assert_true(m->n + n <= ROOM);
+    memcpy(m->bytes + m->n, bytes, n);
+    m->n += n;
+}
+
+#define ADD(m, text) add(m, text, sizeof(text) - 1) /* without its zero */
+
+static void add_number(made *m, uint64_t value, size_t width)
+{
+    uint8_t bytes[8];
+    (void)put(bytes, (uint32_t)value, 4);
+    (void)put(bytes + 4, (uint32_t)(value >> 32), 4);
+    add(m, bytes, width);
+}
+
+static void add_double(made *m, double value)
+{
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    add_number(m, bits, 8);
+}
+
+/* Height of a point, line 0 at the bottom. */
+static double height(size_t column, size_t row)
+{
+    return 1e-9 * ((double)(10 * row + column) - 12);
+}
+
+static wt_status read_bytes_of(const made *m, wt_parselog *log, wt_image **images, size_t *n,
+                               wt_error *err)
+{
+    wt_input *input = NULL;
+    *images = NULL;
+    *n = 0;
+    assert_int_equal(wt_input_open_memory(m->bytes, m->n, "made", &input, NULL), WT_OK);
+    const wt_status status = wt_images_read(formats, input, NULL, log, images, n, err);
+    wt_input_close(input);
+    return status;
+}
+
+static void clear(wt_image *images, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+}
+
+static void check_heights(const wt_image *image, double pitch)
+{
+    assert_string_equal(image->unit, "m");
+    assert_int_equal(image->n_columns, COLUMNS);
+    assert_int_equal(image->n_rows, ROWS);
+    assert_near(image->width, (COLUMNS - 1) * pitch, 1e-12);
+    assert_near(image->height, (ROWS - 1) * pitch, 1e-12);
+    for (size_t row = 0; row < ROWS; row++)
+        for (size_t column = 0; column < COLUMNS; column++)
+            assert_near_abs(image->values[row * COLUMNS + column], height(column, row), 1e-21);
+}
+
+static void refused_as(const made *m, wt_status expected, const char *words)
+{
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    char all[1000];
+    const wt_status status = read_bytes_of(m, NULL, &images, &n, &err);
+    snprintf(all, sizeof all, "%s; %s; %s", err.message, err.expected, err.found);
+    if (status != expected || strstr(all, words) == NULL)
+        fail_msg("%d: %s", (int)status, all);
+    assert_null(images);
+}
+
+/* ---- Gwyddion -------------------------------------------------------------------------------- */
+
+/* An object with the components that are in `inside`. */
+static void add_object(made *m, const char *name, const made *inside)
+{
+    add(m, name, strlen(name) + 1);
+    add_number(m, inside->n, 4);
+    add(m, inside->bytes, inside->n);
+}
+
+static void add_unit(made *m, const char *text)
+{
+    made unit = {.n = 0};
+    ADD(&unit, "unitstr\0s");
+    add(&unit, text, strlen(text) + 1);
+    add_object(m, "GwySIUnit", &unit);
+}
+
+static void add_field(made *m, uint32_t columns, uint32_t rows, uint32_t values, double factor)
+{
+    made field = {.n = 0};
+    ADD(&field, "xres\0i");
+    add_number(&field, columns, 4);
+    ADD(&field, "yres\0i");
+    add_number(&field, rows, 4);
+    ADD(&field, "strange\0S\2\0\0\0one\0two\0xreal\0d");
+    add_double(&field, 5e-6 / factor);
+    ADD(&field, "yreal\0d");
+    add_double(&field, 3e-6 / factor);
+    ADD(&field, "si_unit_xy\0o");
+    add_unit(&field, factor < 1e-3 ? "um" : "m");
+    ADD(&field, "si_unit_z\0o");
+    add_unit(&field, "m");
+    ADD(&field, "data\0D");
+    add_number(&field, values, 4);
+    for (size_t row = ROWS; row-- > 0;) /* the uppermost first */
+        for (size_t column = 0; column < COLUMNS; column++)
+            add_double(&field, height(column, row));
+    add_object(m, "GwyDataField", &field);
+}
+
+static made gwy_of(uint32_t columns, uint32_t rows, uint32_t values)
+{
+    made all = {.n = 0}, inside = {.n = 0};
+    ADD(&inside, "filename\0sx\0/0/data\0o");
+    add_field(&inside, columns, rows, values, 1);
+    ADD(&inside, "/0/mask\0o");
+    add_field(&inside, columns, rows, values, 1);
+    ADD(&inside, "/0/data/title\0sZ sensor\0/1/data\0o");
+    add_field(&inside, columns, rows, values, 1e-6);
+    ADD(&all, "GWYP");
+    add_object(&all, "GwyContainer", &inside);
+    return all;
+}
+
+static void test_gwyddion(void **state)
+{
+    (void)state;
+    const made m = gwy_of(COLUMNS, ROWS, COLUMNS * ROWS);
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_parselog *log = wt_parselog_new();
+    assert_int_equal(read_bytes_of(&m, log, &images, &n, NULL), WT_OK);
+    assert_int_equal(n, 2);
+    assert_string_equal(images[0].name, "Z sensor");
+    assert_string_equal(images[1].name, "/1/data");
+    check_heights(&images[0], 1e-6);
+    check_heights(&images[1], 1e-6);
+    assert_int_equal(wt_parselog_count(log), 1);
+    assert_non_null(strstr(wt_parselog_get(log, 0).text, "mask"));
+    wt_parselog_free(log);
+    clear(images, n);
+    for (size_t cut = 1; cut < m.n - 4; cut += 7) {
+        made part = m;
+        part.n -= cut;
+        assert_int_not_equal(read_bytes_of(&part, NULL, &images, &n, NULL), WT_OK);
+        assert_null(images);
+    }
+}
+
+static void test_gwyddion_lies(void **state)
+{
+    (void)state;
+    const made wide = gwy_of(COLUMNS + 1, ROWS, COLUMNS * ROWS),
+               none = gwy_of(0, ROWS, COLUMNS * ROWS),
+               below = gwy_of(UINT32_MAX, ROWS, COLUMNS * ROWS), huge = gwy_of(65536, 65536, 0),
+               long_data = gwy_of(COLUMNS, ROWS, 0x7fffffff);
+    refused_as(&wide, WT_E_CORRUPT, "6 x 3 pixels and 15 values");
+    refused_as(&none, WT_E_CORRUPT, "contradict its size");
+    refused_as(&below, WT_E_CORRUPT, "contradict its size");
+    refused_as(&long_data, WT_E_CORRUPT, "size or its data");
+    refused_as(&huge, WT_E_CORRUPT, "");
+    made other = {.n = 0};
+    const made nothing = {.n = 0};
+    ADD(&other, "GWYP");
+    add_object(&other, "GwyBrick", &nothing);
+    refused_as(&other, WT_E_CORRUPT, "holds no container");
+}
+
+/* ---- X3P ------------------------------------------------------------------------------------- */
+
+typedef struct made_x3p {
+    const char *folder, *feature, *x_axis, *type, *rest; /* in the axis of z */
+    const char *size, *record3;
+    const made *data, *valid;
+} made_x3p;
+
+static void add_entry(made *m, const char *folder, const char *name, const void *bytes, size_t n)
+{
+    char full[128];
+    snprintf(full, sizeof full, "%s%s", folder, name);
+    assert_true(m->n + 30 + strlen(full) + n <= ROOM);
+    m->n = (size_t)(put_entry(m->bytes + m->n, (const uint8_t *)full, strlen(full), bytes, n) -
+                    m->bytes);
+}
+
+static made x3p_of(const made_x3p *x)
+{
+    char xml[2048];
+    made m = {.n = 0};
+    snprintf(xml, sizeof xml,
+             "<?xml version='1.0'?><p:ISO5436_2 xmlns:p='http://www.opengps.eu/2008/ISO5436_2'>"
+             "<Record1><FeatureType>%s</FeatureType><Axes><CX><AxisType>%s</AxisType><DataType>L"
+             "</DataType><Increment>2e-6</Increment></CX><CY><AxisType>I</AxisType><Increment>2e-6"
+             "</Increment></CY><CZ><AxisType>A</AxisType><DataType><!-- of the file --> %s "
+             "</DataType>%s</CZ></Axes></Record1><Record3>%s%s</Record3></p:ISO5436_2>",
+             x->feature != NULL ? x->feature : "SUR", x->x_axis != NULL ? x->x_axis : "I", x->type,
+             x->rest,
+             x->size != NULL ? x->size
+                             : "<MatrixDimension><SizeX>5</SizeX><SizeY>3</SizeY><SizeZ>1</SizeZ>"
+                               "</MatrixDimension>",
+             x->record3 != NULL
+                 ? x->record3
+                 : "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
+                   "<ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink>");
+    const char *folder = x->folder != NULL ? x->folder : "";
+    add_entry(&m, "", "__MACOSX/main.xml", "no", 2);
+    add_entry(&m, folder, "main.xml", xml, strlen(xml));
+    if (x->data != NULL)
+        add_entry(&m, folder, "bindata/data.bin", x->data->bytes, x->data->n);
+    if (x->valid != NULL)
+        add_entry(&m, folder, "bindata/valid.bin", x->valid->bytes, x->valid->n);
+    add_entry(&m, folder, "md5checksum.hex", "0 *main.xml\n", 12);
+    return m;
+}
+
+static made doubles_of_heights(void)
+{
+    made m = {.n = 0};
+    for (size_t row = 0; row < ROWS; row++)
+        for (size_t column = 0; column < COLUMNS; column++)
+            add_double(&m, height(column, row));
+    return m;
+}
+
+/* Whole numbers have an increment and an offset; those of floating-point numbers are not applied,
+ * and those of the axes in the plane say nothing of the data. */
+static void test_x3p_types(void **state)
+{
+    (void)state;
+    const made valid = {{0xff, 0x7f}, 2}, doubles = doubles_of_heights();
+    made whole = {.n = 0};
+    for (size_t row = 0; row < ROWS; row++)
+        for (size_t column = 0; column < COLUMNS; column++)
+            add_number(&whole, (uint16_t)(int16_t)lround(1e9 * height(column, row) + 3), 2);
+    const made_x3p kinds[] = {
+        {.type = "D", .rest = "<Increment>1e-6</Increment>", .data = &doubles, .valid = &valid},
+        {.folder = "one/", .type = "D", .rest = "", .data = &doubles, .valid = &valid},
+        {.type = "I",
+         .rest = "<Increment>1e-9</Increment><Offset>-3e-9</Offset>",
+         .data = &whole,
+         .valid = &valid}};
+    for (size_t i = 0; i < COUNT_OF(kinds); i++) {
+        const made m = x3p_of(&kinds[i]);
+        wt_image *images = NULL;
+        size_t n = 0;
+        wt_error err = WT_ERROR_INIT;
+        if (read_bytes_of(&m, NULL, &images, &n, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        assert_int_equal(n, 1);
+        check_heights(&images[0], 2e-6);
+        clear(images, n);
+    }
+}
+
+/* A bit for each height, the lowest first; what is not finite is missing, too; an empty datum. */
+static void test_x3p_missing(void **state)
+{
+    (void)state;
+    const made valid = {{0xf7, 0x6f}, 2}; /* not 3 and 12 */
+    made doubles = doubles_of_heights();
+    memcpy(doubles.bytes + 8 * 7, "\0\0\0\0\0\0\xf0\x7f", 8); /* infinite */
+    const made m = x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .valid = &valid});
+    wt_image *images = NULL;
+    size_t n = 0;
+    assert_int_equal(read_bytes_of(&m, NULL, &images, &n, NULL), WT_OK);
+    for (size_t i = 0; i < (size_t)COLUMNS * ROWS; i++)
+        assert_int_equal(isnan(images[0].values[i]) != 0, i == 3 || i == 7 || i == 12);
+    clear(images, n);
+
+    const made list = x3p_of(&(made_x3p){
+        .type = "D",
+        .rest = "",
+        .size =
+            "<MatrixDimension><SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>",
+        .record3 = "<DataList><Datum>1e-6</Datum><Datum/><Datum> -3.5E-0006 </Datum>"
+                   "<Datum>0</Datum></DataList>"});
+    assert_int_equal(read_bytes_of(&list, NULL, &images, &n, NULL), WT_OK);
+    assert_near(images[0].values[0], 1e-6, 1e-12);
+    assert_true(isnan(images[0].values[1]));
+    assert_near(images[0].values[2], -3.5e-6, 1e-12);
+    clear(images, n);
+}
+
+static void test_x3p_profile(void **state)
+{
+    (void)state;
+    const made m = x3p_of(&(made_x3p){
+        .feature = "PRF",
+        .type = "D",
+        .rest = "",
+        .size =
+            "<MatrixDimension><SizeX>3</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ></MatrixDimension>",
+        .record3 = "<DataList><Datum>1</Datum><Datum>2</Datum><Datum>3</Datum></DataList>"});
+    wt_image *images = NULL;
+    size_t n = 0;
+    assert_int_equal(read_bytes_of(&m, NULL, &images, &n, NULL), WT_OK);
+    assert_int_equal(images[0].n_rows, 1);
+    assert_near(images[0].width, 4e-6, 1e-12);
+    assert_string_equal(images[0].x_unit, "m");
+    clear(images, n);
+}
+
+static void test_x3p_refused(void **state)
+{
+    (void)state;
+    made valid = {{0xff, 0x7f}, 2}, doubles = doubles_of_heights();
+    made m = x3p_of(&(made_x3p){.type = "D", .rest = "", .x_axis = "A", .data = &doubles});
+    refused_as(&m, WT_E_UNSUPPORTED, "not equally spaced");
+    m = x3p_of(&(made_x3p){.type = "D", .rest = "", .size = "<ListDimension>15</ListDimension>"});
+    refused_as(&m, WT_E_UNSUPPORTED, "cloud of points");
+    m = x3p_of(&(made_x3p){.type = "X", .rest = "", .data = &doubles});
+    refused_as(&m, WT_E_CORRUPT, "DataType of CZ");
+    m = x3p_of(&(made_x3p){.type = "D", .rest = "", .valid = &valid});
+    refused_as(&m, WT_E_CORRUPT, "bindata/data.bin, which main.xml names");
+    m = x3p_of(&(made_x3p){.type = "F", .rest = "", .data = &doubles, .valid = &valid});
+    refused_as(&m, WT_E_CORRUPT, "60 bytes; 120");
+    valid.n = 1;
+    m = x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .valid = &valid});
+    refused_as(&m, WT_E_CORRUPT, "2 bytes; 1");
+    m = x3p_of(&(made_x3p){.type = "D",
+                           .rest = "",
+                           .size =
+                               "<MatrixDimension><SizeX>900000000</SizeX><SizeY>900000000</SizeY>"
+                               "<SizeZ>900000000</SizeZ></MatrixDimension>"});
+    refused_as(&m, WT_E_CORRUPT, "impossible size");
+    m = x3p_of(
+        &(made_x3p){.type = "D", .rest = "", .record3 = "<DataList><Datum>1</Datum></DataList>"});
+    refused_as(&m, WT_E_CORRUPT, "15; 1");
+    m = x3p_of(
+        &(made_x3p){.type = "D", .rest = "", .record3 = "<DataList><Datum>1;2</Datum></DataList>"});
+    refused_as(&m, WT_E_CORRUPT, "1;2");
+}
+
+/* ---- measured files -------------------------------------------------------------------------- */
+
+enum { FIELDS = 26 };
+
+/* Cells of a line; false at its end. */
+static size_t split(char *line, char *cells[FIELDS])
+{
+    size_t n = 0;
+    line[strcspn(line, "\r\n")] = '\0';
+    for (char *p = line; p != NULL && n < FIELDS; n++) {
+        cells[n] = p;
+        p = strchr(p, ',');
+        if (p != NULL)
+            *p++ = '\0';
+    }
+    return n;
+}
+
+static void compare_measured(const wt_image *image, char *const cells[FIELDS], bool flipped,
+                             bool steps)
+{
+    wt_surface_heights h;
+    const size_t nx = image->n_columns, ny = image->n_rows;
+    const wt_height_map map = wt_height_map_of(image);
+    surface_heights_find(&map, &h);
+    assert_int_equal(nx, atoi(cells[2]));
+    assert_int_equal(ny, atoi(cells[3]));
+    assert_int_equal(h.missing, atoi(cells[9]));
+    assert_near(h.rms, atof(cells[13]), 1e-9);
+    assert_near(h.peak_to_valley, atof(cells[12]) - atof(cells[11]), 1e-9);
+    if (steps) {
+        assert_near(map.dx, atof(cells[4]), 1e-9);
+        assert_near(map.dy, atof(cells[5]), 1e-9);
+        assert_near(h.slope_x, atof(cells[17]), 1e-8);
+        assert_near(h.slope_y, atof(cells[18]), 1e-8);
+    }
+    const size_t stored = (size_t)atoi(cells[21]), row = flipped ? ny - 1 - stored : stored;
+    double sum = 0, moment = 0;
+    for (size_t i = 0; i < nx; i++)
+        if (isfinite(image->values[row * nx + i])) {
+            sum += image->values[row * nx + i];
+            moment += (double)i * image->values[row * nx + i];
+        }
+    assert_near_abs(sum, atof(cells[23]), 1e-8 * (fabs(atof(cells[23])) + h.rms));
+    assert_near_abs(moment, atof(cells[25]), 1e-8 * (fabs(atof(cells[25])) + (double)nx * h.rms));
+}
+
+/* The order of lines is that of the file, or the other one where that begins with the uppermost. */
+static void test_measured(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *path;
+        bool flipped, steps; /* the steps of images without an area are not known */
+    } files[] = {
+        {"KautschukInfiniteFocus.x3p", "/data/topography/KautschukInfiniteFocus.x3p", false, true},
+        {"ISO5436-sample1.x3p", "/data/topography/ISO5436-sample1.x3p", false, true},
+        {"ISO5436-sample4_bin.x3p", "/data/topography/ISO5436-sample4_bin.x3p", false, true},
+        {"whitelight.gsf", "/data/topography/whitelight.gsf", true, false},
+        {"test.gwy", "/data/topography/test.gwy", true, false}};
+    FILE *csv = fopen(WT_SHARED_DIR "/data/topography/topography-scalars.csv", "r");
+    char line[1024], *cells[FIELDS];
+    size_t n_compared = 0;
+    if (csv == NULL) {
+        skip();
+        return;
+    }
+    while (fgets(line, sizeof line, csv) != NULL) {
+        if (split(line, cells) < FIELDS)
+            continue;
+        for (size_t i = 0; i < COUNT_OF(files); i++) {
+            char name[512];
+            wt_input *input = NULL;
+            wt_image *images = NULL;
+            size_t n = 0;
+            if (strcmp(cells[0], files[i].name) != 0)
+                continue;
+            snprintf(name, sizeof name, "%s%s", WT_SHARED_DIR, files[i].path);
+            assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
+            assert_int_equal(wt_images_read(formats, input, NULL, NULL, &images, &n, NULL), WT_OK);
+            compare_measured(&images[0], cells, files[i].flipped, files[i].steps);
+            wt_input_close(input);
+            clear(images, n);
+            n_compared++;
+        }
+    }
+    (void)fclose(csv);
+    assert_int_equal(n_compared, COUNT_OF(files));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gwyddion),    cmocka_unit_test(test_gwyddion_lies),
+        cmocka_unit_test(test_x3p_types),   cmocka_unit_test(test_x3p_missing),
+        cmocka_unit_test(test_x3p_profile), cmocka_unit_test(test_x3p_refused),
+        cmocka_unit_test(test_measured),
+    };
+    return cmocka_run_group_tests(tests, set_up, clean);
+}
