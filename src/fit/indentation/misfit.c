@@ -26,6 +26,7 @@
 #include "base/normal.h"
 #include "model/cholesky.h"
 
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -373,28 +374,57 @@ static bool take_out_moves(data_sums *d, candidate *none)
     return true;
 }
 
-/* The sums for the unit normal numbers behind a discrepancy of size 1 and one of the lengths. */
+/* The sums for unit normal numbers behind a discrepancy of size 1 and one of the lengths, turned so
+ * that those with each other make a tridiagonal matrix: then a size costs next to nothing. */
 typedef struct length_sums {
-    double with[LEGENDRE][LEGENDRE], residual[LEGENDRE], imitated[N][LEGENDRE];
+    double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and the element beside it */
+    double residual[LEGENDRE], imitated[N][LEGENDRE];
 } length_sums;
+
+static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGENDRE])
+{
+    for (size_t i = 0; i < LEGENDRE; i++)
+        to[i] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++)
+        for (size_t i = 0; i < LEGENDRE; i++)
+            to[i] += q[k][i] * x[k];
+}
+
+/* Of the sums `with` of root' mm root. */
+static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE], const data_sums *d,
+                             length_sums *to)
+{
+    double tau[LEGENDRE - 1], q[LEGENDRE][LEGENDRE], turned[LEGENDRE][LEGENDRE];
+    gsl_matrix_view a = gsl_matrix_view_array(&with[0][0], LEGENDRE, LEGENDRE),
+                    of_q = gsl_matrix_view_array(&q[0][0], LEGENDRE, LEGENDRE);
+    gsl_vector_view scales = gsl_vector_view_array(tau, LEGENDRE - 1),
+                    diagonal = gsl_vector_view_array(to->with, LEGENDRE),
+                    beside = gsl_vector_view_array(to->next, LEGENDRE - 1);
+    (void)gsl_linalg_symmtd_decomp(&a.matrix, &scales.vector); /* sizes are the only errors */
+    (void)gsl_linalg_symmtd_unpack(&a.matrix, &scales.vector, &of_q.matrix, &diagonal.vector,
+                                   &beside.vector);
+    to->next[LEGENDRE - 1] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++) /* root q */
+        turn(q, root[k], turned[k]);
+    turn(turned, d->my, to->residual);
+    for (size_t c = 0; c < d->n_free; c++)
+        turn(turned, d->imitated[c], to->imitated[c]);
+}
 
 static length_sums sums_of_length(const data_sums *d, int length)
 {
-    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE]; /* the root transposed */
+    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE], with[LEGENDRE][LEGENDRE] = {{0.0}};
     length_sums to;
-    for (size_t i = 0; i < LEGENDRE; i++)
+    for (size_t i = 0; i < LEGENDRE; i++) /* transposed */
         for (size_t k = 0; k < LEGENDRE; k++)
             root[i][k] = kernels.root[length][k][i];
-    for (size_t i = 0; i < LEGENDRE; i++) {
-        to.residual[i] = dot(root[i] + i, d->my + i, LEGENDRE - i);
-        for (size_t a = 0; a < d->n_free; a++)
-            to.imitated[a][i] = dot(root[i] + i, d->imitated[a] + i, LEGENDRE - i);
+    for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t k = 0; k < LEGENDRE; k++)
             half[i][k] = dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
-    }
     for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t j = 0; j <= i; j++)
-            to.with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
+            with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
+    make_tridiagonal(kernels.root[length], with, d, &to);
     return to;
 }
 
@@ -402,25 +432,37 @@ static length_sums sums_of_length(const data_sums *d, int length)
 static double try_size(const data_sums *d, const length_sums *l, double s, const candidate *none,
                        candidate *c)
 {
-    double t[M][M], with[LEGENDRE], x[LEGENDRE], y[LEGENDRE];
+    const double square = s * s;
+    double factor[LEGENDRE], share[LEGENDRE] = {0.0}, x[LEGENDRE], explained = 0.0, product = 1.0;
     *c = (candidate){.log_likelihood = -(double)INFINITY};
     for (size_t i = 0; i < LEGENDRE; i++) {
-        with[i] = s * l->residual[i];
-        for (size_t j = 0; j <= i; j++)
-            t[i][j] = s * s * l->with[i][j] + (i == j ? 1.0 : 0.0);
+        factor[i] = 1.0 + square * l->with[i];
+        x[i] = l->residual[i];
+        if (i > 0) {
+            share[i] = square * l->next[i - 1] / factor[i - 1];
+            factor[i] -= share[i] * square * l->next[i - 1];
+            x[i] -= share[i] * x[i - 1];
+        }
+        if (!(factor[i] > 0.0))
+            return 0.0;
+        product *= factor[i]; /* each below 1e12 by the least noise of blocks */
     }
-    if (!cholesky_factor(&t[0][0], M, LEGENDRE, 0.0))
-        return 0.0;
-    cholesky_forward(&t[0][0], M, LEGENDRE, with, x);
-    c->log_likelihood = 0.0;
-    for (size_t i = 0; i < LEGENDRE; i++)
-        c->log_likelihood -= log(t[i][i]);
+    c->log_likelihood = -0.5 * log(product);
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        factor[i] = square / factor[i];
+        explained += factor[i] * x[i] * x[i];
+    }
     for (size_t a = 0; a < d->n_free; a++) {
-        cholesky_forward(&t[0][0], M, LEGENDRE, l->imitated[a], y);
-        c->shift[a] = none->shift[a] - s * dot(y, x, LEGENDRE);
-        c->variance[a] = none->variance[a] + s * s * dot(y, y, LEGENDRE);
+        double y = 0.0;
+        c->shift[a] = none->shift[a];
+        c->variance[a] = none->variance[a];
+        for (size_t i = 0; i < LEGENDRE; i++) {
+            y = l->imitated[a][i] - share[i] * y;
+            c->shift[a] -= factor[i] * y * x[i];
+            c->variance[a] += factor[i] * y * y;
+        }
     }
-    return dot(x, x, LEGENDRE);
+    return explained;
 }
 
 /* Of the residual with what is left unexplained, for the variance of the noise is estimated. */
