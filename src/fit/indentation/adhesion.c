@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/indentation/curve_fitting.h"
+#include "fit/indentation/curve_model.h"
 
 #include "model/adhesion.h"
 #include "model/tip.h"
@@ -260,6 +261,22 @@ static void refine(curve_fitting *f, curve_solution *s)
     curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
 }
 
+/* Forces without a wave, depths and residuals of the workspace are those of the solution then. */
+static void evaluate(const curve_fitting *f)
+{
+    curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
+    curve_law_evaluate(&m, f->solution.p, &f->solution.wave);
+}
+
+/* Of the samples as they are now. */
+static double cost_without_adhesion(const curve_fitting *f, const double p[CURVE_N_PARAMETERS])
+{
+    const curve_kind plainly = {.tilt = f->kind.tilt};
+    curve_law m = curve_law_of(f->table, &f->input.samples, &plainly, f->workspace);
+    curve_model_start(&m, p);
+    return curve_model_cost(&m, p);
+}
+
 /* Means of some samples of a jump's baseline and contact each, for fits that only start others: a
  * start needs no more of them. False if they are few. */
 static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t *to_jump)
@@ -281,8 +298,9 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     return true;
 }
 
-/* With a free contact point, the jump where the tip touches if it follows. */
-static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
+/* With a free contact point, the jump where the tip touches if it follows. Returns the cost there,
+ * which may be another jump than that of the solution. */
+static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
 {
     const curve_samples *samples = &f->input.samples;
     curve_solution best = {.cost = (double)INFINITY};
@@ -299,30 +317,48 @@ static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
             break;
         f->kind.jump = jump;
     }
+    const double there = s->cost;
     f->kind.jump = jump_of_best;
     *s = best;
+    return there;
 }
 
-/* From a jump: first with the contact point there, then with a free one, for from the wrong side of
- * the jump the fit does not find the way. follows: the jump stays where the tip touches. */
-static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jump, bool follows)
+/* From a jump to where a fit of all samples can begin: first with the contact point there, then
+ * with a free one, for from the wrong side of the jump the fit does not find the way. False if that
+ * leads nowhere: where the tip would touch, the samples that start a fit are farther from it than
+ * without adhesion, by more than the pull of one that is on the wrong side of the jump. */
+static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t jump, bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
     const curve_samples all = f->input.samples;
+    const curve_solution elastic = *s;
     curve_samples some;
+    double there = 0.0, most = (double)INFINITY;
     if (!fixed)
-        s.p[CURVE_C] = all.position[jump];
+        s->p[CURVE_C] = all.position[jump];
     f->kind.jump = jump;
-    if (thin(f, jump, &some, &f->kind.jump))
+    if (thin(f, jump, &some, &f->kind.jump)) {
         f->input.samples = some;
+        most = cost_without_adhesion(f, elastic.p) + pull * pull;
+    }
     f->kind.contact_fixed = f->kind.rough = true;
-    refine(f, &s);
+    refine(f, s);
     f->kind.contact_fixed = fixed;
     if (!fixed)
-        refine_jump(f, &s, follows);
+        there = refine_jump(f, s, follows);
     f->input.samples = all;
     f->kind.rough = false;
-    if (!s.converged)
+    s->converged = s->converged && !(there > most);
+    return s->converged;
+}
+
+/* follows: the jump stays where the tip touches. */
+static curve_solution refine_from(curve_fitting *f, curve_solution s, double pull, size_t jump,
+                                  bool follows)
+{
+    const bool fixed = f->kind.contact_fixed;
+    const curve_samples all = f->input.samples;
+    if (!start_from(f, &s, pull, jump, follows))
         return s;
     f->kind.jump = jump;
     if (follows && !fixed) {
@@ -330,10 +366,13 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
         if (touched >= CURVE_BASELINE_SAMPLES && all.n - touched >= CURVE_BASELINE_SAMPLES)
             f->kind.jump = touched;
     }
-    if (fixed)
+    if (!fixed) {
+        f->kind.no_errors = true;
+        (void)refine_jump(f, &s, follows);
+        f->kind.no_errors = false;
+    }
+    if (fixed || s.converged)
         refine(f, &s);
-    else
-        refine_jump(f, &s, follows);
     f->kind.jump = s.first_contact;
     return s;
 }
@@ -357,7 +396,8 @@ static bool is_adhesive(const curve_fitting *f)
 
 /* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
  * a jump before the contact point without adhesion. The solution is that of the kind then. */
-static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double depth, size_t jump)
+static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pull, double depth,
+                              size_t jump)
 {
     static const double depths[] = {2.0, 1.0, 4.0};
     const curve_samples *samples = &f->input.samples;
@@ -367,7 +407,7 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double dep
             jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
-        f->solution = refine_from(f, start, jump, follows);
+        f->solution = refine_from(f, start, pull, jump, follows);
         if (is_adhesive(f))
             return true;
         if (f->solution.converged) /* to next to no adhesion */
@@ -390,7 +430,7 @@ static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
     const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
-    return fit_adhesion_from(f, start, depth, jump);
+    return fit_adhesion_from(f, start, pull, depth, jump);
 }
 
 static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
@@ -398,7 +438,7 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
     curve_solution start = f->solution;
     start.p[CURVE_W] = pull;
     f->kind.adhesive = f->kind.constant_pull = true;
-    return fit_adhesion_from(f, start, pull / f->input.samples.spring_constant, jump);
+    return fit_adhesion_from(f, start, pull, pull / f->input.samples.spring_constant, jump);
 }
 
 /* A fit, and the kind that it is of. */
@@ -425,10 +465,6 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    /* Forces without a wave, depths and residuals shall be of that solution, too. */
-    refine(f, &f->solution);
-    f->solution = to->solution;
-    f->kind = to->kind;
     if (law[0].found && law[1].found) {
         const curve_solution *other = &law[1 - best].solution;
         const double chi2 = f->solution.effective_n * log(other->cost / f->solution.cost) /
@@ -450,8 +486,10 @@ bool curve_fit_adhesion(curve_fitting *f)
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (fit_adhesion_laws(f, found.pull, found.start))
+            if (fit_adhesion_laws(f, found.pull, found.start)) {
+                evaluate(f);
                 return true;
+            }
             found.end -= found.deepest + 1 - found.start;
             found.deepest = found.start;
         }
@@ -465,14 +503,14 @@ bool curve_fit_adhesion(curve_fitting *f)
         return true;
     if (fit_adhesion_laws(f, f->pull_off, 0) &&
         f->solution.effective_n * log(elastic.cost / f->solution.cost) >
-            better_chi2 * fmax(1.0, f->solution.lack.statistic))
+            better_chi2 * fmax(1.0, f->solution.lack.statistic)) {
+        evaluate(f);
         return true;
+    }
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
-    refine(f, &f->solution);
-    f->kind = plainly;
-    f->solution = elastic;
+    evaluate(f);
     f->other_law = 0.0;
     return true;
 }
