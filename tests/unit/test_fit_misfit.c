@@ -11,31 +11,35 @@
 static curve_data data;
 static wt_indent_workspace *workspace;
 
-/* As if the tip were `stated`, and perhaps `moved`. */
-static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated, const wt_tip *moved)
-{
-    wt_contact_table *table[2] = {NULL, NULL};
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_contact_table_new(stated, 1e-11, 1e-4, &table[0], NULL), WT_OK);
-    if (moved != NULL)
-        assert_int_equal(wt_contact_table_new(moved, 1e-11, 1e-4, &table[1], NULL), WT_OK);
-    workspace->tip_moved[0] = table[1];
-    if (wt_indent_fit_curve(table[0], NULL, data.height, data.force, data.time, t->n,
-                            t->spring_constant, workspace, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    workspace->tip_moved[0] = NULL;
-    for (int i = 0; i < 2; i++)
-        wt_contact_table_free(table[i]);
-    return fit;
-}
-
 static wt_tip with_radius(const curve_truth *t, double radius)
 {
     wt_tip tip = t->tip;
     tip.radius = radius;
     tip.transition_radius = wt_tip_tangent_transition(radius, tip.half_angle);
     return tip;
+}
+
+/* As if the tip were `stated`, and perhaps `moved`. */
+static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated, const wt_tip *moved)
+{
+    wt_contact_table *table[3] = {NULL, NULL, NULL};
+    wt_indent_fit fit;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_contact_table_new(stated, 1e-11, 1e-4, &table[0], NULL), WT_OK);
+    for (int way = 0; way < 2 && moved != NULL; way++) {
+        const wt_tip down = with_radius(t, stated->radius * stated->radius / moved->radius);
+        assert_int_equal(
+            wt_contact_table_new(way == 0 ? &down : moved, 1e-11, 1e-4, &table[1 + way], NULL),
+            WT_OK);
+    }
+    workspace->tip_move[0] = (tip_move){table[1], table[2], 1.0};
+    if (wt_indent_fit_curve(table[0], NULL, data.height, data.force, data.time, t->n,
+                            t->spring_constant, workspace, &fit, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    workspace->tip_move[0] = (tip_move){NULL, NULL, 0.0};
+    for (int i = 0; i < 3; i++)
+        wt_contact_table_free(table[i]);
+    return fit;
 }
 
 /* Errors of curves that the law describes are those of the noise, however little there is. */
