@@ -39,9 +39,9 @@ static double middle_of(double a, double b, double c)
 
 /* The largest pull of n forces above the baseline, smoothed over `width` samples, the last `far` of
  * which are free of the sample, if it stands out of them, of which `noise` is the scatter, and ends
- * at once; else 0. */
-WIDE_REGISTERS static double sudden_pull(const double *smooth, size_t n, size_t width, size_t far,
-                                         double noise)
+ * at once in `ends`; else 0. */
+WIDE_REGISTERS static double sudden_pull(const double *smooth, const double *ends, size_t n,
+                                         size_t width, size_t far, double noise)
 {
     const size_t back = far < n ? far : n;
     const double elsewhere = fmax(0.0, -curve_span_of(smooth + n - back, back).low),
@@ -52,7 +52,7 @@ WIDE_REGISTERS static double sudden_pull(const double *smooth, size_t n, size_t 
     bool sudden = false;
     const size_t last = deepest + width + (size_t)(let_go * (double)n);
     for (size_t i = deepest; i < last && i < n; i++)
-        sudden |= -smooth[i] < 0.5 * pull;
+        sudden |= -ends[i] < 0.5 * pull;
     return sudden && pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere ? pull
                                                                                            : 0.0;
 }
@@ -71,7 +71,8 @@ static double find_pull_off(const double *above, size_t n, size_t far, double *s
 {
     for (size_t i = 1; i + 1 < n; i++)
         smooth[i - 1] = middle_of(above[i - 1], above[i], above[i + 1]);
-    double pull = sudden_pull(smooth, n - 2, 3, far, scatter_of(above + n - far, far, room));
+    double pull =
+        sudden_pull(smooth, above + 1, n - 2, 3, far, scatter_of(above + n - far, far, room));
     for (double part = 0.25; part <= 1.0 && !(pull > 0.0); part *= 2.0) {
         const size_t width = (size_t)(part * let_go * (double)n);
         if (width < 4 || far < 4 * width)
@@ -82,8 +83,8 @@ static double find_pull_off(const double *above, size_t n, size_t far, double *s
             smooth[i] = sum / (double)width;
             sum += i + width < n ? above[i + width] - above[i] : 0.0;
         }
-        pull =
-            sudden_pull(smooth, means, width, free, scatter_of(smooth + means - free, free, room));
+        pull = sudden_pull(smooth, smooth, means, width, free,
+                           scatter_of(smooth + means - free, free, room));
     }
     return pull;
 }
