@@ -37,6 +37,7 @@ enum {
     MOVES = CURVE_TIP_MOVES + 1,            /* and a pull */
     M = LEGENDRE + MOVES + CURVE_TIP_MOVES, /* and how moves of the tip bend */
     BEND_ROUNDS = 4,
+    MOVE_STEPS = 12, /* to the farthest move, each way */
     LENGTHS = 3,
     SIZES = 16, /* most */
     NODES = 64, /* of the depth, for the covariance of the Legendre functions */
@@ -211,14 +212,16 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             legendre(b->depth[i], at);
         for (size_t k = 0; k < LEGENDRE; k++)
             raw[k][i] = at[k] * b->touch[i] * force;
+        /* As shares of the force that is there: means over a block, which the law has, too. */
+        const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
         for (size_t k = 0; k < n_tips; k++) {
             double depth = b->depth[i] * deepest, now = 0.0, up = 0.0, down = 0.0;
-            if (b->touch[i] > 0.0) {
+            if (contact > 0.0) {
                 wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
                 wt_contact_table_eval(tips[k].up, &depth, 1, &up, NULL);
                 wt_contact_table_eval(tips[k].down, &depth, 1, &down, NULL);
             }
-            const double x = tips[k].deviation, unit = p[CURVE_E] * b->touch[i];
+            const double x = tips[k].deviation, unit = now > 0.0 ? contact / now : 0.0;
             raw[LEGENDRE + k][i] = 0.5 * x * unit * (up - down);
             raw[bends + k][i] = x * x * unit * (up - now - (now - down));
         }
@@ -396,6 +399,37 @@ static bool bend_moves(data_sums *d)
     return true;
 }
 
+/* Minus 2 ln of the chance that tip i alone is moved by x, but for a constant. */
+static double cost_of_move(const data_sums *d, size_t i, double x)
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    const double bend = 0.5 * x * x;
+    return x * x - 2.0 * (x * d->my[c] + bend * d->my[q]) + x * x * d->mm[c][c] +
+           2.0 * x * bend * d->mm[c][q] + bend * bend * d->mm[q][q];
+}
+
+/* What a move of tip i does to the parameters, in the mean of the squares over all that the
+ * residual allows: two tips far from each other may leave as little, as where only one of them is
+ * deep in its cap. */
+static void spread_of_move(const data_sums *d, size_t i, double spread[N])
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    double least = (double)INFINITY, all = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++)
+        least = fmin(least, cost_of_move(d, i, farthest_move * j / MOVE_STEPS));
+    for (size_t a = 0; a < N; a++)
+        spread[a] = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++) {
+        const double x = farthest_move * j / MOVE_STEPS,
+                     chance = exp(-0.5 * (cost_of_move(d, i, x) - least));
+        all += chance;
+        for (size_t a = 0; a < d->n_free; a++)
+            spread[a] += chance * pow(x * d->imitated[a][c] + 0.5 * x * x * d->imitated[a][q], 2);
+    }
+    for (size_t a = 0; a < N; a++)
+        spread[a] /= all;
+}
+
 /* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
  * alone make of the others is the candidate without a discrepancy. Where they fit better than the
  * stated tip all of its deviation counts: which of its sizes is off the residual does not say.
@@ -404,9 +438,12 @@ static bool take_out_moves(data_sums *d, candidate *none, double tip[N])
 {
     const size_t n = d->n_moves;
     double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M], straight[N][CURVE_TIP_MOVES];
+    double spread[CURVE_TIP_MOVES][N];
     *none = (candidate){.log_likelihood = 0.0};
     for (size_t a = 0; a < d->n_free; a++)
         memcpy(straight[a], d->imitated[a] + LEGENDRE, d->n_tips * sizeof straight[a][0]);
+    for (size_t i = 0; i < d->n_tips; i++)
+        spread_of_move(d, i, spread[i]);
     if (!bend_moves(d) || !solve_moves(d, t, of_y))
         return false;
     const bool fit_better = dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
@@ -426,6 +463,9 @@ static bool take_out_moves(data_sums *d, candidate *none, double tip[N])
             none->shift[a] = 0.0;
             none->variance[a] = fmax(dot(y, y, n), dot(straight[a], straight[a], d->n_tips));
         }
+        for (size_t k = 0; k < d->n_tips; k++)
+            none->variance[a] =
+                fmax(none->variance[a], spread[k][a] - none->shift[a] * none->shift[a]);
         const double pull = d->n_moves > d->n_tips ? d->imitated[a][LEGENDRE + d->n_tips] : 0.0;
         tip[a] = d->n_tips > 0 ? fmax(0.0, none->variance[a] - pull * pull) : 0.0;
         for (size_t k = 0; k < LEGENDRE; k++)
