@@ -57,15 +57,18 @@ wt_status digest_pieces(digest_source *source, void *user, size_t length, char h
         status = source(user, at, piece, n, err);
         if (status != WT_OK)
             break;
-        mix_bytes(chain, piece, n);
         if (hex != NULL)
             SHA256_Update(&context, piece, n);
+        else
+            mix_bytes(chain, piece, n);
         at += n;
+    }
+    if (hex != NULL) {
+        finish_digest(&context, hex);
+        mix_bytes(chain, (const unsigned char *)hex, 2 * sizeof chain);
     }
     *fingerprint = mix64(length);
     for (size_t c = 0; c < CHAINS; c++)
         *fingerprint = mix64(*fingerprint ^ chain[c]);
-    if (status == WT_OK && hex != NULL)
-        finish_digest(&context, hex);
     return status;
 }

@@ -30,9 +30,9 @@ static const double least_work = 1e-9, most_work = 1e3;
 static const double close_step = 1e-7;
 enum {
     MAX_ROUNDS = 200,
-    MAX_STEPS = 600,   /* by 4: more than a double has */
-    CORNER_NODES = 32, /* where the end of the branch is looked for beside a corner */
-    NODES = 64,        /* of the branch, from which a place on it is guessed, to 1e-7 */
+    MAX_STEPS = 600,               /* by 4: more than a double has */
+    CORNER_NODES = ADHESION_BLOCK, /* where the end of the branch is looked for beside a corner */
+    NODES = 64,                    /* of the branch, from which a place on it is guessed, to 1e-7 */
     BLOCK = ADHESION_BLOCK,
 };
 
@@ -90,15 +90,26 @@ typedef struct release_search {
     double k;
 } release_search;
 
-/* Rises where the branch is stable against the lever: dF + k ddelta along it, over the change of
- * the bare depth, and over k if that is infinite. */
+/* Of n places; rises where the branch is stable against the lever: dF + k ddelta along it, over the
+ * change of the bare depth, and over k if that is infinite. */
+WIDE_REGISTERS static void restoring_at(const release_search *s, const double *bare, size_t n,
+                                        double *to)
+{
+    bare_contacts v;
+    const double e = s->law->reduced, pull = pull_of(s->law), k = s->k;
+    const bool fixed = isinf(k);
+    bare_at(s->law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], q = 0.25 * pull * v.curvature[i] / sqrt(a);
+        to[i] = fixed ? 1.0 - q : 2.0 * e * a * (1.0 - 3.0 * q) + k * (1.0 - q);
+    }
+}
+
 static double restoring(double bare, void *user)
 {
-    const release_search *s = user;
-    bare_contacts v;
-    bare_at(s->law, &bare, 1, &v);
-    const double a = 0.5 * v.slope[0], q = 0.25 * pull_of(s->law) * v.curvature[0] / sqrt(a);
-    return isinf(s->k) ? 1.0 - q : 2.0 * s->law->reduced * a * (1.0 - 3.0 * q) + s->k * (1.0 - q);
+    double value;
+    restoring_at(user, &bare, 1, &value);
+    return value;
 }
 
 static bool holds(release_search *s, double bare)
@@ -142,12 +153,15 @@ double adhesion_release(const adhesion *law, double k)
         top *= 2.0;
     if (!holds(&search, top))
         return end_from(&search, top);
-    for (int i = CORNER_NODES - 1; i > 0; i--) {
-        const double share = (double)i / CORNER_NODES, above = (double)(i + 1) / CORNER_NODES;
-        const double bare = corner + share * share * (top - corner);
-        if (!holds(&search, bare))
-            return end_between(&search, bare, corner + above * above * (top - corner));
+    double bare[CORNER_NODES + 1], force[CORNER_NODES];
+    for (int i = 0; i <= CORNER_NODES; i++) {
+        const double share = (double)i / CORNER_NODES;
+        bare[i] = corner + share * share * (top - corner);
     }
+    restoring_at(&search, bare, CORNER_NODES, force);
+    for (int i = CORNER_NODES - 1; i > 0; i--)
+        if (!(force[i] > 0.0))
+            return end_between(&search, bare[i], bare[i + 1]);
     return holds(&search, corner) ? end_from(&search, corner) : corner; /* below it the cap */
 }
 

@@ -4,7 +4,7 @@
  * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen;
  * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges, IB9 to IB12 and
  * II1 to II8 with what they try; IM1 to IM17 with the error of a misfit, IC9, IC10 and IM0 after
- * it.
+ * it; IM18 to IM25 when the laws of adhesion were weighed, before they were drawn.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
@@ -253,6 +253,21 @@ const afm_scene afm_scenes[] = {
      .angle_factor = 33.0 / 35},
     {NAMED("IM17", "layer of 60 nm, ratio 1.3"), .facts.right = ANYTHING, .noise = 0.005,
      .layer_ratio = 1.3, .layer_thickness = 60e-9},
+    {NAMED("IM18", "pull of 1 nN, 4 % of the force"), .facts.right = ANYTHING, .noise = 0.005,
+     .pull = 1e-9},
+    {NAMED("IM19", "pull of 2 nN within 2 nm"), .facts.right = ANYTHING, .noise = 0.005,
+     .pull = 2e-9, .reach = 2e-9},
+    {NAMED("IM20", "pull of 4 nN"), .facts.right = ANYTHING, .noise = 0.005, .pull = 4e-9},
+    {NAMED("IM21", "pull of 20 nN within 5 nm"), .facts.right = ANYTHING, .noise = 0.005,
+     .pull = 20e-9, .reach = 5e-9},
+    {NAMED("IM22", "sample of 20 um, untold, 1.4 um deep"), .facts.right = ANYTHING, .noise = 0.005,
+     .modulus = 50e3, .spring_constant = 0.05, .depth = 1.4e-6, .thickness = 20e-6, .untold = true},
+    {NAMED("IM23", "radius of 19.8 nm, 20 nm stated, white 0.02 %"), .facts.right = ANYTHING,
+     .noise = 2e-4, .radius_factor = 0.99},
+    {NAMED("IM24", "adhesion of 5 mJ/m^2, drag of 1 %"), .facts.right = ANYTHING, .noise = 0.005,
+     .work = 5e-3, .work_out = 5e-3, .drag = 0.01},
+    {NAMED("IM25", "pull of 1.5 nN within 2 nm, 1/f"), .facts.right = ANYTHING, .noise = 0.005,
+     .kind = NOISE_FLICKER, .pull = 1.5e-9, .reach = 2e-9},
     {NAMED("IP1", "spikes in 1 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .spikes = 0.01},
     {NAMED("IP2", "spikes in 10 %"), .facts.intervals_promised = true, .facts.right = DESCRIBED,

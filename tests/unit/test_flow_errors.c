@@ -2,6 +2,8 @@
  * where it and its errors come from. 0 is for what has no error; what is not known is
  * nan, and is named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
+
+#include "flow/indentation/indent.h"
 #include "truth.h"
 
 /* With the errors of all inputs; without any; a material without draws, with the error of the
@@ -327,6 +329,34 @@ static void test_no_replicates(void **state)
     wt_friction_tables_clear(&tables);
 }
 
+/* What a base makes of a cone at z = depth tan(angle) / thickness is 0.721 z and more (Dimitriadis'
+ * way for a cone): 5 % at z = 1 / 15.3. */
+static void test_not_shown(void **state)
+{
+    (void)state;
+    const struct {
+        const char *tip, *has, *lacks;
+    } cases[] = {
+        {"cone:half-angle=45deg", "(thinner than 1.5 µm: a modulus more than 5 % too large", "nan"},
+        {"cone:half-angle=45deg", "(a degree wider: a modulus about 3.4 % smaller;", "nan"},
+        {"cone:half-angle=45deg+-1deg", "piezo", "half-angle"},
+        {"paraboloid:radius=100nm", "thinner than", "half-angle"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_indent_job job = wt_indent_job_defaults();
+        char text[512];
+        fixture_check(wt_tip_parse(cases[i].tip, &job.tip, NULL));
+        indent_not_shown(&job, 100e-9, text, sizeof text);
+        if (strstr(text, cases[i].has) == NULL || strstr(text, cases[i].lacks) != NULL)
+            fail_msg("%s: %s", cases[i].tip, text);
+        job.tip.sample_thickness = 1e-6;
+        indent_not_shown(&job, 100e-9, text, sizeof text);
+        assert_null(strstr(text, "thinner"));
+        indent_not_shown(&job, 0, text, sizeof text);
+        assert_string_equal(text, "");
+    }
+}
+
 static int clear(void **state)
 {
     (void)state;
@@ -346,7 +376,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all),           cmocka_unit_test(test_measured),
         cmocka_unit_test(test_named),         cmocka_unit_test(test_share),
-        cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_no_replicates), cmocka_unit_test(test_not_shown),
     };
     return cmocka_run_group_tests_name("errors known", tests, NULL, clear);
 }

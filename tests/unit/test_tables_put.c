@@ -958,26 +958,16 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_jobs),
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_no_superposition),
-        cmocka_unit_test(test_common_law),
-        cmocka_unit_test(test_no_hysteresis),
-        cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),
-        cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_spot),
-        cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(step_jobs),          cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),    cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_common_law),    cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_spot),          cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

@@ -139,6 +139,7 @@
       LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
     X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \
       LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
+    X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
     X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
     X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)

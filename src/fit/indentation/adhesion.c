@@ -1,23 +1,17 @@
-/* Adhesion of one force curve: a snap-on of the approach, the pull-off of the retract, and the fit
- * of adhesive contact where there is one of them.
+/* Adhesion of one force curve: a snap-on of the approach, and the fit of adhesive contact where
+ * there is one, or a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/indentation/curve_fitting.h"
+#include "fit/indentation/curve_model.h"
 
 #include "model/adhesion.h"
 #include "model/tip.h"
 
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-/* A pull, in noise of the baseline: white noise gets there once in 1e9 samples, and maps have 1e8.
- */
-static const double snap_noise = 6.0;
-/* And against the deepest pull elsewhere: two waves of one drift differ by less. */
-static const double snap_rest = 1.5;
 /* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
  * beyond it is an event of the baseline. */
 static const double gap_tolerance = 0.5;
@@ -28,17 +22,12 @@ static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) against no adhe
 /* Halfway, as a logarithm, from DMT (0.1) to JKR (5) is 0.7 (Johnson and Greenwood, J. Colloid
  * Interface Sci. 192 (1997) 326). */
 static const double least_tabor = 1.0;
-/* Of the retract: in it half of a pull-off is over, which is a jump but for the samples in it. */
-static const double let_go = 0.02;
-/* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
-static const double most_loss = 2.0;
 /* A constant pull, in that which is seen at the end of the way out: over as many samples as a
  * pull-off may take the mean of a pull is two thirds of its largest. */
 static const double most_pull = 1.5;
 enum {
     MAX_ROUNDS = 3,
     MAX_MOVES = 8,
-    LEVER_ROUNDS = 50,
     START_SAMPLES = 100 /* of the contact, to start a fit */
 };
 
@@ -77,7 +66,7 @@ WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
     const double after_contact = s->position[start] - fit->p[CURVE_C];
     const double reach = s->position[s->n - 1] - fit->p[CURVE_C];
     *found = (snap){start, deepest, end, pull};
-    return pull > snap_noise * noise && pull > snap_rest * elsewhere &&
+    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
            fabs(after_contact) < gap_tolerance * reach && end < s->n &&
            s->n - (end - start) >= CURVE_MIN_SAMPLES;
 }
@@ -95,190 +84,6 @@ static void leave_out(curve_fitting *f, size_t start, size_t end)
     f->n_snap += end - start;
 }
 
-/* ---- pull-off -------------------------------------------------------------------------------- */
-
-static double median(double *x, size_t n)
-{
-    const curve_span all = curve_span_of(x, n);
-    for (size_t i = 0; i < n; i++)
-        x[i] -= all.low;
-    return all.low + curve_select(x, n, n / 2, all.high - all.low);
-}
-
-static double within(double x, double from, double to)
-{
-    return x < from ? from : x > to ? to : x;
-}
-
-/* Without branches, which noise would take at random. */
-static double middle_of(double a, double b, double c)
-{
-    const double low = a < b ? a : b, high = a < b ? b : a;
-    const double least = c < high ? c : high;
-    return least > low ? least : low;
-}
-
-/* The largest pull of n forces above the baseline, smoothed over `width` samples, the last `far` of
- * which are free of the sample, if it stands out of them, of which `noise` is the scatter, and ends
- * at once; else 0. */
-WIDE_REGISTERS static double sudden_pull(const double *smooth, size_t n, size_t width, size_t far,
-                                         double noise)
-{
-    const size_t back = far < n ? far : n;
-    const double elsewhere = fmax(0.0, -curve_span_of(smooth + n - back, back).low),
-                 pull = fmax(0.0, -curve_span_of(smooth, n).low);
-    size_t deepest = 0;
-    while (pull > 0.0 && -smooth[deepest] < pull)
-        deepest++;
-    bool sudden = false;
-    const size_t last = deepest + width + (size_t)(let_go * (double)n);
-    for (size_t i = deepest; i < last && i < n; i++)
-        sudden |= -smooth[i] < 0.5 * pull;
-    return sudden && pull > snap_noise * noise && pull > snap_rest * elsewhere ? pull : 0.0;
-}
-
-/* Of the last n of x, which has room for them behind them. */
-static double scatter_of(const double *x, size_t n, double *room)
-{
-    for (size_t i = 0; i < n; i++)
-        room[i] = fabs(x[i]);
-    return median(room, n) / 0.6744897501960817;
-}
-
-/* By medians of three, and if there is none by means over ever more samples up to as many as a
- * pull-off may take: a weak one is not seen on a sample. */
-static double find_pull_off(const double *above, size_t n, size_t far, double *smooth, double *room)
-{
-    for (size_t i = 1; i + 1 < n; i++)
-        smooth[i - 1] = middle_of(above[i - 1], above[i], above[i + 1]);
-    double pull = sudden_pull(smooth, n - 2, 3, far, scatter_of(above + n - far, far, room));
-    for (double part = 0.25; part <= 1.0 && !(pull > 0.0); part *= 2.0) {
-        const size_t width = (size_t)(part * let_go * (double)n);
-        if (width < 4 || far < 4 * width)
-            continue;
-        const size_t means = n - width + 1, free = far - width + 1;
-        double sum = curve_sum(above, width);
-        for (size_t i = 0; i < means; i++) {
-            smooth[i] = sum / (double)width;
-            sum += i + width < n ? above[i + width] - above[i] : 0.0;
-        }
-        pull =
-            sudden_pull(smooth, means, width, free, scatter_of(smooth + means - free, free, room));
-    }
-    return pull;
-}
-
-/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
-static double work_along(const double *position, const double *force, size_t n, double from,
-                         double to)
-{
-    double sum = 0.0, last = n > 0 ? within(position[0], from, to) : 0.0;
-    for (size_t i = 1; i < n; i++) {
-        const double first = last;
-        last = within(position[i], from, to);
-        if (!(fabs(last - first) > 0.0))
-            continue;
-        const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,
-                     behind = force[i] > 0.0 ? force[i] : 0.0;
-        const double step = position[i] - position[i - 1];
-        const double middle = (0.5 * (first + last) - position[i - 1]) / step;
-        sum += (before + middle * (behind - before)) * (last - first);
-    }
-    return fabs(sum);
-}
-
-/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
- * of one force would make loss. */
-static double lever_work(const curve_fitting *f, double top)
-{
-    const double *p = f->solution.p, k = f->input.samples.spring_constant,
-                 z = fmax(top - p[CURVE_C], 0.0);
-    double depth = z, step = z;
-    for (int i = 0; i < LEVER_ROUNDS && fabs(step) > 1e-9 * z; i++) {
-        double g, slope;
-        wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
-        step = (k * (z - depth) - p[CURVE_E] * g) / (k + p[CURVE_E] * slope);
-        depth = fmax(depth + step, 0.0);
-    }
-    const double force = k * (z - depth);
-    return 0.5 * force * force / k;
-}
-
-/* Positions of the retract and forces above the baseline; returns how many are numbers. */
-WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
-                                             const double *force, size_t n)
-{
-    double *above = f->workspace->retract_force, *position = f->workspace->retract_position;
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        position[i] = f->input.direction * height[i] - f->input.position_origin;
-        above[i] = force[i] - f->input.force_origin - curve_baseline(&f->solution, position[i]);
-    }
-    sum = curve_sum(position, n) + curve_sum(above, n);
-    if (isfinite(sum))
-        return n;
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(position[i]) && isfinite(above[i])) {
-            position[kept] = position[i];
-            above[kept++] = above[i];
-        }
-    return kept;
-}
-
-/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
- * of the sample, if it is there, too. */
-static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
-                          size_t far)
-{
-    const curve_wave *wave = &f->solution.wave;
-    const double number = wave->p[WAVE_NUMBER];
-    double *part = f->workspace->scratch;
-    for (size_t i = 0; i < n; i++) {
-        const double bent = i < n - far && !wave->by_height
-                                ? fmax(above[i], 0.0) / f->input.samples.spring_constant
-                                : 0.0;
-        const double angle = number * (position[i] - bent);
-        part[i] = wave->p[WAVE_COSINE] * cos(angle) + wave->p[WAVE_SINE] * sin(angle);
-    }
-    const double with = gsl_stats_variance(above + n - far, 1, far);
-    for (size_t i = 0; i < n; i++)
-        part[i] = above[i] - part[i];
-    if (gsl_stats_variance(part + n - far, 1, far) < with)
-        memcpy(above, part, n * sizeof *above);
-}
-
-void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
-{
-    wt_indent_workspace *w = f->workspace;
-    const curve_samples *s = &f->input.samples;
-    const double c = f->solution.p[CURVE_C];
-    double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
-    const size_t kept = measure_retract(f, height, force, n);
-    const size_t far = kept / 4;
-    if (far < CURVE_BASELINE_SAMPLES)
-        return;
-    if (curve_has_wave(&f->solution.wave))
-        take_out_wave(f, position, above, kept, far);
-    /* The far end is its own baseline: drag and drift part it from that of the approach. */
-    memcpy(scratch, above + kept - far, far * sizeof *scratch);
-    const double level = median(scratch, far);
-    for (size_t i = 0; i < kept; i++)
-        above[i] -= level;
-    f->pull_off = find_pull_off(above, kept, far, scratch, w->weight);
-    /* A way out may begin below the top of the way in: what both have is compared. */
-    const double top =
-        fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
-    const double back = work_along(position, above, kept, c, top);
-    for (size_t i = 0; i < f->input.n_all; i++)
-        scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
-    const double in = work_along(s->position, scratch, f->input.n_all, c, top);
-    const double share = (in - back) / (in - lever_work(f, top));
-    /* Else the sample took too little of the work to say. */
-    if (share > 1.0 - most_loss && share < most_loss)
-        f->loss = share;
-}
-
 /* ---- adhesive contact ------------------------------------------------------------------------ */
 
 static size_t first_beyond(const curve_samples *s, double position)
@@ -292,6 +97,22 @@ static size_t first_beyond(const curve_samples *s, double position)
 static void refine(curve_fitting *f, curve_solution *s)
 {
     curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
+}
+
+/* Forces without a wave, depths and residuals of the workspace are those of the solution then. */
+static void evaluate(const curve_fitting *f)
+{
+    curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
+    curve_law_evaluate(&m, f->solution.p, &f->solution.wave);
+}
+
+/* Of the samples as they are now. */
+static double cost_without_adhesion(const curve_fitting *f, const double p[CURVE_N_PARAMETERS])
+{
+    const curve_kind plainly = {.tilt = f->kind.tilt};
+    curve_law m = curve_law_of(f->table, &f->input.samples, &plainly, f->workspace);
+    curve_model_start(&m, p);
+    return curve_model_cost(&m, p);
 }
 
 /* Means of some samples of a jump's baseline and contact each, for fits that only start others: a
@@ -335,8 +156,9 @@ static void move_jump(curve_fitting *f, curve_solution *s)
         }
 }
 
-/* With a free contact point, the jump where the tip touches if it follows. */
-static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
+/* With a free contact point, the jump where the tip touches if it follows. Returns the cost there,
+ * which may be another jump than that of the solution. */
+static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
 {
     const curve_samples *samples = &f->input.samples;
     curve_solution best = {.cost = (double)INFINITY};
@@ -353,41 +175,65 @@ static void refine_jump(curve_fitting *f, curve_solution *s, bool follows)
             break;
         f->kind.jump = jump;
     }
+    const double there = s->cost;
     f->kind.jump = jump_of_best;
     *s = best;
     if (follows && !f->kind.rough)
         move_jump(f, s);
+    return there;
 }
 
-/* From a jump: first with the contact point there, then with a free one, for from the wrong side of
- * the jump the fit does not find the way. follows: the jump stays where the tip touches. */
-static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jump, bool follows)
+/* From a jump to where a fit of all samples can begin: first with the contact point there, then
+ * with a free one, for from the wrong side of the jump the fit does not find the way. False if that
+ * leads nowhere: where the tip would touch, the samples that start a fit are farther from it than
+ * without adhesion, by more than the pull of one that is on the wrong side of the jump. */
+static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t jump, bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
     const curve_samples all = f->input.samples;
+    const curve_solution elastic = *s;
     curve_samples some;
+    double there = 0.0, most = (double)INFINITY;
     if (!fixed)
-        s.p[CURVE_C] = all.position[jump];
+        s->p[CURVE_C] = all.position[jump];
     f->kind.jump = jump;
-    if (thin(f, jump, &some, &f->kind.jump))
+    if (thin(f, jump, &some, &f->kind.jump)) {
         f->input.samples = some;
+        most = cost_without_adhesion(f, elastic.p) + pull * pull;
+    }
     f->kind.contact_fixed = f->kind.rough = true;
-    refine(f, &s);
+    refine(f, s);
     f->kind.contact_fixed = fixed;
     if (!fixed)
-        refine_jump(f, &s, follows);
+        there = refine_jump(f, s, follows);
     f->input.samples = all;
     f->kind.rough = false;
+    return !(there > most);
+}
+
+/* follows: the jump stays where the tip touches. */
+static curve_solution refine_from(curve_fitting *f, curve_solution s, double pull, size_t jump,
+                                  bool follows)
+{
+    const bool fixed = f->kind.contact_fixed;
+    const curve_samples all = f->input.samples;
+    if (!start_from(f, &s, pull, jump, follows)) {
+        s.converged = false;
+        return s;
+    }
     f->kind.jump = jump;
     if (follows && !fixed) {
         const size_t touched = first_beyond(&all, s.p[CURVE_C]);
         if (touched >= CURVE_BASELINE_SAMPLES && all.n - touched >= CURVE_BASELINE_SAMPLES)
             f->kind.jump = touched;
     }
-    if (fixed)
+    if (!fixed) {
+        f->kind.no_errors = true;
+        (void)refine_jump(f, &s, follows);
+        f->kind.no_errors = false;
+    }
+    if (fixed || s.converged)
         refine(f, &s);
-    else
-        refine_jump(f, &s, follows);
     f->kind.jump = s.first_contact;
     return s;
 }
@@ -415,7 +261,8 @@ static bool is_adhesive(const curve_fitting *f)
 
 /* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
  * a jump before the contact point without adhesion. The solution is that of the kind then. */
-static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double depth, size_t jump)
+static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pull, double depth,
+                              size_t jump)
 {
     static const double depths[] = {2.0, 1.0, 4.0};
     const curve_samples *samples = &f->input.samples;
@@ -425,7 +272,7 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double dep
             jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
-        f->solution = refine_from(f, start, jump, follows);
+        f->solution = refine_from(f, start, pull, jump, follows);
         /* Another minimum has the tip touch far from where the force rises. */
         const bool near = !follows || f->solution.cost < start.cost;
         if (near && is_adhesive(f))
@@ -450,7 +297,7 @@ static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
     const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
-    return fit_adhesion_from(f, start, depth, jump);
+    return fit_adhesion_from(f, start, pull, depth, jump);
 }
 
 static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
@@ -458,7 +305,7 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
     curve_solution start = f->solution;
     start.p[CURVE_W] = pull;
     f->kind.adhesive = f->kind.constant_pull = true;
-    return fit_adhesion_from(f, start, pull / f->input.samples.spring_constant, jump);
+    return fit_adhesion_from(f, start, pull, pull / f->input.samples.spring_constant, jump);
 }
 
 /* A fit, and the kind that it is of. */
@@ -534,10 +381,6 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    /* Forces without a wave, depths and residuals shall be of that solution, too. */
-    refine(f, &f->solution);
-    f->solution = to->solution;
-    f->kind = to->kind;
     f->other_law = 0.0;
     for (int i = 0; i < LAWS && best->found; i++)
         if (law[i].found && &law[i] != best) {
@@ -559,8 +402,10 @@ bool curve_fit_adhesion(curve_fitting *f)
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (fit_adhesion_laws(f, found.pull, found.start))
+            if (fit_adhesion_laws(f, found.pull, found.start)) {
+                evaluate(f);
                 return true;
+            }
             found.end -= found.deepest + 1 - found.start;
             found.deepest = found.start;
         }
@@ -572,18 +417,20 @@ bool curve_fit_adhesion(curve_fitting *f)
     /* Rubber lets go with far more than it is touched with, of which no snap-on was seen. */
     if (!(f->pull_off > 0.0) || !try_it)
         return true;
-    if (!fit_adhesion_laws(f, fmin(f->pull_off, snap_noise * f->input.step_noise), 0))
+    if (!fit_adhesion_laws(f, fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise), 0)) {
+        evaluate(f);
         return true;
+    }
     const double gain = -gain_of(f, &elastic);
-    if (gain > better_chi2)
+    if (gain > better_chi2) {
+        evaluate(f);
         return true;
+    }
     const curve_solution law = f->solution;
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
-    refine(f, &f->solution);
-    f->kind = plainly;
-    f->solution = elastic;
+    evaluate(f);
     f->other_law = by_other(f, &law, gain);
     return true;
 }

@@ -62,10 +62,16 @@ typedef struct scan_octave {
     double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* and its square */
 } scan_octave;
 
+/* Tips with one size larger and smaller by as much, borrowed, NULL: none; and the standard error of
+ * the stated one in that. A misfit that they explain is not one of the law, and the standard errors
+ * hold theirs. */
+typedef struct tip_move {
+    const wt_contact_table *down, *up;
+    double deviation;
+} tip_move;
+
 struct wt_indent_workspace {
-    /* Tips that are off by a standard error of the stated one each, borrowed; NULL: none. A misfit
-     * that they explain is not one of the law, and the standard errors hold theirs. */
-    const wt_contact_table *tip_moved[CURVE_TIP_MOVES];
+    tip_move tip_move[CURVE_TIP_MOVES];
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
@@ -236,8 +242,9 @@ typedef struct curve_kind {
                           Muller and Toporov; a capillary), in the place of the root of the work */
     bool memory;       /* the rubber has the spectrum of the options; not with adhesion */
     bool rough;        /* to a thousandth of a standard error, and without errors */
-    size_t jump;       /* of adhesive contact: the first sample in it; 0: where the tip touches */
-    curve_wave wave;   /* where to begin with it */
+    bool no_errors;
+    size_t jump;     /* of adhesive contact: the first sample in it; 0: where the tip touches */
+    curve_wave wave; /* where to begin with it */
 } curve_kind;
 static inline bool curve_has_wave(const curve_wave *wave)
 {

@@ -283,21 +283,22 @@ static inline void add_row(normal_equations *e, const double row[N], double r, s
     }
 }
 
-/* Rows of curve_model_row for contact without memory and adhesion, of which all are compared: four
- * at once. Returns the sample to go on with. */
+/* Rows of curve_model_row for contact without memory, of which all are compared: four at once.
+ * Returns the sample to go on with. */
 WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], normal_equations *to)
 {
     const curve_samples *s = m->samples;
     const wt_indent_workspace *w = m->workspace;
     const double soft = p[CURVE_E] / s->spring_constant, with_c = m->free[CURVE_C] ? -1.0 : 0.0,
                  with_t = m->free[CURVE_T] ? 1.0 : 0.0;
+    const double *const by_modulus = m->adhesive ? w->by_modulus : w->g;
     wide ee = {0.0}, ec = ee, ef = ee, et = ee, cc = ee, cf = ee, ct = ee, tf = ee, tt = ee,
-         er = ee, cr = ee, fr = ee, tr = ee;
+         er = ee, cr = ee, fr = ee, tr = ee, ew = ee, cw = ee, fw = ee, tw = ee, ww = ee, wr = ee;
     size_t i = m->n_baseline;
     for (; i + WIDE <= s->n; i += WIDE) {
         wide slope, g, r, z;
         wide_load(&slope, w->slope + i);
-        wide_load(&g, w->g + i);
+        wide_load(&g, by_modulus + i);
         wide_load(&r, w->residual + i);
         wide_load(&z, s->position + i);
         const wide balanced = 1.0 / (1.0 + soft * slope), by_e = g * balanced,
@@ -316,6 +317,17 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
         cr += by_c * r;
         fr += r;
         tr += by_t * r;
+        if (!m->adhesive)
+            continue;
+        wide by_w;
+        wide_load(&by_w, w->by_work + i);
+        by_w *= balanced;
+        ew += by_e * by_w;
+        cw += by_c * by_w;
+        fw += by_w;
+        tw += by_t * by_w;
+        ww += by_w * by_w;
+        wr += by_w * r;
     }
     to->jj[CURVE_E][CURVE_E] += wide_sum(&ee);
     to->jj[CURVE_E][CURVE_C] += wide_sum(&ec);
@@ -327,18 +339,23 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
     to->jj[CURVE_F0][CURVE_F0] += (double)(i - m->n_baseline);
     to->jj[CURVE_F0][CURVE_T] += wide_sum(&tf);
     to->jj[CURVE_T][CURVE_T] += wide_sum(&tt);
+    to->jj[CURVE_E][CURVE_W] += wide_sum(&ew);
+    to->jj[CURVE_C][CURVE_W] += wide_sum(&cw);
+    to->jj[CURVE_F0][CURVE_W] += wide_sum(&fw);
+    to->jj[CURVE_T][CURVE_W] += wide_sum(&tw);
+    to->jj[CURVE_W][CURVE_W] += wide_sum(&ww);
     to->jr[CURVE_E] += wide_sum(&er);
     to->jr[CURVE_C] += wide_sum(&cr);
     to->jr[CURVE_F0] += wide_sum(&fr);
     to->jr[CURVE_T] += wide_sum(&tr);
+    to->jr[CURVE_W] += wide_sum(&wr);
     return i;
 }
 
 static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
 {
     const curve_samples *s = m->samples;
-    const bool simple =
-        !m->plain && !m->adhesive && !m->memory && !m->wave && s->gap_to <= s->gap_from;
+    const bool simple = !m->plain && !m->memory && !m->wave && s->gap_to <= s->gap_from;
     const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
     normal_equations e = *to; /* whose sums stay in registers */
     for (size_t i = first; i < s->n; i++) {

@@ -256,7 +256,7 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
         s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
     curve_model_complete(&m, s.p);
     s.first_contact = first_contact(&m, s.p);
-    if (!m.rough)
+    if (!m.rough && !kind->no_errors)
         statistics(&m, &s);
     *solution = s;
 }

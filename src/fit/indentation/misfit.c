@@ -11,7 +11,7 @@
  * be others is in their errors, as is how they scatter: where the misfit is large its shape is not
  * known well enough to correct for it, and a linear model not good enough to say by how much.
  *
- * Tips that are as likely as the stated one (tip_moved of the workspace), and a pull that is seen
+ * Tips that are as likely as the stated one (tip_move of the workspace), and a pull that is seen
  * and that no law has, are further columns, of a standard deviation of 1: a misfit that they
  * explain is not one of the law.
  *
@@ -26,15 +26,18 @@
 #include "base/normal.h"
 #include "model/cholesky.h"
 
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
 
 enum {
     N = CURVE_N_PARAMETERS,
-    LEGENDRE = 10,               /* carry lengths from 0.175 on to 1 % of the variance */
-    MOVES = CURVE_TIP_MOVES + 1, /* and a pull */
-    M = LEGENDRE + MOVES,
+    LEGENDRE = 10,                          /* carry lengths from 0.175 on to 1 % of the variance */
+    MOVES = CURVE_TIP_MOVES + 1,            /* and a pull */
+    M = LEGENDRE + MOVES + CURVE_TIP_MOVES, /* and how moves of the tip bend */
+    BEND_ROUNDS = 4,
+    MOVE_STEPS = 12, /* to the farthest move, each way */
     LENGTHS = 3,
     SIZES = 16, /* most */
     NODES = 64, /* of the depth, for the covariance of the Legendre functions */
@@ -48,12 +51,13 @@ static const double largest_size = 0.3;
  * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
  * that it leaves; a pull by 3 times. */
 static const double most_hidden = 60.0;
-static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
-static const double no_size = 0.01;    /* of a likelihood: the size is none */
-static const double outside = 0.05;    /* of an interval of 95 % */
-static const double moved_chi2 = 3.84; /* of a move that is not 0, by its 95 % */
-static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
-static const double error_step = 0.01; /* of an error: to be said with two digits */
+static const double size_ratio = 2.5;    /* of two sizes that are tried: likelihoods are wider */
+static const double no_size = 0.01;      /* of a likelihood: the size is none */
+static const double outside = 0.05;      /* of an interval of 95 % */
+static const double moved_chi2 = 3.84;   /* of a move that is not 0, by its 95 % */
+static const double farthest_move = 3.0; /* of a tip, in its standard errors */
+static const double no_chance = 1e-4;    /* of an interval: what is less likely is not in it */
+static const double error_step = 0.01;   /* of an error: to be said with two digits */
 
 /* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
  * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
@@ -124,7 +128,7 @@ static void make_kernels(void)
  * imitate. */
 typedef struct data_sums {
     size_t n_free, which[N]; /* the free parameters */
-    size_t n_tips, n_moves;  /* moves of the tip; with a pull */
+    size_t n_tips, n_moves;  /* moves of the tip; with a pull; behind them bends of the former */
     double imitated[N][M];   /* of the parameters, by a coefficient of 1 */
     double mm[M][M], my[M];  /* sums of the columns with each other and the residual */
 } data_sums;
@@ -194,10 +198,11 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
 {
     double raw[M][BLOCKS_HISTORY];
     const double pull = pull_without_law(f);
+    const tip_move *const tips = f->workspace->tip_move;
     size_t n_tips = 0;
-    while (n_tips < CURVE_TIP_MOVES && f->workspace->tip_moved[n_tips] != NULL)
+    while (n_tips < CURVE_TIP_MOVES && tips[n_tips].up != NULL)
         n_tips++;
-    const size_t n_moves = n_tips + (pull > 0.0);
+    const size_t n_moves = n_tips + (pull > 0.0), bends = LEGENDRE + n_moves;
     d->n_tips = n_tips;
     d->n_moves = n_moves;
     const double deepest = f->solution.max_indentation;
@@ -207,18 +212,23 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             legendre(b->depth[i], at);
         for (size_t k = 0; k < LEGENDRE; k++)
             raw[k][i] = at[k] * b->touch[i] * force;
+        /* As shares of the force that is there: means over a block, which the law has, too. */
+        const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
         for (size_t k = 0; k < n_tips; k++) {
-            double depth = b->depth[i] * deepest, now = 0.0, moved = 0.0;
-            if (b->touch[i] > 0.0) {
+            double depth = b->depth[i] * deepest, now = 0.0, up = 0.0, down = 0.0;
+            if (contact > 0.0) {
                 wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
-                wt_contact_table_eval(f->workspace->tip_moved[k], &depth, 1, &moved, NULL);
+                wt_contact_table_eval(tips[k].up, &depth, 1, &up, NULL);
+                wt_contact_table_eval(tips[k].down, &depth, 1, &down, NULL);
             }
-            raw[LEGENDRE + k][i] = p[CURVE_E] * (moved - now) * b->touch[i];
+            const double x = tips[k].deviation, unit = now > 0.0 ? contact / now : 0.0;
+            raw[LEGENDRE + k][i] = 0.5 * x * unit * (up - down);
+            raw[bends + k][i] = x * x * unit * (up - now - (now - down));
         }
         if (pull > 0.0)
             raw[LEGENDRE + n_tips][i] = -pull * b->touch[i];
     }
-    for (size_t k = 0; k < LEGENDRE + n_moves; k++)
+    for (size_t k = 0; k < bends + n_tips; k++)
         residual_blocks_whiten(b, raw[k], BLOCKS_MAX_ORDER, b->n, to->b[k]);
     for (size_t c = 0, k = 0; c < N; c++)
         if (m->free[c]) {
@@ -267,7 +277,7 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
     double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
     *to = (data_sums){0};
     fill_columns(f, m, p, b, force, &of, to);
-    const size_t n = b->n, columns_b = LEGENDRE + to->n_moves;
+    const size_t n = b->n, columns_b = LEGENDRE + to->n_moves + to->n_tips;
     for (size_t i = 0; i < N; i++)
         if (m->free[i])
             to->which[to->n_free++] = i;
@@ -334,21 +344,108 @@ typedef struct candidate {
     double log_likelihood, chance, shift[N], variance[N];
 } candidate;
 
-/* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
- * alone make of the others is the candidate without a discrepancy. Where they fit better than the
- * stated tip all of its deviation counts: forces are not linear in sizes of a tip, and which of
- * them is off the residual does not say. False if there is no solution. */
-static bool take_out_moves(data_sums *d, candidate *none)
+/* Adds `share` of column `of` to column `to` of the sums. */
+static void add_column(data_sums *d, size_t to, size_t of, double share)
+{
+    for (size_t k = 0; k < M; k++)
+        d->mm[to][k] += share * d->mm[of][k];
+    for (size_t k = 0; k < M; k++)
+        d->mm[k][to] += share * d->mm[k][of];
+    d->my[to] += share * d->my[of];
+    for (size_t a = 0; a < d->n_free; a++)
+        d->imitated[a][to] += share * d->imitated[a][of];
+}
+
+/* The matrix of the moves, of a deviation of 1 each, in triangular form, and where they would be.
+ */
+static bool solve_moves(const data_sums *d, double (*t)[M], double *x)
 {
     const size_t n = d->n_moves;
-    double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M];
-    *none = (candidate){.log_likelihood = 0.0};
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             t[i][j] = d->mm[LEGENDRE + i][LEGENDRE + j] + (i == j ? 1.0 : 0.0);
     if (!cholesky_factor(&t[0][0], M, n, 0.0))
         return false;
-    cholesky_forward(&t[0][0], M, n, d->my + LEGENDRE, of_y);
+    cholesky_forward(&t[0][0], M, n, d->my + LEGENDRE, x);
+    return true;
+}
+
+/* Forces are not linear in the sizes of a tip: the moves become those about where the data put
+ * them, and the residual what it is there. */
+static bool bend_moves(data_sums *d)
+{
+    const data_sums straight = *d;
+    const size_t n = d->n_moves, bends = LEGENDRE + n;
+    double at[CURVE_TIP_MOVES] = {0.0};
+    for (int round = 0; round < BEND_ROUNDS && d->n_tips > 0; round++) {
+        double t[M][M] = {{0.0}}, x[M];
+        *d = straight;
+        for (size_t i = 0; i < d->n_tips; i++)
+            add_column(d, LEGENDRE + i, bends + i, at[i]);
+        for (size_t i = 0; i < d->n_tips; i++)
+            for (size_t k = 0; k < M; k++)
+                d->my[k] += 0.5 * at[i] * at[i] * d->mm[bends + i][k];
+        if (!solve_moves(d, t, x))
+            return false;
+        for (size_t c = n; c-- > 0;) {
+            for (size_t k = c + 1; k < n; k++)
+                x[c] -= t[k][c] * x[k];
+            x[c] /= t[c][c];
+            /* what three tips say of forces does not reach farther */
+            if (c < d->n_tips)
+                at[c] = fmax(-farthest_move, fmin(farthest_move, x[c]));
+        }
+    }
+    return true;
+}
+
+/* Minus 2 ln of the chance that tip i alone is moved by x, but for a constant. */
+static double cost_of_move(const data_sums *d, size_t i, double x)
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    const double bend = 0.5 * x * x;
+    return x * x - 2.0 * (x * d->my[c] + bend * d->my[q]) + x * x * d->mm[c][c] +
+           2.0 * x * bend * d->mm[c][q] + bend * bend * d->mm[q][q];
+}
+
+/* What a move of tip i does to the parameters, in the mean of the squares over all that the
+ * residual allows: two tips far from each other may leave as little, as where only one of them is
+ * deep in its cap. */
+static void spread_of_move(const data_sums *d, size_t i, double spread[N])
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    double least = (double)INFINITY, all = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++)
+        least = fmin(least, cost_of_move(d, i, farthest_move * j / MOVE_STEPS));
+    for (size_t a = 0; a < N; a++)
+        spread[a] = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++) {
+        const double x = farthest_move * j / MOVE_STEPS,
+                     chance = exp(-0.5 * (cost_of_move(d, i, x) - least));
+        all += chance;
+        for (size_t a = 0; a < d->n_free; a++)
+            spread[a] += chance * pow(x * d->imitated[a][c] + 0.5 * x * x * d->imitated[a][q], 2);
+    }
+    for (size_t a = 0; a < N; a++)
+        spread[a] /= all;
+}
+
+/* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
+ * alone make of the others is the candidate without a discrepancy. Where they fit better than the
+ * stated tip all of its deviation counts: which of its sizes is off the residual does not say.
+ * tip: of the variances, that of the stated errors of the tip. False if there is no solution. */
+static bool take_out_moves(data_sums *d, candidate *none, double tip[N])
+{
+    const size_t n = d->n_moves;
+    double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M], straight[N][CURVE_TIP_MOVES];
+    double spread[CURVE_TIP_MOVES][N];
+    *none = (candidate){.log_likelihood = 0.0};
+    for (size_t a = 0; a < d->n_free; a++)
+        memcpy(straight[a], d->imitated[a] + LEGENDRE, d->n_tips * sizeof straight[a][0]);
+    for (size_t i = 0; i < d->n_tips; i++)
+        spread_of_move(d, i, spread[i]);
+    if (!bend_moves(d) || !solve_moves(d, t, of_y))
+        return false;
     const bool fit_better = dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
     for (size_t k = 0; k < LEGENDRE; k++)
         cholesky_forward(&t[0][0], M, n, d->mm[k] + LEGENDRE, by[k]);
@@ -362,39 +459,72 @@ static bool take_out_moves(data_sums *d, candidate *none)
         cholesky_forward(&t[0][0], M, n, d->imitated[a] + LEGENDRE, y);
         none->shift[a] = -dot(y, of_y, n);
         none->variance[a] = dot(y, y, n);
-        const double *moved = d->imitated[a] + LEGENDRE;
         if (fit_better) {
             none->shift[a] = 0.0;
-            none->variance[a] = fmax(dot(y, y, n), dot(moved, moved, d->n_tips));
+            none->variance[a] = fmax(dot(y, y, n), dot(straight[a], straight[a], d->n_tips));
         }
+        for (size_t k = 0; k < d->n_tips; k++)
+            none->variance[a] =
+                fmax(none->variance[a], spread[k][a] - none->shift[a] * none->shift[a]);
+        const double pull = d->n_moves > d->n_tips ? d->imitated[a][LEGENDRE + d->n_tips] : 0.0;
+        tip[a] = d->n_tips > 0 ? fmax(0.0, none->variance[a] - pull * pull) : 0.0;
         for (size_t k = 0; k < LEGENDRE; k++)
             d->imitated[a][k] -= dot(by[k], y, n);
     }
     return true;
 }
 
-/* The sums for the unit normal numbers behind a discrepancy of size 1 and one of the lengths. */
+/* The sums for unit normal numbers behind a discrepancy of size 1 and one of the lengths, turned so
+ * that those with each other make a tridiagonal matrix: then a size costs next to nothing. */
 typedef struct length_sums {
-    double with[LEGENDRE][LEGENDRE], residual[LEGENDRE], imitated[N][LEGENDRE];
+    double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and the element beside it */
+    double residual[LEGENDRE], imitated[N][LEGENDRE];
 } length_sums;
+
+static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGENDRE])
+{
+    for (size_t i = 0; i < LEGENDRE; i++)
+        to[i] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++)
+        for (size_t i = 0; i < LEGENDRE; i++)
+            to[i] += q[k][i] * x[k];
+}
+
+/* Of the sums `with` of root' mm root. */
+static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE], const data_sums *d,
+                             length_sums *to)
+{
+    double tau[LEGENDRE - 1], q[LEGENDRE][LEGENDRE], turned[LEGENDRE][LEGENDRE];
+    gsl_matrix_view a = gsl_matrix_view_array(&with[0][0], LEGENDRE, LEGENDRE),
+                    of_q = gsl_matrix_view_array(&q[0][0], LEGENDRE, LEGENDRE);
+    gsl_vector_view scales = gsl_vector_view_array(tau, LEGENDRE - 1),
+                    diagonal = gsl_vector_view_array(to->with, LEGENDRE),
+                    beside = gsl_vector_view_array(to->next, LEGENDRE - 1);
+    (void)gsl_linalg_symmtd_decomp(&a.matrix, &scales.vector); /* sizes are the only errors */
+    (void)gsl_linalg_symmtd_unpack(&a.matrix, &scales.vector, &of_q.matrix, &diagonal.vector,
+                                   &beside.vector);
+    to->next[LEGENDRE - 1] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++) /* root q */
+        turn(q, root[k], turned[k]);
+    turn(turned, d->my, to->residual);
+    for (size_t c = 0; c < d->n_free; c++)
+        turn(turned, d->imitated[c], to->imitated[c]);
+}
 
 static length_sums sums_of_length(const data_sums *d, int length)
 {
-    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE]; /* the root transposed */
+    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE], with[LEGENDRE][LEGENDRE] = {{0.0}};
     length_sums to;
-    for (size_t i = 0; i < LEGENDRE; i++)
+    for (size_t i = 0; i < LEGENDRE; i++) /* transposed */
         for (size_t k = 0; k < LEGENDRE; k++)
             root[i][k] = kernels.root[length][k][i];
-    for (size_t i = 0; i < LEGENDRE; i++) {
-        to.residual[i] = dot(root[i] + i, d->my + i, LEGENDRE - i);
-        for (size_t a = 0; a < d->n_free; a++)
-            to.imitated[a][i] = dot(root[i] + i, d->imitated[a] + i, LEGENDRE - i);
+    for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t k = 0; k < LEGENDRE; k++)
             half[i][k] = dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
-    }
     for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t j = 0; j <= i; j++)
-            to.with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
+            with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
+    make_tridiagonal(kernels.root[length], with, d, &to);
     return to;
 }
 
@@ -402,25 +532,37 @@ static length_sums sums_of_length(const data_sums *d, int length)
 static double try_size(const data_sums *d, const length_sums *l, double s, const candidate *none,
                        candidate *c)
 {
-    double t[M][M], with[LEGENDRE], x[LEGENDRE], y[LEGENDRE];
+    const double square = s * s;
+    double factor[LEGENDRE], share[LEGENDRE] = {0.0}, x[LEGENDRE], explained = 0.0, product = 1.0;
     *c = (candidate){.log_likelihood = -(double)INFINITY};
     for (size_t i = 0; i < LEGENDRE; i++) {
-        with[i] = s * l->residual[i];
-        for (size_t j = 0; j <= i; j++)
-            t[i][j] = s * s * l->with[i][j] + (i == j ? 1.0 : 0.0);
+        factor[i] = 1.0 + square * l->with[i];
+        x[i] = l->residual[i];
+        if (i > 0) {
+            share[i] = square * l->next[i - 1] / factor[i - 1];
+            factor[i] -= share[i] * square * l->next[i - 1];
+            x[i] -= share[i] * x[i - 1];
+        }
+        if (!(factor[i] > 0.0))
+            return 0.0;
+        product *= factor[i]; /* each below 1e12 by the least noise of blocks */
     }
-    if (!cholesky_factor(&t[0][0], M, LEGENDRE, 0.0))
-        return 0.0;
-    cholesky_forward(&t[0][0], M, LEGENDRE, with, x);
-    c->log_likelihood = 0.0;
-    for (size_t i = 0; i < LEGENDRE; i++)
-        c->log_likelihood -= log(t[i][i]);
+    c->log_likelihood = -0.5 * log(product);
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        factor[i] = square / factor[i];
+        explained += factor[i] * x[i] * x[i];
+    }
     for (size_t a = 0; a < d->n_free; a++) {
-        cholesky_forward(&t[0][0], M, LEGENDRE, l->imitated[a], y);
-        c->shift[a] = none->shift[a] - s * dot(y, x, LEGENDRE);
-        c->variance[a] = none->variance[a] + s * s * dot(y, y, LEGENDRE);
+        double y = 0.0;
+        c->shift[a] = none->shift[a];
+        c->variance[a] = none->variance[a];
+        for (size_t i = 0; i < LEGENDRE; i++) {
+            y = l->imitated[a][i] - share[i] * y;
+            c->shift[a] -= factor[i] * y * x[i];
+            c->variance[a] += factor[i] * y * y;
+        }
     }
-    return dot(x, x, LEGENDRE);
+    return explained;
 }
 
 /* Of the residual with what is left unexplained, for the variance of the noise is estimated. */
@@ -432,6 +574,7 @@ static double student(double unexplained, double freedom)
 typedef struct mixture {
     size_t n;
     candidate part[1 + LENGTHS * SIZES]; /* the first one is that there is no discrepancy */
+    double tip[N]; /* of all variances, that of the stated errors of the tip */
 } mixture;
 
 static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *to)
@@ -439,7 +582,7 @@ static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *t
     candidate *const none = &to->part[0];
     double explained[1 + LENGTHS * SIZES] = {0.0}, most = 0.0, best, sum = 0.0;
     length_sums of[LENGTHS];
-    if (!take_out_moves(d, none))
+    if (!take_out_moves(d, none, to->tip))
         return false;
     for (int l = 0; l < LENGTHS; l++)
         of[l] = sums_of_length(d, l);
@@ -469,14 +612,16 @@ static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *t
     return true;
 }
 
-/* Half of the interval about 0 that holds 95 % of parameter a, in the 1.96 of a normal one. A shift
- * counts as a deviation, for the direction in which a misfit is corrected is surer than how far. */
-static double error_of(const mixture *m, size_t a, double standard_error)
+/* `less` of the variances is left out. Half of the interval about 0 that holds 95 % of parameter a,
+ * in the 1.96 of a normal one. A shift counts as a deviation, for the direction in which a misfit
+ * is corrected is surer than how far. */
+static double error_of(const mixture *m, size_t a, double less, double standard_error)
 {
     double low = standard_error, high = standard_error, sd[1 + LENGTHS * SIZES];
     for (size_t i = 0; i < m->n; i++) {
         const candidate *c = &m->part[i];
-        sd[i] = sqrt(c->variance[a] + c->shift[a] * c->shift[a] + standard_error * standard_error);
+        sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + c->shift[a] * c->shift[a] +
+                     standard_error * standard_error);
         if (c->chance > no_chance)
             high = fmax(high, sd[i]);
     }
@@ -529,8 +674,10 @@ void curve_add_misfit(curve_fitting *f)
     s->no_misfit = found.part[0].chance;
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
-        const double noise = s->standard_error[i], error = error_of(&found, a, noise);
-        s->misfit_error[i] = sqrt(error * error - noise * noise);
+        const double noise = s->standard_error[i],
+                     by_law = error_of(&found, a, found.tip[a], noise),
+                     error = error_of(&found, a, 0.0, noise);
+        s->misfit_error[i] = sqrt(by_law * by_law - noise * noise);
         s->standard_error[i] = error;
     }
 }

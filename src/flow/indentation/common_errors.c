@@ -102,7 +102,8 @@ void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
     size_t n = 0;
     for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
         if (of->error[i] > 0 && of->tip[i][1] != NULL)
-            workspace->tip_moved[n++] = of->tip[i][1];
+            workspace->tip_move[n++] =
+                (tip_move){of->tip[i][0], of->tip[i][1], of->error[i] / of->step[i]};
 }
 
 static void clear_curve(common_curve *curve)

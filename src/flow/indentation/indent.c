@@ -59,7 +59,9 @@ typedef struct indent_task {
      * fit under the lock. */
     pthread_mutex_t lock;
     pthread_cond_t written;
-    wt_force_source *source;  /* NULL: nothing is left to read */
+    wt_force_source *source; /* NULL: nothing is left to read */
+    wt_input *beside; /* the file for its digest, which one of them makes first; NULL: made */
+    wt_error *beside_err;
     item *items;              /* [n_items] */
     size_t n_items, n_taken;  /* of them, those that are not free */
     size_t n_samples;         /* in those */
@@ -247,7 +249,9 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
 {
     indent_task *task = user;
     item *it;
-    (void)i;
+    if (i == 0 && task->beside != NULL)
+        return flow_record(task->work, task->beside, task->file, task->job->group,
+                           task->beside_err);
     (void)pthread_mutex_lock(&task->lock);
     while ((it = take_curve(task)) != NULL) {
         (void)pthread_mutex_unlock(&task->lock);
@@ -267,8 +271,9 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
 static wt_status read_file(indent_task *task, wt_error *err)
 {
     wt_input *input = NULL;
-    wt_status status =
-        flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
+    wt_error failure = WT_ERROR_INIT;
+    wt_status status = flow_open_beside(task->work, task->file, task->job->group, WT_KIND_FORCE,
+                                        &input, task->n_workers > 1 ? &task->beside : NULL, err);
     const wt_read_options options =
         wanted_channels(task->file, task->job, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
@@ -281,15 +286,21 @@ static wt_status read_file(indent_task *task, wt_error *err)
         task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
-        status = wt_parallel_for(n < task->n_workers ? n : task->n_workers, task->n_workers,
-                                 fit_curves, task, NULL, "fitting curves");
-        status =
-            status == WT_OK ? task->status : wt_fail(err, status, "fitting in parallel failed");
+        task->beside_err = &failure;
+        const size_t fits = n < task->n_workers ? n : task->n_workers;
+        status = wt_parallel_for(fits + (task->beside != NULL), task->n_workers, fit_curves, task,
+                                 NULL, "fitting curves");
+        if (status == WT_OK || task->status != WT_OK)
+            status = task->status;
+        else
+            *err = failure;
     }
     if (status == WT_OK)
         status = flush_failures(task, err);
     wt_force_close(task->source);
     task->source = NULL;
+    wt_input_close(task->beside);
+    task->beside = NULL;
     wt_input_close(input);
     return status;
 }

@@ -23,6 +23,7 @@ typedef struct indent_together {
     double deepest;                               /* indentation [m] */
     size_t n_misfit;                              /* that show one */
     size_t n_unknown;                  /* that lose what their moduli are not known to hold */
+    double deepest;                    /* largest indentation [m] */
     double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
     size_t n_misfits;
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
@@ -30,6 +31,8 @@ typedef struct indent_together {
 wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
                               const wt_indent_options *options, wt_error *err);
 void indent_together_clear(indent_together *together);
+/* What curves of such a depth cannot show, with what would, in words. */
+void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Says what moves all moduli alike, so that their scatter does not show it, tests the mean residual
  * and says where other estimators see contact. */
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,

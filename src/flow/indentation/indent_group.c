@@ -20,6 +20,7 @@ static void add_shift(indent_shifts *all, double shift)
 wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
                               const wt_indent_options *options, wt_error *err)
 {
+    to->deepest = fmax(to->deepest, fit->max_indentation);
     add_shift(&to->bend, fit->bend_shift / fit->modulus.value);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
@@ -188,7 +189,11 @@ static void say_radius(const indent_together *together, const wt_indent_job *job
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
                               const wt_job *work, table_writer *rows, wt_error *err)
 {
+    char not_shown[512];
     say_radius(together, job, work);
+    indent_not_shown(job, together->deepest, not_shown, sizeof not_shown);
+    if (*not_shown != '\0')
+        indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, not_shown);
     say_shifts(together, job, work, rows);
     pool_curves(together, job, work, rows);
     return say_contacts(together, job, work, err);

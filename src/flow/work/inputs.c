@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/digest.h"
 #include "data/tables/rows.h"
+#include "read/bytes/input.h"
 
 #include <search.h>
 #include <stdlib.h>
@@ -228,19 +229,28 @@ wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }
 
-static wt_status record_input(const wt_job *work, wt_input *input, const flow_file *file,
-                              const char *role, wt_error *err)
+wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
+                      wt_error *err)
 {
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
-    return wt_job_input(work,
-                        (wt_provenance_input){.path = file->name, .role = role, .format = format},
-                        input, err);
+    const wt_status status = wt_job_input(
+        work, (wt_provenance_input){.path = file->name, .role = role, .format = format}, input,
+        err);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    return status;
 }
 
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **result, wt_error *err)
+{
+    return flow_open_beside(work, file, role, kinds, result, NULL, err);
+}
+
+wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+                           wt_input **result, wt_input **beside, wt_error *err)
 {
     if (work->formats == NULL)
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
@@ -256,8 +266,13 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
     } else if (status == WT_OK) {
         status = wt_detect(work->formats, input, read, kinds, &file->format, err);
     }
-    if (status == WT_OK && (work->provenance != NULL || work->cost != NULL))
-        status = record_input(work, input, file, role, err);
+    if (beside != NULL)
+        *beside = NULL;
+    if (status == WT_OK && work->provenance != NULL && beside != NULL)
+        status = input_beside(input, beside, err);
+    if (status == WT_OK && (work->provenance != NULL || work->cost != NULL) &&
+        (beside == NULL || *beside == NULL))
+        status = flow_record(work, input, file, role, err);
     if (status != WT_OK) {
         wt_error_file(err, file->name);
         wt_input_close(input);

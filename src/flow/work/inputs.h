@@ -41,6 +41,13 @@ void flow_files_clear(flow_files *files);
 /* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
+/* The same, but of a large file the provenance is left to flow_record with the input `beside`, on
+ * another thread than that which reads the file; NULL where nothing is left. */
+wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+                           wt_input **input, wt_input **beside, wt_error *err) WT_NODISCARD;
+/* Adds a file that was opened to the provenance. */
+wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
+                      wt_error *err) WT_NODISCARD;
 
 /* How a file is read: by the options of its set, as the format that was found, if any.
  */

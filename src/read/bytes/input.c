@@ -168,6 +168,24 @@ wt_status input_of_file(int file, size_t size, const char *name, wt_input **inpu
     return status;
 }
 
+wt_status input_beside(const wt_input *input, wt_input **beside, wt_error *err)
+{
+    *beside = NULL;
+    if (input->whole || input->expected <= SCRATCH_ABOVE)
+        return WT_OK;
+    wt_status status = input_new(input->name, beside, err);
+    if (status != WT_OK)
+        return status;
+    (*beside)->expected = input->expected;
+    (*beside)->fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
+    if ((*beside)->fd >= 0)
+        return WT_OK;
+    status = fail_io(input, err, errno, "cannot be opened once more");
+    wt_input_close(*beside);
+    *beside = NULL;
+    return status;
+}
+
 void wt_input_close(wt_input *input)
 {
     if (input == NULL)
