@@ -1,5 +1,5 @@
-/* Adhesion of one force curve: a snap-on of the approach, the pull-off of the retract, and the fit
- * of adhesive contact where there is one of them.
+/* Adhesion of one force curve: a snap-on of the approach, and the fit of adhesive contact where
+ * there is one, or a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,31 +9,25 @@
 #include "model/adhesion.h"
 #include "model/tip.h"
 
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-/* A pull, in noise of the baseline: white noise gets there once in 1e9 samples, and maps have 1e8.
- */
-static const double snap_noise = 6.0;
-/* And against the deepest pull elsewhere: two waves of one drift differ by less. */
-static const double snap_rest = 1.5;
 /* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
  * beyond it is an event of the baseline. */
 static const double gap_tolerance = 0.5;
-static const double work_errors = 3.0; /* a work of adhesion, in its standard errors: 0.3 % */
+/* The root of a work of adhesion, in its standard errors; a pull counts like the work. */
+static const double work_errors = 3.0;
+static const double kink_left = 1e-3;  /* of a standard error: a step beyond ends at a kink */
 static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) against no adhesion: the same */
 /* Halfway, as a logarithm, from DMT (0.1) to JKR (5) is 0.7 (Johnson and Greenwood, J. Colloid
  * Interface Sci. 192 (1997) 326). */
 static const double least_tabor = 1.0;
-/* Of the retract: in it half of a pull-off is over, which is a jump but for the samples in it. */
-static const double let_go = 0.02;
-/* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
-static const double most_loss = 2.0;
+/* A constant pull, in that which is seen at the end of the way out: over as many samples as a
+ * pull-off may take the mean of a pull is two thirds of its largest. */
+static const double most_pull = 1.5;
 enum {
     MAX_ROUNDS = 3,
-    LEVER_ROUNDS = 50,
+    MAX_MOVES = 8,
     START_SAMPLES = 100 /* of the contact, to start a fit */
 };
 
@@ -72,7 +66,7 @@ WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
     const double after_contact = s->position[start] - fit->p[CURVE_C];
     const double reach = s->position[s->n - 1] - fit->p[CURVE_C];
     *found = (snap){start, deepest, end, pull};
-    return pull > snap_noise * noise && pull > snap_rest * elsewhere &&
+    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
            fabs(after_contact) < gap_tolerance * reach && end < s->n &&
            s->n - (end - start) >= CURVE_MIN_SAMPLES;
 }
@@ -88,162 +82,6 @@ static void leave_out(curve_fitting *f, size_t start, size_t end)
         memmove(w->force + start, w->force + end, behind * sizeof *w->force);
     s->n -= end - start;
     f->n_snap += end - start;
-}
-
-/* ---- pull-off -------------------------------------------------------------------------------- */
-
-static double median(double *x, size_t n)
-{
-    const curve_span all = curve_span_of(x, n);
-    for (size_t i = 0; i < n; i++)
-        x[i] -= all.low;
-    return all.low + curve_select(x, n, n / 2, all.high - all.low);
-}
-
-static double within(double x, double from, double to)
-{
-    return x < from ? from : x > to ? to : x;
-}
-
-/* Without branches, which noise would take at random. */
-static double middle_of(double a, double b, double c)
-{
-    const double low = a < b ? a : b, high = a < b ? b : a;
-    const double least = c < high ? c : high;
-    return least > low ? least : low;
-}
-
-/* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
- * stands out of them and ends at once; else 0. */
-WIDE_REGISTERS static double sudden_pull(const double *above, size_t n, size_t far, double noise,
-                                         double *restrict middle)
-{
-    for (size_t i = 1; i + 1 < n; i++)
-        middle[i] = middle_of(above[i - 1], above[i], above[i + 1]);
-    const double elsewhere = fmax(0.0, -curve_span_of(middle + n - far, far - 1).low),
-                 pull = fmax(0.0, -curve_span_of(middle + 1, n - far - 1).low);
-    size_t deepest = pull > 0.0 ? 1 : 0;
-    while (pull > 0.0 && -middle[deepest] < pull)
-        deepest++;
-    bool sudden = false;
-    const size_t last = deepest + (size_t)(let_go * (double)n) + 3;
-    for (size_t i = deepest; i < last && i < n; i++)
-        sudden |= -above[i] < 0.5 * pull;
-    return sudden && pull > snap_noise * noise && pull > snap_rest * elsewhere ? pull : 0.0;
-}
-
-/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
-static double work_along(const double *position, const double *force, size_t n, double from,
-                         double to)
-{
-    double sum = 0.0, last = n > 0 ? within(position[0], from, to) : 0.0;
-    for (size_t i = 1; i < n; i++) {
-        const double first = last;
-        last = within(position[i], from, to);
-        if (!(fabs(last - first) > 0.0))
-            continue;
-        const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,
-                     behind = force[i] > 0.0 ? force[i] : 0.0;
-        const double step = position[i] - position[i - 1];
-        const double middle = (0.5 * (first + last) - position[i - 1]) / step;
-        sum += (before + middle * (behind - before)) * (last - first);
-    }
-    return fabs(sum);
-}
-
-/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
- * of one force would make loss. */
-static double lever_work(const curve_fitting *f, double top)
-{
-    const double *p = f->solution.p, k = f->input.samples.spring_constant,
-                 z = fmax(top - p[CURVE_C], 0.0);
-    double depth = z, step = z;
-    for (int i = 0; i < LEVER_ROUNDS && fabs(step) > 1e-9 * z; i++) {
-        double g, slope;
-        wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
-        step = (k * (z - depth) - p[CURVE_E] * g) / (k + p[CURVE_E] * slope);
-        depth = fmax(depth + step, 0.0);
-    }
-    const double force = k * (z - depth);
-    return 0.5 * force * force / k;
-}
-
-/* Positions of the retract and forces above the baseline; returns how many are numbers. */
-WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
-                                             const double *force, size_t n)
-{
-    double *above = f->workspace->retract_force, *position = f->workspace->retract_position;
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        position[i] = f->input.direction * height[i] - f->input.position_origin;
-        above[i] = force[i] - f->input.force_origin - curve_baseline(&f->solution, position[i]);
-    }
-    sum = curve_sum(position, n) + curve_sum(above, n);
-    if (isfinite(sum))
-        return n;
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(position[i]) && isfinite(above[i])) {
-            position[kept] = position[i];
-            above[kept++] = above[i];
-        }
-    return kept;
-}
-
-/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
- * of the sample, if it is there, too. */
-static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
-                          size_t far)
-{
-    const curve_wave *wave = &f->solution.wave;
-    const double number = wave->p[WAVE_NUMBER];
-    double *part = f->workspace->scratch;
-    for (size_t i = 0; i < n; i++) {
-        const double bent = i < n - far && !wave->by_height
-                                ? fmax(above[i], 0.0) / f->input.samples.spring_constant
-                                : 0.0;
-        const double angle = number * (position[i] - bent);
-        part[i] = wave->p[WAVE_COSINE] * cos(angle) + wave->p[WAVE_SINE] * sin(angle);
-    }
-    const double with = gsl_stats_variance(above + n - far, 1, far);
-    for (size_t i = 0; i < n; i++)
-        part[i] = above[i] - part[i];
-    if (gsl_stats_variance(part + n - far, 1, far) < with)
-        memcpy(above, part, n * sizeof *above);
-}
-
-void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
-{
-    wt_indent_workspace *w = f->workspace;
-    const curve_samples *s = &f->input.samples;
-    const double c = f->solution.p[CURVE_C];
-    double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
-    const size_t kept = measure_retract(f, height, force, n);
-    const size_t far = kept / 4;
-    if (far < CURVE_BASELINE_SAMPLES)
-        return;
-    if (curve_has_wave(&f->solution.wave))
-        take_out_wave(f, position, above, kept, far);
-    /* The far end is its own baseline: drag and drift part it from that of the approach. */
-    memcpy(scratch, above + kept - far, far * sizeof *scratch);
-    const double level = median(scratch, far);
-    for (size_t i = 0; i < kept; i++)
-        above[i] -= level;
-    for (size_t i = 0; i < far; i++)
-        scratch[i] = fabs(above[kept - far + i]);
-    const double noise = median(scratch, far) / 0.6744897501960817;
-    f->pull_off = sudden_pull(above, kept, far, noise, scratch);
-    /* A way out may begin below the top of the way in: what both have is compared. */
-    const double top =
-        fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
-    const double back = work_along(position, above, kept, c, top);
-    for (size_t i = 0; i < f->input.n_all; i++)
-        scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
-    const double in = work_along(s->position, scratch, f->input.n_all, c, top);
-    const double share = (in - back) / (in - lever_work(f, top));
-    /* Else the sample took too little of the work to say. */
-    if (share > 1.0 - most_loss && share < most_loss)
-        f->loss = share;
 }
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */
@@ -298,6 +136,26 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     return true;
 }
 
+/* The cost has a kink wherever the sample that jumps is another one: to its lowest. */
+static void move_jump(curve_fitting *f, curve_solution *s)
+{
+    const size_t n = f->input.samples.n;
+    for (int way = -1; way <= 1; way += 2)
+        for (int i = 0; i < MAX_MOVES; i++) {
+            curve_solution moved = *s;
+            const size_t jump = f->kind.jump;
+            f->kind.jump = way < 0 ? jump - 1 : jump + 1;
+            if (f->kind.jump >= CURVE_BASELINE_SAMPLES &&
+                n - f->kind.jump >= CURVE_BASELINE_SAMPLES)
+                refine(f, &moved);
+            if (!(moved.cost < s->cost)) {
+                f->kind.jump = jump;
+                break;
+            }
+            *s = moved;
+        }
+}
+
 /* With a free contact point, the jump where the tip touches if it follows. Returns the cost there,
  * which may be another jump than that of the solution. */
 static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
@@ -320,6 +178,8 @@ static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
     const double there = s->cost;
     f->kind.jump = jump_of_best;
     *s = best;
+    if (follows && !f->kind.rough)
+        move_jump(f, s);
     return there;
 }
 
@@ -348,8 +208,7 @@ static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t 
         there = refine_jump(f, s, follows);
     f->input.samples = all;
     f->kind.rough = false;
-    s->converged = s->converged && !(there > most);
-    return s->converged;
+    return !(there > most);
 }
 
 /* follows: the jump stays where the tip touches. */
@@ -358,8 +217,10 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, double pul
 {
     const bool fixed = f->kind.contact_fixed;
     const curve_samples all = f->input.samples;
-    if (!start_from(f, &s, pull, jump, follows))
+    if (!start_from(f, &s, pull, jump, follows)) {
+        s.converged = false;
         return s;
+    }
     f->kind.jump = jump;
     if (follows && !fixed) {
         const size_t touched = first_beyond(&all, s.p[CURVE_C]);
@@ -389,8 +250,12 @@ static bool is_adhesive(const curve_fitting *f)
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
     const adhesion law = {f->table, s->p[CURVE_E], root * root};
-    return s->converged &&
-           root > work_errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
+    /* A snap-on that is seen can be left out, which is better than a law that does not fit. */
+    const bool strict = f->snap_on > 0.0 && !curve_fits(f);
+    const bool at_kink = s->step_left * s->p[CURVE_E] > kink_left * s->standard_error[CURVE_E];
+    const double errors = f->kind.constant_pull && !strict ? 0.5 * work_errors : work_errors;
+    return s->converged && !(strict && at_kink) &&
+           root > errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
 
@@ -408,9 +273,11 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pul
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
         f->solution = refine_from(f, start, pull, jump, follows);
-        if (is_adhesive(f))
+        /* Another minimum has the tip touch far from where the force rises. */
+        const bool near = !follows || f->solution.cost < start.cost;
+        if (near && is_adhesive(f))
             return true;
-        if (f->solution.converged) /* to next to no adhesion */
+        if (near && f->solution.converged) /* to next to no adhesion */
             break;
     }
     return false;
@@ -445,34 +312,83 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
 typedef struct outcome {
     curve_solution solution;
     curve_kind kind;
-    bool found;
+    bool found, likely;
 } outcome;
+enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
 
-/* The better one of two laws of adhesion; what the other would give is in the error, as far as it
+/* Is the pull of this fit one that the way out shows? Rubber lets go with no less than it is
+ * touched with. */
+static bool pull_is_likely(const curve_fitting *f, const curve_solution *elastic)
+{
+    const double root = f->solution.p[CURVE_W], most = most_pull * f->pull_off;
+    if (!(f->pull_off > 0.0))
+        return true;
+    if (f->kind.constant_pull)
+        return root <= most;
+    return !(root * root >
+             adhesion_work(f->table, elastic->p[CURVE_E], f->input.samples.spring_constant, most));
+}
+
+static bool better_law(const outcome *a, const outcome *b, bool lossy)
+{
+    if (!a->found || !b->found || a->likely != b->likely)
+        return a->found && (!b->found || a->likely);
+    if (lossy && a->kind.constant_pull != b->kind.constant_pull)
+        return b->kind.constant_pull;
+    return a->solution.cost < b->solution.cost;
+}
+
+/* What another fit, better by chi2, would make of the modulus, as far as it is likely. */
+static double by_other(const curve_fitting *f, const curve_solution *other, double chi2)
+{
+    const double share = 1.0 / (1.0 + exp(-0.5 * chi2));
+    return sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+}
+
+/* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
+static double gain_of(const curve_fitting *f, const curve_solution *other)
+{
+    return f->solution.effective_n * log(f->solution.cost / other->cost) /
+           fmax(1.0, f->solution.lack.statistic);
+}
+
+/* The better one of the laws of adhesion; what the others would give is in the error, as far as it
  * is likely. False if there is none: then all is as it was. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
 {
-    const outcome before = {f->solution, f->kind, true};
-    outcome law[2] = {{.found = false}, {.found = false}};
-    for (int i = 0; i < 2; i++) {
+    const outcome before = {f->solution, f->kind, true, true};
+    outcome law[LAWS] = {{.found = false}};
+    const outcome *best = &law[0];
+    /* Work that is lost looks like a constant pull, neither law describes it, and costs do not
+     * tell: rubber has short forces. */
+    const bool lossy = jump == 0 && f->loss > CURVE_LEAST_LOSS;
+    for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
-        const bool found = i == 0 ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] = (outcome){f->solution, f->kind, found};
+        law[i].found =
+            i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
+        law[i] = (outcome){f->solution, f->kind, law[i].found,
+                           jump > 0 || pull_is_likely(f, &before.solution)};
+        if (better_law(&law[i], best, lossy))
+            best = &law[i];
+        /* From where samples let go costs have kinks: once more from the pull that was found. */
+        if (i == JKR)
+            pull = law[CONSTANT_PULL].solution.p[CURVE_W];
+        if (i == JKR && !(jump == 0 && pull > 0.0))
+            break;
     }
-    const int best = law[1].found && (!law[0].found || law[1].solution.cost < law[0].solution.cost);
-    const outcome *to = law[best].found ? &law[best] : &before;
+    const outcome *to = best->found ? best : &before;
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    if (law[0].found && law[1].found) {
-        const curve_solution *other = &law[1 - best].solution;
-        const double chi2 = f->solution.effective_n * log(other->cost / f->solution.cost) /
-                            fmax(1.0, f->solution.lack.statistic);
-        const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
-        f->other_law = sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
-    }
-    return law[best].found;
+    f->other_law = 0.0;
+    for (int i = 0; i < LAWS && best->found; i++)
+        if (law[i].found && &law[i] != best) {
+            const curve_solution *other = &law[i].solution;
+            const double gain = fmin(0.0, gain_of(f, other));
+            f->other_law = fmax(f->other_law, by_other(f, other, gain));
+        }
+    return best->found;
 }
 
 bool curve_fit_adhesion(curve_fitting *f)
@@ -498,19 +414,23 @@ bool curve_fit_adhesion(curve_fitting *f)
         curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
-    /* Where the law without adhesion describes the curve it has none to speak of. */
-    if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
+    /* Rubber lets go with far more than it is touched with, of which no snap-on was seen. */
+    if (!(f->pull_off > 0.0) || !try_it)
         return true;
-    if (fit_adhesion_laws(f, f->pull_off, 0) &&
-        f->solution.effective_n * log(elastic.cost / f->solution.cost) >
-            better_chi2 * fmax(1.0, f->solution.lack.statistic)) {
+    if (!fit_adhesion_laws(f, fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise), 0)) {
         evaluate(f);
         return true;
     }
+    const double gain = -gain_of(f, &elastic);
+    if (gain > better_chi2) {
+        evaluate(f);
+        return true;
+    }
+    const curve_solution law = f->solution;
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
     evaluate(f);
-    f->other_law = 0.0;
+    f->other_law = by_other(f, &law, gain);
     return true;
 }

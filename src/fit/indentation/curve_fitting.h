@@ -7,6 +7,11 @@
 
 #include "fit/indentation/curve.h"
 
+/* A pull, in noise of the baseline: white noise gets there once in 1e9 samples, and maps have 1e8.
+ */
+#define CURVE_PULL_NOISE 6.0
+/* And against the deepest pull elsewhere: two waves of one drift differ by less. */
+#define CURVE_PULL_REST 1.5
 enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* least */
 
 typedef struct curve_fitting {
@@ -72,10 +77,13 @@ size_t curve_in_range(const curve_fitting *f);
 /* Contact points by other estimators less that of the fit, of all samples: curve_estimators.c. */
 void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATORS]);
 
-/* ---- adhesion: curve_adhesion.c -------------------------------------------------------------- */
+/* ---- the way out: retract.c ---- */
 
 /* pull_off and loss of a retract that comes free of the sample. height, force: as measured. */
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n);
+
+/* ---- adhesion: adhesion.c ---- */
+
 /* From a fit without adhesion: finds a snap-on, and where it or the retract says that there is
  * adhesion, fits adhesive contact; if that does not describe the curve, the pull is left out. False
  * if nothing but a baseline is found then. */

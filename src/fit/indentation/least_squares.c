@@ -58,7 +58,8 @@ static const double least_step = 1e-5;
 
 /* Of what a step may leave that is none: a thousandth of a standard error. */
 static const double nearly = 1e4;
-static const double stuck = 1e8; /* a tenth */
+static const double stuck = 1e8;    /* a tenth */
+static const double at_kink = 1e10; /* one: what a sample at a kink keeps from being gained */
 static const double least_damping = 1e-3;
 
 static double by_step(const curve_samples *s, double cost)
@@ -138,7 +139,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
              */
             if (moved && m->adhesive && damping > 0.0 &&
                 before - *cost < stuck * by_step(s, before))
-                return expected <= nearly * by_step(s, before);
+                return expected <= at_kink * by_step(s, before);
             if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
                 *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
