@@ -275,6 +275,26 @@ static inline void fixture_spot(void)
     fixture_check(wt_result_add(fixture_case, table, NULL));
 }
 
+/* Two places of a surface, and what lies beyond their points. */
+static inline void fixture_surface(void)
+{
+    static const char *const files[] = {WT_SOURCE_DIR "/fixtures/surface/place-*.gsf"};
+    const wt_file_set set = {.patterns = files, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_topography_job job = wt_topography_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_topography_tables tables = {0};
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.end = 1e7;
+    fixture_check(wt_topography_make(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.power_spectrum, NULL));
+    wt_table_free(tables.surfaces); /* of which no figure is made */
+    wt_formats_free(formats);
+}
+
 /* Strain sweeps at two frequencies. */
 static inline void fixture_payne(void)
 {
@@ -350,6 +370,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_common_law();
         fixture_softening();
         fixture_spot();
+        fixture_surface();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }

@@ -92,6 +92,16 @@ typedef struct wt_image {
 } wt_image;
 WT_API void wt_image_clear(wt_image *image);
 
+/* Heights on a grid [m], row by row, NaN where missing; one row is a profile. Places are counted
+ * from the first point. */
+typedef struct wt_height_map {
+    const double *z; /* [ny * nx] borrowed */
+    size_t nx, ny;
+    double dx, dy; /* between points [m]; dy NaN of a profile */
+} wt_height_map;
+/* The heights of an image in metres, borrowed from it. */
+WT_API wt_height_map wt_height_map_of(const wt_image *image);
+
 /* ---- DMA ---------------------------------------------------------------------------------- */
 
 typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G */

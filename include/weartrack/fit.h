@@ -581,6 +581,111 @@ WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate widt
                                             wt_estimate resonance, wt_estimate quality,
                                             wt_fluid fluid);
 
+/* ---- surfaces: heights, power spectra, their self-affine law ----------------------------------
+ */
+
+typedef enum wt_surface_window {
+    WT_WINDOW_HANN,
+    WT_WINDOW_WELCH,
+    WT_WINDOW_NONE
+} wt_surface_window;
+
+typedef enum wt_surface_form { WT_FORM_MEAN, WT_FORM_PLANE, WT_FORM_QUADRATIC } wt_surface_form;
+
+typedef struct wt_surface_options {
+    wt_surface_form form; /* polynomial of two variables that is taken off by least squares */
+    wt_surface_window window;
+    double largest_missing; /* share of the heights; more of them are refused */
+    double points_per_wave; /* fewest that are trusted: 2 is the Nyquist wavenumber */
+    double tip_radius;      /* [m]; NaN: not known */
+} wt_surface_options;
+WT_API wt_surface_options wt_surface_options_defaults(void);
+
+/* What the heights are, less their form: ISO 25178-2 (of a profile ISO 21920-2, where the same
+ * numbers are called R), over the points that there are. Slopes are by forward differences of
+ * neighbours; Sdr by the two at a point. Other stencils give other slopes. */
+typedef struct wt_surface_heights {
+    size_t n, missing;
+    double rms, mean_deviation, peak_to_valley; /* Sq, Sa, Sz [m] */
+    double skewness, kurtosis;                  /* Ssk, Sku */
+    double rms_slope, slope_x, slope_y;         /* Sdq, and its parts; of a profile that along x */
+    double area_excess;                         /* Sdr; NaN of a profile */
+} wt_surface_heights;
+
+/* Modes with wavenumbers between 10^((index - 1/2)/10) and 10^((index + 1/2)/10) rad/m. */
+typedef struct wt_spectrum_bin {
+    int index;
+    double wavenumber, mean_wavenumber; /* geometric and arithmetic mean [rad/m] */
+    double width;                       /* standard deviation of ln q of its modes */
+    double density;                     /* mean: C [m^4] or C1 [m^3], two-sided */
+    double deviation;                   /* standard deviation of a mode of a scan */
+    size_t n;                           /* modes, of the full plane or of both signs */
+    size_t scans;                       /* that they are of */
+    double freedom;      /* degrees of freedom of the mean, as of chi-squared: fewer than n, for a
+                            window ties neighbours together */
+    double cosine, sine; /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi), phi from x */
+    bool reliable;
+} wt_spectrum_bin;
+
+/* With h_rms^2 = 2 pi int q C dq and = 2 int_0^inf C1 dq; q = 2 pi / wavelength. */
+typedef struct wt_surface_spectrum {
+    wt_spectrum_kind kind;
+    size_t n;
+    wt_spectrum_bin *bins;
+    double from, to;     /* the reliable range [rad/m] */
+    const char *ends_by; /* "points" or "tip"; static */
+    /* Of several scans: standard deviation of ln C from place to place, the same at all
+     * wavenumbers, and the standard error that it gives the mean; NaN: not known. */
+    double place_scatter, place_error;
+    double place_freedom; /* of it */
+} wt_surface_spectrum;
+WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
+
+/* Heights less their form, missing ones filled as a membrane, window, discrete Fourier transform,
+ * means over bins (conventions: Jacobs, Junge, Pastewka, Surf. Topogr. 5 (2017) 013001, but with
+ * C = C2D / (2 pi)^2 and C1 = C1D / (2 pi) of theirs). A map of one row gives C1. The range ends at
+ * points_per_wave, or where the curvature of peaks reaches half that of the tip (Sanner et al.,
+ * Appl. Surf. Sci. Adv. 7 (2022) 100190). WT_E_RANGE: too many heights are missing; WT_E_EMPTY:
+ * too few points, or all heights the same. */
+WT_API wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options *options,
+                                    wt_surface_heights *heights, wt_surface_spectrum *spectrum,
+                                    wt_error *err) WT_NODISCARD;
+/* One of several of one kind: means of ln C over the reliable bins, weighted by their modes and
+ * without what a mean of logarithms is too low by. WT_E_EMPTY: no bin is reliable. */
+WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
+                                 wt_surface_spectrum *joined, wt_error *err) WT_NODISCARD;
+/* C of C1 of a surface that is the same in all directions; the slope at the end goes on. Bins that
+ * the scatter makes negative are left out. WT_E_RANGE: the end is too flat for that. */
+WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
+                                   wt_error *err) WT_NODISCARD;
+/* What lies behind a bin of a spectrum, with the scatter from place to place as far as it is known.
+ * Its standard error, and those of c0 and roll_off below, are of the logarithm, times the value. */
+WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
+
+/* Whether the directions differ: C(phi) = C (1 + amplitude cos 2 (phi - direction)), the mean over
+ * the modes of all reliable bins. */
+typedef struct wt_surface_anisotropy {
+    double amplitude, direction; /* [rad] from x, -pi/2 to pi/2: where the surface is roughest */
+    double chance;               /* of as much by scatter alone */
+} wt_surface_anisotropy;
+WT_API wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum);
+
+/* C = c0 up to roll_off, c0 (q / roll_off)^(-2 (1 + hurst)) above it. */
+typedef struct wt_self_affine {
+    bool found;
+    bool rolls_off; /* else roll_off is the first wavenumber, without an error */
+    wt_interval c0, roll_off, hurst;
+    double covariance[3][3]; /* of ln c0, ln roll_off, hurst */
+    double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
+    size_t n;      /* bins */
+} wt_self_affine;
+/* Weighted least squares in ln C over the reliable bins. */
+WT_API wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum);
+
+/* The wavenumber at which the rms slope of the roughness from its q0 on reaches `slope`; NaN if it
+ * does not. */
+WT_API double wt_roughness_slope_end(const wt_roughness *roughness, double slope);
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

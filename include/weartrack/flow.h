@@ -225,6 +225,30 @@ WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
 WT_API wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
                               wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- measured surfaces ----------------------------------------------------------------------- */
+
+typedef struct wt_topography_job {
+    const wt_file_set *sets; /* height maps and profiles of one surface */
+    size_t n_sets;
+    wt_surface_options options;
+    const char *image; /* part of the name of the image; NULL = the first of heights */
+    double end;        /* last wavenumber [rad/m]; NaN = that of the reliable range */
+    double end_slope;  /* rms slope at which it ends instead; NaN = none */
+    bool scans;        /* makes the table scan_spectra, too */
+} wt_topography_job;
+WT_API wt_topography_job wt_topography_job_defaults(void);
+WT_API const wt_params *wt_topography_job_params(void);
+typedef struct wt_topography_tables {
+    wt_table *power_spectrum, *surfaces, *scan_spectra; /* scan_spectra: NULL unless asked for */
+} wt_topography_tables;
+WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
+/* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,
+ * profiles inverted. Beyond the reliable range it goes on by its self-affine law where end or
+ * end_slope ask for that. WT_E_EMPTY if no file has heights or no wavenumber is reliable,
+ * WT_E_RANGE if the end that is asked for cannot be reached. */
+WT_API wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
+                                    wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 
 typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;
@@ -823,6 +847,7 @@ WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work
 typedef struct wt_accuracy_job {
     const char *part; /* name of one numerical part; NULL (default): all */
     size_t repeats;   /* how often each point is timed; default 9 */
+    bool built_in;    /* of a case: these problems after its own numbers; default false */
 } wt_accuracy_job;
 WT_API wt_accuracy_job wt_accuracy_job_defaults(void);
 WT_API const wt_params *wt_accuracy_job_params(void);
@@ -831,6 +856,14 @@ WT_API const wt_params *wt_accuracy_job_params(void);
  * method. WT_E_NOT_FOUND for a part that is none. */
 WT_API wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
+/* The same table of the numbers of a sliding contact at the reference velocity: friction and layer
+ * as the tolerance is swept (against 1e-13; beside it the textbook method), their standard errors
+ * as the number of replicates is, and the numbers with fewer isotherms. Times are NaN if the cost
+ * of `work` has none. `layer` and `known` as above. */
+WT_API wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                                        const wt_layer_known *known, const wt_accuracy_job *job,
+                                        const wt_job *work, wt_table **table,
+                                        wt_error *err) WT_NODISCARD;
 
 /* ---- case ------------------------------------------------------------------------------------ */
 
@@ -839,8 +872,9 @@ typedef struct wt_case wt_case;
  * it. */
 WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;
 WT_API void wt_case_free(wt_case *c);
-/* From now on the case asks for this table (its name in a result) and nothing else. */
-WT_API wt_status wt_case_ask(wt_case *c, const char *table, wt_error *err) WT_NODISCARD;
+/* From now on the case asks for these tables (their names in a result, parted by blanks) and
+ * nothing else. */
+WT_API wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
 WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */
@@ -855,6 +889,7 @@ typedef struct wt_run_options {
     size_t replicates;   /* of the draws; default 200 */
     wt_progress progress;
     size_t trials;              /* of the table "coverage"; default 100 */
+    wt_accuracy_job precision;  /* of the table "work_precision" */
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
     const char *const *columns; /* of plain tables, as wt_formats_add_columns takes them */
     size_t n_columns;

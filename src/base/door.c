@@ -2,12 +2,14 @@
 #include "base/door.h"
 
 #include "base/array.h"
+#include "base/door_filter.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -43,37 +45,59 @@ static bool limit_resource(unsigned resource, size_t most)
     return setrlimit(resource, &both) == 0;
 }
 
-/* The answer and the file get their numbers, whatever numbers they had. */
-static int dup_apart(int to, int file)
+/* The answer and the file get their numbers, whatever numbers they had, and nothing else stays
+ * open: it closes first, for the program around it may have used up all numbers. */
+static bool keep_only(int to, int file)
 {
+    const int first = file < 0 || to < file ? to : file, last = to < file ? file : to;
+    if (first > 0)
+        (void)close_range(0, (unsigned)first - 1, 0);
+    if (last > first + 1)
+        (void)close_range((unsigned)first + 1, (unsigned)last - 1, 0);
+    closefrom(last + 1);
     const int answer = fcntl(to, F_DUPFD, DOOR_FILE + 1);
     const int given = file >= 0 ? fcntl(file, F_DUPFD, DOOR_FILE + 1) : 0;
-    const bool good = answer >= 0 && given >= 0 && dup2(answer, ANSWER_FD) == ANSWER_FD &&
-                      (file < 0 || dup2(given, DOOR_FILE) == DOOR_FILE);
-    return good ? 0 : -1;
+    if (answer < 0 || given < 0 || dup2(answer, ANSWER_FD) != ANSWER_FD ||
+        (file >= 0 && dup2(given, DOOR_FILE) != DOOR_FILE))
+        return false;
+    (void)close_range(0, ANSWER_FD - 1, 0);
+    closefrom(ANSWER_FD + 1 + (file >= 0));
+    return true;
 }
 
+/* The first byte of the answer, said before the library sees the file: bits of what does not hold
+ * of the process, or why it cannot be. */
+enum {
+    SHUT_IN = 'P',
+    NO_FILTER = 1,
+    MEMORY_OPEN = 2,
+    FEW_FILES = 'f',
+    LOW_MEMORY = 'm',
+    BAD = 'x'
+};
+
 /* Everything that the header says of the process. */
-static bool shut_in(int to, const door_call *door, const door_limits *limits, size_t data,
+static char shut_in(int to, const door_call *door, const door_limits *limits, size_t data,
                     pid_t parent)
 {
-    /* A file that is opened again has one number more; so have the tables of old encodings. */
-    const size_t n_files = door->opens_again ? DOOR_FILE + 12 : 0;
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     sigset_t none;
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
         (void)sigaction(i, &usual, NULL); /* some cannot be set, nor need be */
+    if (!keep_only(to, door->file))
+        return FEW_FILES;
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
-        dup_apart(to, door->file) != 0 || prctl(PR_SET_DUMPABLE, door->opens_again) != 0 ||
-        sigprocmask(SIG_SETMASK, &none, NULL) != 0)
-        return false;
-    for (int i = 0; i < ANSWER_FD; i++)
-        (void)close(i);
-    closefrom(ANSWER_FD + 1 + (door->file >= 0));
-    return limit_resource(RLIMIT_NOFILE, n_files) && limit_resource(RLIMIT_FSIZE, 0) &&
-           limit_resource(RLIMIT_CORE, 0) && limit_resource(RLIMIT_CPU, limits->cpu_time) &&
-           (data == 0 || limit_resource(RLIMIT_DATA, data + limits->memory));
+        prctl(PR_SET_DUMPABLE, 0) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+        sigprocmask(SIG_SETMASK, &none, NULL) != 0 || !limit_resource(RLIMIT_NOFILE, 0) ||
+        !limit_resource(RLIMIT_FSIZE, 0) || !limit_resource(RLIMIT_CORE, 0) ||
+        !limit_resource(RLIMIT_NPROC, 0) || !limit_resource(RLIMIT_CPU, limits->cpu_time) ||
+        (data != 0 && !limit_resource(RLIMIT_DATA, data + limits->memory)))
+        return BAD;
+    const door_filter filter = door_filter_set(ANSWER_FD);
+    if (filter == FILTER_NO_MEMORY)
+        return LOW_MEMORY;
+    return (char)(SHUT_IN + (filter == FILTER_SET ? 0 : NO_FILTER) + (data != 0 ? 0 : MEMORY_OPEN));
 }
 
 /* The answer ends with the error, so that one without it was cut off. */
@@ -88,38 +112,62 @@ _Noreturn static void behind_door(const door_call *door)
     _exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
+_Noreturn static void begin_behind(int to, const door_call *door, const door_limits *limits,
+                                   size_t data, pid_t parent)
+{
+    const char hello = shut_in(to, door, limits, data, parent);
+    const bool held = hello >= SHUT_IN && hello <= SHUT_IN + (NO_FILTER | MEMORY_OPEN);
+    const ssize_t n = write(hello == FEW_FILES ? to : ANSWER_FD, &hello, 1);
+    if (!held || n != 1)
+        _exit(EXIT_FAILURE);
+    behind_door(door);
+}
+
 /* ---- in front of it -------------------------------------------------------------------------- */
 
+/* What no process could be kept from, of all so far. */
+static atomic_uint gaps;
+
+const char *wt_door_gaps(void)
+{
+    static const char *const words[] = {
+        NULL,
+        "this system refuses the filter of system calls (seccomp) behind which HDF5 and .xls files "
+        "are read: a file made to do harm could do what you may; take files that you trust only",
+        "without /proc the memory that reading HDF5 and .xls files takes has no limit",
+        "this system refuses the filter of system calls (seccomp) behind which HDF5 and .xls files "
+        "are read, and has no /proc, by which their memory is limited: a file made to do harm "
+        "could do what you may; take files that you trust only"};
+    return words[atomic_load(&gaps)];
+}
+
 /* Bytes of data that this process has, which its fork counts too (with a sanitizer, terabytes); 0:
- * not known. */
-static size_t data_size(void)
+ * not known. -1 and errno if no file can be opened. */
+static int data_size(size_t *size)
 {
     size_t pages = 0;
+    *size = 0;
     FILE *const in = fopen("/proc/self/statm", "re");
     if (in == NULL)
-        return 0;
-    if (fscanf(in, "%*s %*s %*s %*s %*s %zu", &pages) != 1)
-        pages = 0;
+        return errno == EMFILE || errno == ENFILE || errno == ENOMEM ? -1 : 0;
+    if (fscanf(in, "%*s %*s %*s %*s %*s %zu", &pages) == 1)
+        *size = pages * (size_t)sysconf(_SC_PAGESIZE);
     (void)fclose(in);
-    return pages * (size_t)sysconf(_SC_PAGESIZE);
+    return 0;
 }
 
 /* Signals wait until the new process has forgotten the handlers of this one. */
-static pid_t start_child(int to, const door_call *door, const door_limits *limits)
+static pid_t start_child(int to, const door_call *door, const door_limits *limits, size_t data)
 {
     sigset_t all, before;
     const pid_t parent = getpid();
-    const size_t data = data_size();
     if (door->enter != NULL)
         door->enter(door->hold);
     (void)sigfillset(&all);
     (void)pthread_sigmask(SIG_SETMASK, &all, &before);
     const pid_t child = fork();
-    if (child == 0) {
-        if (!shut_in(to, door, limits, data, parent))
-            _exit(EXIT_FAILURE);
-        behind_door(door);
-    }
+    if (child == 0)
+        begin_behind(to, door, limits, data, parent);
     const int number = errno;
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (door->leave != NULL)
@@ -198,10 +246,28 @@ static wt_status advise_damaged(wt_error *err)
     return WT_E_CORRUPT;
 }
 
-/* Why there is no whole answer. */
-static wt_status explain_ending(const char *what, ending how, int state, const door_limits *limits,
-                                wt_error *err)
+/* The process called the system for what reading does not need. Where it held back all signals, as
+ * for a new process, the call has no name here. */
+static void explain_call(const door_flow *flow, bool told, wt_error *err)
 {
+    int call = -1;
+    char name[64] = "its name is not known";
+    if (told && flow->length >= sizeof call) {
+        memcpy(&call, flow->bytes + flow->length - sizeof call, sizeof call);
+        door_filter_name(call, name, sizeof name);
+    }
+    (void)wt_fail(err, WT_E_CORRUPT,
+                  "reading the %s file led to a call of the system that reading does not need (%s) "
+                  "and was stopped before it",
+                  flow->what, name);
+}
+
+/* Why there is no whole answer. */
+static wt_status explain_ending(const door_flow *flow, int state, wt_error *err)
+{
+    const char *const what = flow->what;
+    const door_limits *const limits = &flow->limits;
+    const ending how = flow->how;
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
     if (how == NO_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -214,6 +280,8 @@ static wt_status explain_ending(const char *what, ending how, int state, const d
         (void)wt_fail(err, WT_E_CORRUPT, "reading the %s file did not end within %u s%s", what,
                       how == LATE ? limits->wall_time : limits->cpu_time,
                       how == LATE ? "" : " of processor time");
+    else if (by == SIGSYS || (how == ENDED && by == 0 && WEXITSTATUS(state) == FILTER_EXIT))
+        explain_call(flow, by == 0, err);
     else if (by == SIGINT || by == SIGTERM || by == SIGHUP)
         return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
     else
@@ -246,30 +314,64 @@ static wt_status reported_error(const char *what, const char *bytes, const door_
     return said.status;
 }
 
+static wt_status fail_to_make(const char *what, int number, wt_error *err)
+{
+    (void)wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO, "no process for reading %s: %s",
+                  what, strerror(number));
+    if (number == EMFILE || number == ENFILE)
+        wt_error_advice(err, "more files must be open at once than the system lets: allow more, as "
+                             "by ulimit -n 256");
+    return err != NULL ? err->status : number == ENOMEM ? WT_E_MEMORY : WT_E_IO;
+}
+
+/* Hears whether the process has shut itself in. */
+static wt_status hear_hello(door_flow *flow, wt_error *err)
+{
+    collect_answer(flow, 1);
+    const char hello = flow->length > 0 ? flow->bytes[0] : BAD;
+    if (hello >= SHUT_IN && hello <= SHUT_IN + (NO_FILTER | MEMORY_OPEN)) {
+        atomic_fetch_or(&gaps, (unsigned)(hello - SHUT_IN));
+        flow->length--;
+        memmove(flow->bytes, flow->bytes + 1, flow->length);
+        return WT_OK;
+    }
+    const ending how = flow->how;
+    const int state = finish_child(flow->child, how != ENDED);
+    const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
+    flow->child = -1;
+    if (how == ENDED && (by == SIGINT || by == SIGTERM || by == SIGHUP))
+        return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
+    return fail_to_make(flow->what,
+                        hello == FEW_FILES                        ? EMFILE
+                        : hello == LOW_MEMORY || how == NO_MEMORY ? ENOMEM
+                                                                  : EPERM,
+                        err);
+}
+
 wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **begun,
                      wt_error *err)
 {
     int channel[2];
+    size_t data = 0;
     door_flow *const flow = calloc(1, sizeof *flow);
     if (flow == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *flow = (door_flow){.what = door->what, .limits = *limits};
-    if (pipe2(channel, O_CLOEXEC) != 0) {
+    if (data_size(&data) != 0 || pipe2(channel, O_CLOEXEC) != 0) {
         free(flow);
-        return wt_fail(err, WT_E_IO, "no pipe for reading %s: %s", door->what, strerror(errno));
+        return fail_to_make(door->what, errno, err);
     }
     flow->from = channel[0];
-    flow->child = start_child(channel[1], door, limits);
+    flow->child = start_child(channel[1], door, limits, data);
     const int number = errno;
     (void)close(channel[1]);
-    if (flow->child < 0) {
-        (void)close(flow->from);
-        free(flow);
-        return wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO,
-                       "no process for reading %s: %s", door->what, strerror(number));
-    }
-    *begun = flow;
-    return WT_OK;
+    const wt_status status =
+        flow->child < 0 ? fail_to_make(door->what, number, err) : hear_hello(flow, err);
+    if (status == WT_OK)
+        *begun = flow;
+    else
+        door_close(flow);
+    return status;
 }
 
 /* Ends the process, whose answer is over, and says what became of it. */
@@ -280,7 +382,7 @@ static wt_status end_process(door_flow *flow, wt_error *err)
     if (flow->how == ENDED && state == 0 && flow->length >= sizeof(wt_error))
         return reported_error(flow->what, flow->bytes + flow->length - sizeof(wt_error),
                               &flow->limits, err);
-    return explain_ending(flow->what, flow->how, state, &flow->limits, err);
+    return explain_ending(flow, state, err);
 }
 
 static wt_status fail_unexpected(const door_flow *flow, const char *how, wt_error *err)

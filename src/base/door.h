@@ -8,14 +8,13 @@
  * leave).
  *
  * The process has the signals of a new one, no open file but its answer and one that it may be
- * given, can write none (and open none, unless that one again), leaves no core file and does not
- * outlive the caller. What it may take is limited. The caller's signal handlers are left alone: one
- * that waits for every child may take this one too, and then only the cause of a failure stays
- * unknown.
+ * given, can open and write none, leaves no core file and does not outlive the caller. What it may
+ * take is limited. The caller's signal handlers are left alone: one that waits for every child may
+ * take this one too, and then only the cause of a failure stays unknown.
  *
- * Not promised: that a made file cannot run code in that process. It runs as the user, and no more
- * is kept from it than is said here. Without /proc the limit of memory is left out.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * Not promised: that a made file cannot run code in that process; but that code has nothing to do
+ * there but give a wrong answer. Where the system has no such filter or no /proc, wt_door_gaps
+ * (weartrack/base.h) says what then is open. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_BASE_DOOR_H
 #define WT_BASE_DOOR_H
 
@@ -41,7 +40,6 @@ typedef struct door_call {
     size_t size;
     const void *with;          /* for `reading` */
     int file;                  /* -1: none */
-    bool opens_again;          /* the file, by its name under /proc */
     void (*enter)(void *hold); /* around the making of the process; or NULL */
     void (*leave)(void *hold);
     void *hold;

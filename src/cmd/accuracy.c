@@ -21,17 +21,19 @@ static void say_keys(const cmd_session *s, const wt_table *table)
     }
 }
 
-/* The case is asked for its budget or its coverage and nothing else. */
+/* The case is asked for its budget and its error against run time, or its coverage, and nothing
+ * else. */
 static wt_status ask_case(cmd_session *s, wt_run_options *run)
 {
-    const char *const asked = run->trials > 0 ? "coverage" : "error_budget";
+    const bool covers = run->trials > 0;
+    const char *const first = covers ? "coverage" : "error_budget";
     wt_case *c = NULL;
     size_t n_failed = 0;
     wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_ask(c, asked, &s->err);
+        status = wt_case_ask(c, covers ? first : "error_budget work_precision", &s->err);
     run->formats = s->common.formats;
     run->columns = s->common.columns;
     run->n_columns = s->common.n_columns;
@@ -43,11 +45,14 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
-    const wt_table *table = s->result != NULL ? wt_result_find(s->result, asked) : NULL;
+    const wt_table *table = s->result != NULL ? wt_result_find(s->result, first) : NULL;
     if (status == WT_OK && table == NULL)
-        status = lacks_table(s, run->trials > 0 ? "intervals to be counted" : "error budget");
-    if (status == WT_OK)
+        status = lacks_table(s, covers ? "intervals to be counted" : "error budget");
+    if (status == WT_OK) {
         say_keys(s, table);
+        if (!covers && wt_result_find(s->result, "work_precision") != NULL)
+            say_keys(s, wt_result_find(s->result, "work_precision"));
+    }
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
     return status == WT_OK ? cmd_write(s) : status;
@@ -58,12 +63,13 @@ int cmd_accuracy(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "accuracy",
         .arguments = "[CASE.xml] [OPTION]...",
-        .what = "Error against run time. Without a case: every numerical part on a problem whose "
-                "answer is known otherwise, beside the textbook method, as its setting is swept. "
-                "With a case: which error costs each of its numbers most, what it takes to know "
-                "it, and what would make it smaller; or how often its intervals hold.",
+        .what = "Error against run time. With a case: of its own numbers, as tolerance, replicates "
+                "and isotherms are swept, which error costs each most, what it takes to know it, "
+                "and what would make it smaller; or how often its intervals hold. Without one: "
+                "every numerical part on a problem whose answer is known otherwise, beside the "
+                "textbook method, as its setting is swept.",
         .common = "output formats columns provenance",
-        .notes = "--part and --repeats are for the numerical parts, the others for a case."};
+        .notes = "--part is for the numerical parts, --repeats for both, the others for a case."};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();
     wt_run_options run = wt_run_defaults();
@@ -77,14 +83,17 @@ int cmd_accuracy(int argc, char **argv)
     bool good = true;
     if (s.n_files > 1)
         good = cmd_usage_error(&s, "one case at most");
-    else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
-        good = cmd_usage_error(&s, "--part and --repeats are not for a case");
-    else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0))
+    else if (s.n_files == 1 && job.part != NULL)
+        good = cmd_usage_error(&s, "--part is not for a case");
+    else if (coverage.trials > 0 && parts[0].given != 0)
+        good = cmd_usage_error(&s, "--coverage times nothing: no --repeats, no --built-in");
+    else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0 || job.built_in))
         good = cmd_usage_error(&s, "without a case there are --part and --repeats only");
     good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
     if (good && s.n_files == 1) {
         s.log = wt_parselog_new();
         run.trials = coverage.trials;
+        run.precision = job;
         const wt_status made =
             s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
         cmd_end(&s, made);

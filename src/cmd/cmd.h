@@ -38,6 +38,7 @@ int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_ramp(int argc, char **argv);
 int cmd_payne(int argc, char **argv);
+int cmd_psd(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
 int cmd_new_case(int argc, char **argv);

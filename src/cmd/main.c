@@ -26,6 +26,7 @@ const cmd_command cmd_commands[] = {
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},
     {"ramp", cmd_ramp, "glass transition and moduli of DMA temperature sweeps"},
     {"payne", cmd_payne, "softening with strain, of DMA strain sweeps"},
+    {"psd", cmd_psd, "power spectrum of a measured surface, from height maps and profiles"},
     {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
     {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
     {"Everything", NULL, NULL},
@@ -108,5 +109,7 @@ int main(int argc, char **argv)
         status = dispatch(2, (char *[]){argv[2], help_option, NULL});
     else
         status = dispatch(argc - 1, argv + 1);
+    if (wt_door_gaps() != NULL) /* of the system, not of the data: no remark of a result */
+        cmd_say("weartrack: warning: %s\n", wt_door_gaps());
     return close_stdout(status);
 }

@@ -102,6 +102,23 @@ bool dense_factor(gsl_matrix *m)
     return true;
 }
 
+void dense_forward(const gsl_matrix *factor, double *x)
+{
+    const size_t n = factor->size1, tda = factor->tda;
+    for (size_t from = 0; from < n; from += BLOCK) {
+        const size_t to = from + BLOCK < n ? from + BLOCK : n;
+        double less[BLOCK];
+        for (size_t k = from; k < to; k++) {
+            const double *row = factor->data + k * tda; /* the transpose is in the rows */
+            x[k] /= row[k];
+            less[k - from] = -x[k];
+            for (size_t j = k + 1; j < to; j++)
+                x[j] -= x[k] * row[j];
+        }
+        dense_add(x + to, n - to, less, 1, factor->data + from * tda + to, tda, to - from);
+    }
+}
+
 /* Adds to rows from..to of the inverse of a factor what its rows before `from`, which are done,
  * make of them. */
 WIDE_REGISTERS

@@ -12,6 +12,8 @@ void dense_add(double *into, size_t n, const double *factor, size_t stride, cons
 /* In place: the factor of Cholesky in the lower triangle, its transpose in the upper one. False if
  * the matrix is not positive. */
 bool dense_factor(gsl_matrix *m);
+/* x [n] by the inverse of such a factor. */
+void dense_forward(const gsl_matrix *factor, double *x);
 /* From such a factor; scratch: of the same size. */
 void dense_inverse(const gsl_matrix *factor, gsl_matrix *scratch, gsl_matrix *inverse);
 

@@ -13,7 +13,7 @@
         PARAM("tolerance", type, tolerance, WT_Q_NONE, ABOVE_TO(0, 0.1)),                          \
             .value = "X", .flags = PARAM_NO_CASE,                                                  \
             .help = "relative numerical error that is not to be exceeded; the true one is far "    \
-                    "below. 1e-2 takes half the time of 1e-10, no less"                            \
+                    "below. A looser one buys little: 1e-2 takes half the time of 1e-10"           \
     }
 #define FRICTION_GAMMA(type)                                                                       \
     {                                                                                              \

@@ -7,9 +7,27 @@
 #include <math.h>
 #include <string.h>
 
+/* What stands once for all panels, in a strip on top; drawn last, for nothing of a panel is left.
+ */
+static void draw_legend(figure_drawing *d, double height, const char *const *entries)
+{
+    text_format(&d->script,
+                "set size 1,%s\nset origin 0,%s\nset margins 0,0,0,0\nunset border\n"
+                "unset tics\nunset title\nunset xlabel\nunset ylabel\nunset logscale\n"
+                "unset arrow\nset xrange [0:1]\nset yrange [0:1]\n"
+                "set key center center horizontal\n",
+                LITERAL(height), LITERAL(1 - height));
+    for (size_t i = 0; entries[i] != NULL; i++)
+        plot_other(d, "NaN with %s", entries[i]);
+    plot_end(d);
+}
+
+/* Of a figure, in the height of one panel of the style. */
+static const double legend_height = 0.12;
+
 /* ---- error against run time ------------------------------------------------------------------ */
 
-enum { PARTS = 12, METHODS = 3, ACROSS = 3 };
+enum { PARTS = 28, METHODS = 3, ACROSS = 3 };
 
 /* Texts of a column in their order, each once, of rows that were timed. */
 static size_t list_texts(const table_view *t, work_precision_column column, const char *part,
@@ -31,13 +49,9 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
     return n;
 }
 
-/* An error of 0 stands at what the reference is good to. */
-static void span_add_references(value_span *span, const table_view *t, const char *part)
+static bool is_textbook(const char *method)
 {
-    for (size_t row = 0; row < t->n_rows; row++)
-        if (strcmp(work_precision_text(t, row, WORK_PRECISION_PART), part) == 0 &&
-            !(work_precision_get(t, row, WORK_PRECISION_TRUE_ERROR) > 0))
-            span_add(span, work_precision_get(t, row, WORK_PRECISION_REFERENCE_ERROR), true);
+    return strcmp(method, "textbook") == 0;
 }
 
 static void draw_part(figure_drawing *d, const char *part)
@@ -59,20 +73,16 @@ static void draw_part(figure_drawing *d, const char *part)
         span_add_section(&error, d, section[i], 1, true);
         span_add_section(&error, d, section[i], 2, true);
     }
-    span_add_references(&error, d->table, part);
     if (span_empty(&time) || span_empty(&error))
         return;
     axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
     axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
     plot_heading(d, part);
     for (size_t i = 0; i < n; i++) {
-        const int style = strcmp(methods[i], "textbook") == 0 ? 2 : i == 0 ? 1 : 3;
-        plot_item(d, section[i],
-                  "($1*x_unit):($2>0 ? $2*y_unit : $4>0 ? $4*y_unit : NaN) with linespoints ls %d",
-                  style);
-        plot_title(d, methods[i]);
-        plot_item(d, section[i],
-                  "($1*x_unit):($3>0 ? $3*y_unit : NaN) with linespoints ls %d pt 6 notitle",
+        const int style = is_textbook(methods[i]) ? 2 : i == 0 ? 1 : 3;
+        plot_item(d, section[i], "($1*x_unit):($4*y_unit) with lines ls 12");
+        plot_item(d, section[i], "($1*x_unit):($2*y_unit) with linespoints ls %d", style);
+        plot_item(d, section[i], "($1*x_unit):($3>0 ? $3*y_unit : NaN) with linespoints ls %d pt 6",
                   30 + style);
     }
     plot_end(d);
@@ -80,16 +90,31 @@ static void draw_part(figure_drawing *d, const char *part)
 
 static void draw_work_precision(figure_drawing *d)
 {
-    const char *parts[PARTS];
-    const size_t n = list_texts(d->table, WORK_PRECISION_PART, NULL, parts, PARTS);
+    const char *parts[PARTS], *methods[METHODS];
+    const size_t n = list_texts(d->table, WORK_PRECISION_PART, NULL, parts, PARTS),
+                 n_methods = list_texts(d->table, WORK_PRECISION_METHOD, NULL, methods, METHODS);
     const size_t across = n < ACROSS ? n : ACROSS, down = (n + ACROSS - 1) / ACROSS;
+    bool textbook = false;
+    for (size_t i = 0; i < n_methods; i++)
+        textbook = textbook || is_textbook(methods[i]);
     if (n == 0)
         return;
-    d->width = 0.8 * (double)across;
-    d->height = 0.85 * (double)down;
-    text_format(&d->script, "set multiplot layout %zu,%zu\n", down, across);
-    for (size_t i = 0; i < n; i++)
+    d->width = across > 1 ? 0.9 * (double)across : 1.1;
+    d->height = 0.85 * (double)down + legend_height;
+    const double wide = 1 / (double)across, legend = legend_height / d->height,
+                 high = (1 - legend) / (double)down;
+    text_add(&d->script, "unset key\nset multiplot\n");
+    for (size_t i = 0; i < n; i++) {
+        text_format(&d->script, "set size %s,%s\nset origin %s,%s\n", LITERAL(wide), LITERAL(high),
+                    LITERAL(wide * (double)(i % across)),
+                    LITERAL(1 - legend - high * (double)(i / across + 1)));
         draw_part(d, parts[i]);
+    }
+    const char *entries[] = {"linespoints ls 1 title 'weartrack'",
+                             "linespoints ls 31 pt 6 title 'what it states'",
+                             "lines ls 12 title 'what the reference is good to'",
+                             textbook ? "linespoints ls 2 title 'textbook'" : NULL, NULL};
+    draw_legend(d, legend, entries);
     text_add(&d->script, "unset multiplot\n");
 }
 
@@ -200,10 +225,11 @@ static void draw_error_budget(figure_drawing *d)
     for (size_t i = 0; i < all; i++)
         if (panels[i].span.high > least_error)
             panels[n++] = panels[i];
-    d->height = 0;
+    d->height = legend_height;
     for (size_t i = 0; i < n; i++)
         d->height += 0.3 + 0.07 * (double)panels[i].n;
     d->width = 1.3;
+    top = legend_height / d->height;
     if (n > 0)
         text_add(&d->script, "set lmargin 42\nunset key\nset border 1\nset multiplot\n");
     for (size_t i = 0; i < n; i++) {
@@ -213,8 +239,13 @@ static void draw_error_budget(figure_drawing *d)
                     LITERAL(1 - top));
         draw_number(d, &panels[i]);
     }
-    if (n > 0)
-        text_add(&d->script, "unset multiplot\n");
+    if (n == 0)
+        return;
+    static const char *const entries[] = {"boxes ls 1 title 'measured or stated'",
+                                          "boxes ls 2 title 'choice of the model'",
+                                          "boxes ls 5 title 'together, draws, arithmetic'", NULL};
+    draw_legend(d, legend_height / d->height, entries);
+    text_add(&d->script, "unset multiplot\n");
 }
 
 /* ---- time and error of each stage ------------------------------------------------------------ */
@@ -328,7 +359,7 @@ const figure_description figures_accuracy[] = {
               "swept (full marks), and what the method itself states (open marks, dashed): of the "
               "arithmetic a bound, which should lie on or above, of noise and draws a standard "
               "error, which the one error that is drawn is near; lower and further left is better. "
-              "An error of exactly 0 stands at what the reference is good to.",
+              "The grey line is what the reference is good to: a smaller error stands there.",
      .draw = draw_work_precision},
     {.name = "error_budget",
      .title = "Where the errors come from",

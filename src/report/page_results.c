@@ -139,8 +139,8 @@ void page_results(page_writer *page)
                      "Coverage: the share of trials, drawn from the fit of the case, in which an "
                      "interval holds the truth",
                      NULL, 0);
-    page_whole_table(page, &t->work_precision, "Error against run time of the numerical parts",
-                     NULL, 0);
+    page_keys(page, &t->work_precision, "What more work buys");
+    page_whole_table(page, &t->work_precision, "Error against run time", NULL, 0);
 }
 
 /* ---- curves without a modulus, or with a doubtful one

@@ -49,12 +49,14 @@ set(within_fit/materials fit)
 set(within_fit/ramp fit)
 set(within_fit/spot "")
 set(within_fit/strain "")
+set(within_fit/surface fit)
 set(within_fit/sweeps fit)
 set(within_flow/work "")
 set(within_flow/calibration flow/work)
 set(within_flow/indentation flow/work flow/materials)
 set(within_flow/dwell flow/work flow/indentation)
 set(within_flow/spot flow/work)
+set(within_flow/surface flow/work)
 set(within_flow/sweeps flow/work)
 set(within_flow/ramp flow/work flow/sweeps)
 set(within_flow/strain flow/work flow/sweeps)
@@ -62,10 +64,10 @@ set(within_flow/materials flow/work flow/sweeps flow/comparison/margin.h)
 set(within_flow/sliding flow/work flow/materials flow/strain)
 set(within_flow/layer flow/work flow/strain flow/sliding)
 set(within_flow/comparison flow/work flow/materials flow/indentation flow/dwell)
-set(abilities work calibration comparison indentation dwell spot sweeps ramp strain materials sliding
+set(abilities work calibration comparison indentation dwell spot surface sweeps ramp strain materials sliding
   layer)
 list(TRANSFORM abilities PREPEND flow/)
-set(within_flow/errors ${abilities})
+set(within_flow/errors ${abilities} flow/accuracy)
 set(within_flow/accuracy flow/work)
 set(within_flow/case flow/case_schema.h ${abilities})
 set(within_flow/plan flow/case)
@@ -77,10 +79,11 @@ set(shown data/tables)
 # Third-party headers: pattern, then the rooms that may include it (joined by '+': lists do not nest).
 set(third_party
   "^udunits2" base
+  "^seccomp\\.h" base
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
   "^zlib\\.h" data+read
-  "^(zip|libdeflate|freexl)\\.h" read
+  "^(zip|libdeflate)\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
   "^gsl/gsl_errno" base+model+fit+kernel

@@ -1,5 +1,5 @@
 /* Hysteresis friction of several materials on a self-affine road, set-up included; the textbook
- * method is that of friction_textbook.h. SPDX-License-Identifier: GPL-3.0-or-later */
+ * method is that of flow/accuracy/textbook.h. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
 #include "bench/bench.h"

@@ -337,8 +337,13 @@ static int make_packed(const char *folder)
             remove(archive) != 0)
             return -1;
     }
-    path_of(archive, sizeof archive, folder, "book.xls");
-    return xls_write(archive, sheets, 2);
+    static const char *const names[] = {"plain.xls", "shared.xls", "old.xls"};
+    for (xls_way way = XLS_PLAIN; way <= XLS_OLD; way++) {
+        path_of(archive, sizeof archive, folder, names[way]);
+        if (xls_write(archive, way, sheets, 2) != 0)
+            return -1;
+    }
+    return 0;
 }
 
 /* ---- properties --------------------------------------------------------------------------- */

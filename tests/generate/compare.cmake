@@ -1,16 +1,16 @@
 # The generator gives the committed files, byte for byte:
-#   cmake -DGENERATOR=... -DFIXTURES=... -DFOLDER=... -P compare.cmake
+#   cmake -DGENERATOR=... -DFIXTURES=... -DFOLDER=... -DINPUT=... -P compare.cmake
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
-execute_process(COMMAND ${GENERATOR} ${FOLDER} ${FIXTURES}/case.xml RESULT_VARIABLE result)
+execute_process(COMMAND ${GENERATOR} ${FOLDER} ${INPUT} RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "the generator failed: ${result}")
 endif()
 file(GLOB made RELATIVE ${FOLDER} ${FOLDER}/*)
 file(GLOB committed RELATIVE ${FIXTURES} ${FIXTURES}/*)
-list(REMOVE_ITEM committed case.xml softening.txt) # by hand
+list(REMOVE_ITEM committed case.xml softening.txt) # of the case: by hand
 if(NOT made STREQUAL committed)
   message(FATAL_ERROR "made: ${made}; committed: ${committed}")
 endif()

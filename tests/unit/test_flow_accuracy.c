@@ -389,10 +389,24 @@ static void test_verdicts_of_shares(void **state)
         double misses;
         size_t n;
         const char *verdict;
-    } cases[] = {{1, 1, "cannot say"},    {0, 1, "cannot say"},    {3, 10, "cannot say"},
-                 {5, 10, "too narrow"},   {0, 20, "cannot say"},   {0, 100, "holds"},
-                 {0, 116, "holds"},       {0, 117, "too wide"},    {20, 400, "holds"},
-                 {37, 400, "too narrow"}, {2.5, 10, "cannot say"}, {3, 100, "holds"}};
+    } cases[] = {{1, 1, "cannot say"},
+                 {0, 1, "cannot say"},
+                 {3, 10, "cannot say"},
+                 {5, 10, "too narrow"},
+                 {0, 20, "cannot say"},
+                 {0, 100, "holds"},
+                 {0, 116, "holds"},
+                 {0, 117, "too wide"},
+                 {20, 400, "holds"},
+                 {37, 400, "too narrow"},
+                 {2.5, 10, "cannot say"},
+                 {3, 100, "holds"},
+                 /* within 92 to 98 %, however well that is known */
+                 {300, 10000, "holds"},
+                 {199, 10000, "too wide"},
+                 {201, 10000, "holds"},
+                 {799, 10000, "holds"},
+                 {801, 10000, "too narrow"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const double n = (double)cases[i].n;
         const coverage_share s = coverage_judge(1 - cases[i].misses / n, cases[i].n);

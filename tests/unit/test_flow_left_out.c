@@ -455,12 +455,16 @@ static void check_material(const char *asks, const ran *r)
                        (r->replicates > 0 && (runs(r, FLOW_LAYER) || runs(r, FLOW_FRICTION) ||
                                               runs(r, FLOW_ERROR_BUDGET)));
     /* a trial fits again, and one more fit says what is drawn anew; the choice of the vertical
-     * shift fits again with each of the three others */
+     * shift fits again with each of the three others; error against run time fits again for many
+     * draws, and all isotherms as the reference and four shares of them, for the friction and for
+     * what the layer adds */
+    const size_t precision = runs(r, FLOW_WORK_PRECISION), fewer = 2 * (1 + 4) * precision;
     const size_t trials = runs(r, FLOW_COVERAGE) ? TRIALS : 0;
     check(asks, MASTERS,
-          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + (trials > 0) + trials);
+          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + (trials > 0) + trials +
+              precision + fewer);
     check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY) + (trials > 0));
-    check(asks, DRAWS, 200 * (drawn + (r->replicates > 0 ? trials : 0)));
+    check(asks, DRAWS, 200 * (drawn + (r->replicates > 0 ? trials : 0) + fewer) + 4000 * precision);
 }
 
 /* What the DMA tells beside the material of the other stages. */
@@ -480,7 +484,7 @@ static void check_sliding(const char *asks, const ran *r)
     const size_t layer = runs(r, FLOW_LAYER), friction = runs(r, FLOW_FRICTION);
     const size_t area = shown(r, FLOW_CONTACT_AREA), density = shown(r, FLOW_ENERGY_DENSITY);
     const bool settings = runs(r, FLOW_WHAT_IF); /* the budget needs it */
-    const bool covered = runs(r, FLOW_COVERAGE);
+    const bool covered = runs(r, FLOW_COVERAGE) || runs(r, FLOW_WORK_PRECISION);
     const size_t times = 1 + r->replicates;
     check(asks, DENSITIES, density > 0 ? DEPTHS_SHOWN : 0);
     check(asks, PROFILES, 3 * area);

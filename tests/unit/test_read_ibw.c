@@ -148,6 +148,22 @@ static void test_damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
+/* Bytes are lost in the samples or the note, and as many follow the labels: these are no names. */
+static void test_shifted(void **state)
+{
+    (void)state;
+    unsigned char bytes[4096];
+    const ibw_writer_file f = usual(PARTED);
+    assert_int_equal(ibw_write(&f), 0);
+    const size_t n = read_bytes(bytes, sizeof bytes);
+    for (size_t lost = 1; lost < 32; lost += 5) {
+        unsigned char copy[sizeof bytes] = {0};
+        memcpy(copy, bytes, 400);
+        memcpy(copy + 400, bytes + 400 + lost, n - 400 - lost);
+        assert_int_equal(open_bytes(copy, n), WT_E_CORRUPT);
+    }
+}
+
 /* A wave of version 2 is named, one whose sizes do not add up is unknown. */
 static void test_old(void **state)
 {
@@ -167,8 +183,9 @@ static void test_old(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_curve), cmocka_unit_test(test_trigger),
-                                       cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_damaged), cmocka_unit_test(test_old)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_curve),   cmocka_unit_test(test_trigger),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_shifted),
+        cmocka_unit_test(test_damaged), cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -110,9 +110,28 @@ static void damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
+/* Bytes that are missing inside shift all behind them: the small picture at the end shows it. */
+static void missing_inside(void **state)
+{
+    (void)state;
+    static unsigned char bytes[8192];
+    park_writer_file f = usual();
+    f.strip = 64;
+    assert_int_equal(park_write(&f), 0);
+    const size_t n = read_bytes(bytes, sizeof bytes), head = 10 + 12 * 6 + 4;
+    assert_int_equal(open_bytes(bytes, n), WT_OK);
+    for (size_t at = head; at + 4 < n; at += 37) {
+        unsigned char copy[sizeof bytes];
+        memcpy(copy, bytes, at);
+        memcpy(copy + at, bytes + at + 4, n - at - 4);
+        assert_int_equal(open_bytes(copy, n - 4), WT_E_CORRUPT);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(curves), cmocka_unit_test(untimed),
-                                       cmocka_unit_test(pictures), cmocka_unit_test(damaged)};
+                                       cmocka_unit_test(pictures), cmocka_unit_test(damaged),
+                                       cmocka_unit_test(missing_inside)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -99,6 +99,7 @@ static void test_whole_tables(void **state)
                                            {"van_gurp_palmen", "master_curve"},
                                            {"wicket", "master_curve"},
                                            {"cole_cole", "master_curve"},
+                                           {"measured_spectrum", "power_spectrum"},
                                            {"power_spectrum", "roughness"},
                                            {"friction", "friction"},
                                            {"contact_area", "contact_area"},

@@ -852,6 +852,39 @@ static void test_spot(void **state)
     (void)remove(paths[1]);
 }
 
+/* Two places and a smaller window, the spectrum of which goes on to a slope. Profiles that make the
+ * line density are columns of another file. */
+static void see_surfaces(const char *const *files, size_t n)
+{
+    const wt_file_set set = {.patterns = files, .n_patterns = n, .read = wt_read_defaults()};
+    wt_topography_job job = wt_topography_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_topography_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.scans = true;
+    job.end_slope = n > 1 ? 1.3 : (double)NAN;
+    if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.power_spectrum);
+    see(tables.surfaces);
+    see(tables.scan_spectra);
+    wt_topography_tables_clear(&tables);
+}
+
+static void test_surface(void **state)
+{
+    (void)state;
+    static const char *const files[] = {WT_SOURCE_DIR "/fixtures/surface/place-1.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/place-2.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/near-by.gsf"};
+    static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile.gsf"};
+    see_surfaces(files, COUNT_OF(files));
+    see_surfaces(profile, 1);
+}
+
 /* ---- what was not put ------------------------------------------------------------------------ */
 
 static void test_all_put(void **state)
@@ -912,6 +945,7 @@ int main(void)
         cmocka_unit_test(test_thermal),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),
         cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };

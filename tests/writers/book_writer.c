@@ -158,7 +158,7 @@ int xlsx_write(const char *path, const book_writer_sheet *sheets, size_t n, bool
 
 /* ---- .xls: [MS-XLS] in [MS-CFB] -------------------------------------------------------------- */
 
-enum { SECTOR = 512, FAT_SECTORS = 128, MOST = SECTOR * (FAT_SECTORS - 2) };
+enum { SECTOR = 512, FAT_SECTORS = 128, MOST = SECTOR * (FAT_SECTORS - 3) };
 
 typedef struct bytes {
     uint8_t data[MOST];
@@ -182,69 +182,141 @@ static uint8_t *record(bytes *b, unsigned id, size_t length)
     return at + 4;
 }
 
-static void put_bof(bytes *b, unsigned kind)
+static void put_bof(bytes *b, xls_way way, unsigned kind)
 {
-    uint8_t *at = record(b, 0x0809, 16);
-    put(at, 0x0600, 2); /* BIFF8 */
+    uint8_t *at = record(b, 0x0809, way == XLS_OLD ? 8 : 16);
+    put(at, way == XLS_OLD ? 0x0500 : 0x0600, 2);
     put(at + 2, kind, 2);
     put(at + 4, 0x0dbb07cc, 4);
+    if (way == XLS_OLD)
+        return;
     put(at + 8, 0x00000041, 4);
     put(at + 12, 6, 4);
 }
 
-static void put_cells(bytes *b, const char *text)
+static void put_length(uint8_t *to, const cell *c, xls_way way)
 {
-    cell c = {.row = 0};
-    size_t rows = 0, columns = 0;
-    const char *at = text;
-    while (next_cell(&at, &c)) {
-        rows = c.row + 1;
-        columns = c.column + 1 > columns ? c.column + 1 : columns;
+    put(to, c->length, 2);
+    memcpy(to + (way == XLS_OLD ? 2 : 3), c->text, c->length);
+}
+
+/* The upper bits of a number that has no others, or an integer of hundredths. */
+static bool pack_number(double x, uint32_t *packed)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    *packed = (uint32_t)(bits >> 32);
+    if ((bits & 0x3ffffffff) == 0)
+        return true;
+    const int hundredths = x > 0 && x < 1e6 ? (int)(100 * x + 0.5) : 0;
+    *packed = (uint32_t)hundredths << 2 | 3;
+    return hundredths > 0 && !(hundredths / 100.0 < x) && !(hundredths / 100.0 > x);
+}
+
+/* One cell; `shared`: how many texts stood before it. */
+static void put_cell(bytes *b, xls_way way, const cell *c, size_t shared)
+{
+    const size_t flag = way == XLS_OLD ? 0 : 1;
+    const bool computed = way == XLS_OLD && (c->row + c->column) % 2 == 1;
+    uint32_t packed = 0;
+    uint8_t *to = NULL;
+    if (c->is_number && way == XLS_SHARED && pack_number(c->number, &packed)) {
+        to = record(b, 0x00bd, 12); /* several packed numbers: one, and the last column */
+        put(to + 6, packed, 4);
+        put(to + 10, c->column, 2);
+    } else if (c->is_number) {
+        uint64_t bits;
+        memcpy(&bits, &c->number, sizeof bits);
+        to = computed ? record(b, 0x0006, 22) : record(b, 0x0203, 14);
+        put(to + 6, bits, 8);
+    } else if (way == XLS_SHARED) {
+        to = record(b, 0x00fd, 10);
+        put(to + 6, shared, 4);
+    } else if (computed) {
+        to = record(b, 0x0006, 22);
+        put(to + 12, 0xffff, 2);
+        put_length(record(b, 0x0207, 2 + flag + c->length), c, way);
+    } else {
+        to = record(b, 0x0204, 8 + flag + c->length);
+        put_length(to + 6, c, way);
     }
-    uint8_t *to = record(b, 0x0200, 14); /* dimensions */
-    put(to + 4, rows, 4);
-    put(to + 10, columns, 2);
-    c = (cell){.row = 0};
+    put(to, c->row, 2);
+    put(to + 2, c->column, 2);
+}
+
+static void put_cells(bytes *b, xls_way way, const char *text, size_t *shared)
+{
+    cell cells[400] = {{.row = 0}};
+    cell c = {.row = 0};
+    size_t n = 0;
     while (next_cell(&text, &c)) {
-        to = c.is_number ? record(b, 0x0203, 14) : record(b, 0x0204, 9 + c.length);
-        put(to, c.row, 2);
-        put(to + 2, c.column, 2);
-        put(to + 4, 0, 2); /* format */
-        if (c.is_number) {
-            uint64_t bits;
-            memcpy(&bits, &c.number, sizeof bits);
-            put(to + 6, bits, 8);
-        } else {
-            put(to + 6, c.length, 2);
-            to[8] = 0; /* 8 bits a character */
-            memcpy(to + 9, c.text, c.length);
-        }
+        if (n == sizeof cells / sizeof *cells)
+            abort();
+        cells[n++] = c;
+    }
+    for (size_t i = 0; i < n; i++) { /* the old program fills its sheets from below */
+        const cell *now = &cells[way == XLS_OLD ? n - 1 - i : i];
+        put_cell(b, way, now, *shared);
+        *shared += !now->is_number;
     }
 }
 
-static void put_stream(bytes *b, const book_writer_sheet *sheets, size_t n)
+/* The texts of all sheets, each begun in one record and ended in the next, where its characters
+ * are two bytes wide. */
+static void put_shared(bytes *b, const book_writer_sheet *sheets, size_t n)
 {
-    size_t place[16];
-    put_bof(b, 5);
-    put(record(b, 0x0042, 2), 1200, 2); /* code page: UTF-16 */
-    put(record(b, 0x0022, 2), 0, 2);    /* dates from 1900 */
-    put(record(b, 0x00e0, 20), 0, 2);   /* one cell format: general */
+    uint8_t *to = record(b, 0x00fc, 8);
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const char *text = sheets[i].text;
+        cell c = {.row = 0};
+        while (next_cell(&text, &c)) {
+            if (c.is_number)
+                continue;
+            const size_t first = c.length / 2, rest = c.length - first;
+            uint8_t *at = record(b, 0x003c, 5 + first); /* with two runs of fonts */
+            put(at, c.length, 2);
+            at[2] = 8;
+            put(at + 3, 2, 2);
+            memcpy(at + 5, c.text, first);
+            at = record(b, 0x003c, 1 + 2 * rest + 3);
+            at[0] = 1;
+            for (size_t k = 0; k < rest; k++)
+                put(at + 1 + 2 * k, (uint8_t)c.text[first + k], 2);
+            (void)record(b, 0x003c, 5);
+            count++;
+        }
+    }
+    put(to, count, 4);
+    put(to + 4, count, 4);
+}
+
+static void put_stream(bytes *b, xls_way way, const book_writer_sheet *sheets, size_t n)
+{
+    size_t place[16], shared = 0;
+    const size_t flag = way == XLS_OLD ? 0 : 1;
+    put_bof(b, way, 5);
+    put(record(b, 0x0042, 2), way == XLS_OLD ? 1252 : 1200, 2); /* code page */
     for (size_t i = 0; i < n; i++) {
         const size_t length = strlen(sheets[i].name);
-        uint8_t *to = record(b, 0x0085, 8 + length);
+        uint8_t *to = record(b, 0x0085, 7 + flag + length);
         place[i] = (size_t)(to - b->data);
+        to[4] = sheets[i].hidden;
         to[6] = (uint8_t)length;
-        memcpy(to + 8, sheets[i].name, length);
+        memcpy(to + 7 + flag, sheets[i].name, length);
     }
+    if (way == XLS_SHARED)
+        put_shared(b, sheets, n);
     (void)record(b, 0x000a, 0);
     for (size_t i = 0; i < n; i++) {
         put(b->data + place[i], b->n, 4);
-        put_bof(b, 0x10);
-        put_cells(b, sheets[i].text);
+        put_bof(b, way, 0x10);
+        put_bof(b, way, 0x20); /* a chart in the sheet, with a number that is none of its cells */
+        memset(record(b, 0x0203, 14), 0, 14);
+        (void)record(b, 0x000a, 0);
+        put_cells(b, way, sheets[i].text, &shared);
         (void)record(b, 0x000a, 0);
     }
-    if (b->n < 4096)
-        b->n = 4096; /* what is shorter stands in another place */
 }
 
 static void put_entry(uint8_t *to, const char *name, unsigned kind, unsigned child, unsigned start,
@@ -263,15 +335,24 @@ static void put_entry(uint8_t *to, const char *name, unsigned kind, unsigned chi
     put(to + 120, size, 8);
 }
 
-int xls_write(const char *path, const book_writer_sheet *sheets, size_t n)
+static void put_chain(uint8_t *table, size_t first, size_t n)
+{
+    for (size_t i = first; i < first + n; i++)
+        put(table + 4 * i, i + 1 < first + n ? i + 1 : 0xfffffffe, 4);
+}
+
+/* Sectors: table, folder, table of small sectors, the stream. What is shorter than 4096 bytes
+ * stands in small sectors, of which the root is the stream. */
+int xls_write(const char *path, xls_way way, const book_writer_sheet *sheets, size_t n)
 {
     static const uint8_t signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
     static bytes b;
-    uint8_t head[SECTOR] = {0}, fat[SECTOR], directory[SECTOR] = {0};
+    uint8_t head[SECTOR] = {0}, fat[SECTOR], folder[SECTOR] = {0}, small[SECTOR];
     memset(&b, 0, sizeof b);
     if (n > 16)
         return -1;
-    put_stream(&b, sheets, n);
+    put_stream(&b, way, sheets, n);
+    const bool is_small = b.n < 4096;
     const size_t sectors = (b.n + SECTOR - 1) / SECTOR;
     memcpy(head, signature, sizeof signature);
     put(head + 24, 0x003e, 2);
@@ -280,25 +361,29 @@ int xls_write(const char *path, const book_writer_sheet *sheets, size_t n)
     put(head + 30, 9, 2); /* 2^9 bytes a sector */
     put(head + 32, 6, 2);
     put(head + 44, 1, 4); /* sectors of the FAT */
-    put(head + 48, 1, 4); /* the directory is sector 1 */
+    put(head + 48, 1, 4); /* the folder is sector 1 */
     put(head + 56, 4096, 4);
-    put(head + 60, 0xfffffffe, 4);
+    put(head + 60, 2, 4);
+    put(head + 64, 1, 4);
     put(head + 68, 0xfffffffe, 4);
     memset(head + 76, 0xff, SECTOR - 76);
     put(head + 76, 0, 4); /* the FAT is sector 0 */
     memset(fat, 0xff, sizeof fat);
+    memset(small, 0xff, sizeof small);
     put(fat, 0xfffffffd, 4);
-    put(fat + 4, 0xfffffffe, 4);
-    for (size_t i = 0; i < sectors; i++)
-        put(fat + 4 * (i + 2), i + 1 < sectors ? i + 3 : 0xfffffffe, 4);
-    put_entry(directory, "Root Entry", 5, 1, 0xfffffffe, 0);
-    put_entry(directory + 128, "Workbook", 2, 0xffffffff, 2, b.n);
+    put_chain(fat, 1, 1);
+    put_chain(fat, 2, 1);
+    put_chain(fat, 3, sectors);
+    if (is_small)
+        put_chain(small, 0, (b.n + 63) / 64);
+    put_entry(folder, "Root Entry", 5, 1, is_small ? 3 : 0xfffffffe, is_small ? b.n : 0);
+    put_entry(folder + 128, "Workbook", 2, 0xffffffff, is_small ? 0 : 3, b.n);
     FILE *out = fopen(path, "wb");
     if (out == NULL)
         return -1;
     const bool good = fwrite(head, sizeof head, 1, out) == 1 &&
                       fwrite(fat, sizeof fat, 1, out) == 1 &&
-                      fwrite(directory, sizeof directory, 1, out) == 1 &&
-                      fwrite(b.data, SECTOR, sectors, out) == sectors;
+                      fwrite(folder, sizeof folder, 1, out) == 1 &&
+                      fwrite(small, sizeof small, 1, out) == 1 && fwrite(b.data, b.n, 1, out) == 1;
     return fclose(out) == 0 && good ? 0 : -1;
 }

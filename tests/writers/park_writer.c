@@ -50,8 +50,9 @@ static void put_header(const park_writer_file *f, FILE *out)
 
 int park_write(const park_writer_file *f)
 {
-    const unsigned tags = f->picture ? 2 : 4;
+    const unsigned tags = (f->picture ? 2u : 4u) + (f->strip > 0 ? 2u : 0u);
     const size_t header = 10 + 12 * tags + 4, data = header + HEADER;
+    const size_t block = 4 * f->n_curves * f->n_channels * f->n_samples;
     FILE *out = fopen(f->path, "wb");
     if (out == NULL)
         return -1;
@@ -62,7 +63,11 @@ int park_write(const park_writer_file *f)
     put_tag(out, 50432, 4, 1, 0x0e031301);
     if (!f->picture) {
         put_tag(out, 50438, 7, HEADER, header);
-        put_tag(out, 50439, 1, 4 * f->n_curves * f->n_channels * f->n_samples, data);
+        put_tag(out, 50439, 1, block, data);
+    }
+    if (f->strip > 0) {
+        put_tag(out, 273, 4, 1, f->picture ? header : data + block);
+        put_tag(out, 279, 4, 1, f->strip);
     }
     put(out, 0, 4);
     if (!f->picture)
@@ -77,5 +82,7 @@ int park_write(const park_writer_file *f)
                 memcpy(&bits, &value, sizeof bits);
                 put(out, bits, 4);
             }
+    for (size_t i = 0; i < f->strip; i++)
+        fputc(128, out);
     return fclose(out);
 }

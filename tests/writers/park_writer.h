@@ -20,6 +20,7 @@ typedef struct park_writer_file {
     size_t n_curves, n_samples, n_channels;
     const park_writer_channel *channels;
     bool picture; /* without force curves */
+    size_t strip; /* bytes of a small picture at the end; 0: none */
 } park_writer_file;
 
 /* 0, or -1 */

@@ -22,8 +22,8 @@
       "squares)",                                                                                  \
       NUMBER, LABEL("Scatter over stated"))                                                        \
     X(COVERAGE_VERDICT, IN(found.known, verdict),                                                  \
-      "holds: the share is known to be 0.9 or more; too narrow or too wide: chance alone would "   \
-      "do it once in 400; cannot say",                                                             \
+      "holds: the share is known to be 0.9 or more; too narrow or too wide: it is outside 0.92 "   \
+      "to 0.98, and chance alone would do that once in 400; cannot say",                           \
       TEXT, LABEL("Verdict"))                                                                      \
     X(COVERAGE_SETTLED_BY, "settled_by",                                                           \
       "where the verdict cannot say: how many trials would tell if the share stays what it is",    \

@@ -81,7 +81,8 @@
     X(KEYS_KEY, "key", "name of the value", TEXT)                                                  \
     X(KEYS_VALUE, "value", "the value", NUMBER, SPARSE)                                            \
     X(KEYS_STANDARD_ERROR, "standard_error", "its standard error", NUMBER, SPARSE)                 \
-    X(KEYS_NUMERICAL_ERROR, "numerical_error", "its numerical error", NUMBER, SPARSE)              \
+    X(KEYS_NUMERICAL_ERROR, "numerical_error",                                                     \
+      "what its numerical error is below, which of an integral is far below it", NUMBER, SPARSE)   \
     X(KEYS_UNIT, "unit", "unit of all three", TEXT, SPARSE)                                        \
     X(KEYS_WORDS, "words", "a text, or what a headline is", TEXT, SPARSE)
 #define KEYS_KEYS(X)

@@ -25,6 +25,7 @@
 #include "data/tables/spot.h"
 #include "data/tables/strain.h"
 #include "data/tables/sweeps.h"
+#include "data/tables/topography.h"
 #include "data/tables/what_if.h"
 #include "data/tables/work_precision.h"
 
@@ -92,6 +93,10 @@
     X(moduli_at, MODULI_AT, "moduli_at", "Moduli at temperatures", "ramp")                         \
     X(payne_sweep, PAYNE_SWEEP, "payne_sweep", "Moduli against strain amplitude", "payne")         \
     X(payne, PAYNE, "payne", "Softening with strain (Payne effect)", "payne")                      \
+    X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
+      "psd")                                                                                       \
+    X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \
+    X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \

@@ -10,7 +10,9 @@
     X(WORK_PRECISION_SETTING, AS(setting), "what is swept", TEXT, LABEL("Setting"))                \
     X(WORK_PRECISION_VALUE, AS(value), "its value", NUMBER, LABEL("Value"))                        \
     X(WORK_PRECISION_TRUE_ERROR, IN(errors, true_error),                                           \
-      "largest relative error against the reference", NUMBER, LABEL("True error"))                 \
+      "largest relative error against the reference; that of the reference where it is smaller, "  \
+      "for no less can be told",                                                                   \
+      NUMBER, LABEL("True error"))                                                                 \
     X(WORK_PRECISION_STATED_ERROR, IN(errors, stated_error), "the same as stated by the method",   \
       NUMBER, LABEL("Stated error"))                                                               \
     X(WORK_PRECISION_REFERENCE_ERROR, AS(reference_error),                                         \
@@ -24,6 +26,7 @@
       LABEL("Repeats"))                                                                            \
     X(WORK_PRECISION_WORDS, AS(words), "the problem and its reference", TEXT, LABEL("Problem"))
 
-#define WORK_PRECISION_KEYS(X)
+#define WORK_PRECISION_KEYS(X)                                                                     \
+    X(WORK_PRECISION_KEY_ANSWER, "answer", TEXT, LABEL("What more work buys"), OPTIONAL)
 
 #endif

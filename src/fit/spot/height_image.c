@@ -33,7 +33,7 @@ bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_
 
 /* Calls `visit` for each pixel of a disc; u and v are in units of its radius. */
 typedef void disc_visit(void *user, double u, double v, double z);
-static void visit_disc(const spot_field *f, double x, double y, double radius, disc_visit *visit,
+static void visit_disc(const wt_height_map *f, double x, double y, double radius, disc_visit *visit,
                        void *user)
 {
     size_t first[2], last[2];
@@ -85,7 +85,7 @@ static void first_height(void *user, double u, double v, double z)
         *height = z;
 }
 
-spot_plane spot_plane_fit(const spot_field *field, double x, double y, double radius)
+spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double radius)
 {
     sums s = {.plane = {(double)NAN, 0, 0}};
     spot_plane plane = {(double)NAN, (double)NAN, (double)NAN, (double)NAN, 0, 0};
@@ -106,7 +106,7 @@ spot_plane spot_plane_fit(const spot_field *field, double x, double y, double ra
     return plane;
 }
 
-bool spot_covers(const spot_field *f, double x, double y, double radius)
+bool spot_covers(const wt_height_map *f, double x, double y, double radius)
 {
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
     if (x < radius || y < radius || x > width - radius || y > height - radius)
@@ -131,7 +131,7 @@ static void polynomial_weights(double t, double w[NODES])
     w[5] = a * b * t * d * e / 120;
 }
 
-double spot_between(const spot_field *f, double i, double j)
+double spot_between(const wt_height_map *f, double i, double j)
 {
     const double bi = floor(i), bj = floor(j);
     double wi[NODES], wj[NODES], sum = 0;
@@ -154,14 +154,15 @@ double spot_between(const spot_field *f, double i, double j)
 /* The rows about a place, each less the line through its means from two to four radii on the left
  * and on the right: what is the same all along a row while it is scanned is no dent. */
 typedef struct patch {
-    spot_field field;
+    wt_height_map field;
     double x, y; /* the place in it */
     double *z;
 } patch;
 
 /* Mean place and height of the known pixels of a row from low to high [m]; false if there are
  * none. */
-static bool row_mean(const spot_field *f, size_t j, double low, double high, double *u, double *z)
+static bool row_mean(const wt_height_map *f, size_t j, double low, double high, double *u,
+                     double *z)
 {
     size_t first, last, n = 0;
     pixel_span(0.5 * (low + high), 0.5 * (high - low), f->dx, f->nx, &first, &last);
@@ -177,7 +178,7 @@ static bool row_mean(const spot_field *f, size_t j, double low, double high, dou
     return n > 0;
 }
 
-static wt_status cut_patch(const spot_field *f, double x, double y, double radius, patch *to,
+static wt_status cut_patch(const wt_height_map *f, double x, double y, double radius, patch *to,
                            wt_error *err)
 {
     size_t i[2], j[2];
@@ -230,7 +231,7 @@ static double mean_depth(const patch *p, double radius)
     return 10 * n >= 9 * rings * spokes ? sum / (double)n : (double)NAN;
 }
 
-wt_status spot_dent_at(const spot_field *difference, double x, double y, double radius,
+wt_status spot_dent_at(const wt_height_map *difference, double x, double y, double radius,
                        spot_dent *dent, wt_error *err)
 {
     patch p = {.z = NULL};

@@ -5,20 +5,13 @@
 #ifndef WEARTRACK_FIT_SPOT_HEIGHT_IMAGE_H
 #define WEARTRACK_FIT_SPOT_HEIGHT_IMAGE_H
 
-#include "weartrack/base.h"
+#include "weartrack/data.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
 /* Fewest pixels that a disc is described by: four for each constant of a plane. */
 enum { SPOT_LEAST_PIXELS = 12 };
-
-/* Heights [m] row by row, NaN where missing; places are counted from the first pixel [m]. */
-typedef struct spot_field {
-    const double *z; /* borrowed */
-    size_t nx, ny;
-    double dx, dy; /* between pixels */
-} spot_field;
 
 /* A plane by least squares over a disc, and what is left of the heights. */
 typedef struct spot_plane {
@@ -28,12 +21,12 @@ typedef struct spot_plane {
 } spot_plane;
 
 /* NaN with fewer than SPOT_LEAST_PIXELS. */
-spot_plane spot_plane_fit(const spot_field *field, double x, double y, double radius);
+spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double radius);
 /* Is a disc inside of the image, with enough pixels and no more than a tenth of them missing? */
-bool spot_covers(const spot_field *field, double x, double y, double radius);
+bool spot_covers(const wt_height_map *field, double x, double y, double radius);
 /* Height at a place in pixels by polynomials of the fifth degree through six pixels each way; NaN
  * where they are not all known. */
-double spot_between(const spot_field *field, double i, double j);
+double spot_between(const wt_height_map *field, double i, double j);
 /* Solves n symmetric equations, of which the lower triangle is read, in place: m becomes its factor
  * of Cholesky. False if they do not tell all. */
 enum { SPOT_UNKNOWNS = 3 };
@@ -53,14 +46,14 @@ typedef struct spot_shift {
 } spot_shift;
 /* By the heights, without the disc about the place; both images have pixels of one size. Looks at
  * all shifts at which a quarter of the smaller image lies in the other. WT_E_MEMORY. */
-wt_status spot_align(const spot_field *before, const spot_field *after, double x, double y,
+wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
                      double radius, spot_shift *shift, wt_error *err) WT_NODISCARD;
 /* The image with pixels of another size, from the same first pixel on; z is to be freed. */
-wt_status spot_resample(const spot_field *field, double dx, double dy, spot_field *to,
+wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
                         wt_error *err) WT_NODISCARD;
 /* after(p + shift) - before(p) at each pixel of `before`, NaN where it is not known. */
-void spot_difference(const spot_field *before, const spot_field *after, const spot_shift *shift,
-                     double *difference);
+void spot_difference(const wt_height_map *before, const wt_height_map *after,
+                     const spot_shift *shift, double *difference);
 
 /* ---- dents ----------------------------------------------------------------------------------- */
 
@@ -70,7 +63,7 @@ typedef struct spot_dent {
     double depth, volume; /* mean within the radius [m], within two of them [m^3] */
 } spot_dent;
 /* NaN where the difference does not cover it. WT_E_MEMORY. */
-wt_status spot_dent_at(const spot_field *difference, double x, double y, double radius,
+wt_status spot_dent_at(const wt_height_map *difference, double x, double y, double radius,
                        spot_dent *dent, wt_error *err) WT_NODISCARD;
 
 #endif

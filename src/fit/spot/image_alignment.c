@@ -25,7 +25,7 @@ typedef struct region {
     double x, y, radius;
 } region;
 
-static bool left_out(const spot_field *f, const region *r, size_t i, size_t j)
+static bool left_out(const wt_height_map *f, const region *r, size_t i, size_t j)
 {
     const double u = (double)i * f->dx - r->x, v = (double)j * f->dy - r->y;
     return u * u + v * v <= r->radius * r->radius;
@@ -69,8 +69,8 @@ static double add_line(const double *was, const double *is, size_t pixels, const
 /* Variance of the difference with the second image moved by whole pixels, less its plane: a tilt
  * between the images would make the fewest pixels that meet fit best. Infinite where fewer than
  * `least` do. */
-static double height_variance(const spot_field *before, const spot_field *after, const region *r,
-                              const long s[2], size_t least)
+static double height_variance(const wt_height_map *before, const wt_height_map *after,
+                              const region *r, const long s[2], size_t least)
 {
     double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0,
            first = (double)NAN;
@@ -101,7 +101,7 @@ static double height_variance(const spot_field *before, const spot_field *after,
 }
 
 /* The best shift within from..to of both axes. */
-static bool best_shift(const spot_field *before, const spot_field *after, const region *r,
+static bool best_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
                        const long from[2], const long to[2], size_t least, long shift[2])
 {
     double best = (double)INFINITY;
@@ -119,9 +119,9 @@ static bool best_shift(const spot_field *before, const spot_field *after, const 
 }
 
 /* Means of f x f pixels. */
-static wt_status coarsen_image(const spot_field *of, size_t f, spot_field *to, wt_error *err)
+static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to, wt_error *err)
 {
-    *to = (spot_field){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
+    *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
     double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -138,10 +138,10 @@ static wt_status coarsen_image(const spot_field *of, size_t f, spot_field *to, w
 }
 
 /* With pixels of f x f: all shifts, or those about the one of the next coarser pixels. */
-static wt_status search_level(const spot_field *before, const spot_field *after, region all,
+static wt_status search_level(const wt_height_map *before, const wt_height_map *after, region all,
                               size_t f, bool first, long shift[2], bool *found, wt_error *err)
 {
-    spot_field small[2] = {{0}, {0}};
+    wt_height_map small[2] = {{0}, {0}};
     wt_status status = coarsen_image(before, f, &small[0], err);
     if (status == WT_OK)
         status = coarsen_image(after, f, &small[1], err);
@@ -161,8 +161,8 @@ static wt_status search_level(const spot_field *before, const spot_field *after,
     return status;
 }
 
-static wt_status find_whole(const spot_field *before, const spot_field *after, const region *all,
-                            long shift[2], bool *found, wt_error *err)
+static wt_status find_whole(const wt_height_map *before, const wt_height_map *after,
+                            const region *all, long shift[2], bool *found, wt_error *err)
 {
     const size_t most = before->nx > before->ny ? before->nx : before->ny;
     wt_status status = WT_OK;
@@ -198,7 +198,7 @@ static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size
 
 /* What one step of Gauss and Newton needs. The slopes are those of the first image at its pixels,
  * whose noise has nothing to do with that of the heights compared. */
-static void sum_part(const spot_field *before, const spot_field *after, const region *r,
+static void sum_part(const wt_height_map *before, const wt_height_map *after, const region *r,
                      const double shift[2], double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
     const double middle = 0.5 * (double)(r->i[0] + r->i[1]), half = (double)(r->i[1] - r->i[0]);
@@ -227,7 +227,7 @@ static void sum_part(const spot_field *before, const spot_field *after, const re
 }
 
 /* Shift of a part that begins with whole pixels; false if it tells none. */
-static bool refine_shift(const spot_field *before, const spot_field *after, const region *r,
+static bool refine_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
                          part *p)
 {
     const double start[2] = {p->shift[0], p->shift[1]};
@@ -251,7 +251,7 @@ static bool refine_shift(const spot_field *before, const spot_field *after, cons
 }
 
 /* The image with nothing known in the disc. */
-static wt_status cut_disc(const spot_field *f, const region *r, spot_field *to, wt_error *err)
+static wt_status cut_disc(const wt_height_map *f, const region *r, wt_height_map *to, wt_error *err)
 {
     double *z = malloc(f->nx * f->ny * sizeof *z);
     if (z == NULL)
@@ -264,7 +264,7 @@ static wt_status cut_disc(const spot_field *f, const region *r, spot_field *to, 
     return WT_OK;
 }
 
-static size_t count_outside(const spot_field *f, const region *r)
+static size_t count_outside(const wt_height_map *f, const region *r)
 {
     size_t n = 0;
     for (size_t j = r->j[0]; j < r->j[1]; j++)
@@ -274,8 +274,9 @@ static size_t count_outside(const spot_field *f, const region *r)
 }
 
 /* The parts of what both images show; `cut` is the first without the disc. */
-static size_t find_parts(const spot_field *before, const spot_field *cut, const spot_field *after,
-                         const region *all, const long whole[2], part parts[PARTS])
+static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
+                         const wt_height_map *after, const region *all, const long whole[2],
+                         part parts[PARTS])
 {
     size_t from[2], to[2], n = 0;
     const size_t size[2] = {before->nx, before->ny}, other[2] = {after->nx, after->ny};
@@ -377,7 +378,7 @@ static bool fit_parts(part *parts, size_t *n, const region *all, double length, 
     }
 }
 
-wt_status spot_align(const spot_field *before, const spot_field *after, double x, double y,
+wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
                      double radius, spot_shift *shift, wt_error *err)
 {
     const region all = {{0, before->nx}, {0, before->ny}, x, y, radius};
@@ -391,7 +392,7 @@ wt_status spot_align(const spot_field *before, const spot_field *after, double x
                           .x_error = (double)NAN,
                           .y_error = (double)NAN,
                           .overlap = (double)NAN};
-    spot_field cut = {.z = NULL};
+    wt_height_map cut = {.z = NULL};
     size_t n = 0;
     wt_status status = cut_disc(before, &all, &cut, err);
     if (status == WT_OK)
@@ -426,11 +427,11 @@ wt_status spot_align(const spot_field *before, const spot_field *after, double x
 
 /* ---- the second image on the pixels of the first --------------------------------------------- */
 
-wt_status spot_resample(const spot_field *field, double dx, double dy, spot_field *to,
+wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
                         wt_error *err)
 {
-    *to = (spot_field){NULL, (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
-                       (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1, dx, dy};
+    *to = (wt_height_map){NULL, (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
+                          (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1, dx, dy};
     double *z = malloc(to->nx * to->ny * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -442,8 +443,8 @@ wt_status spot_resample(const spot_field *field, double dx, double dy, spot_fiel
     return WT_OK;
 }
 
-void spot_difference(const spot_field *before, const spot_field *after, const spot_shift *shift,
-                     double *difference)
+void spot_difference(const wt_height_map *before, const wt_height_map *after,
+                     const spot_shift *shift, double *difference)
 {
     for (size_t j = 0; j < before->ny; j++)
         for (size_t i = 0; i < before->nx; i++) {

@@ -48,6 +48,8 @@ static void take_shifts(const wt_posterior *p, long left_out, law_member *m)
             const bool free = posterior_column(p, i, &at) && posterior_column(p, k, &with);
             for (size_t c = 0; free && c < p->n_cells; c++) {
                 const posterior_cell *cell = &p->cells[c];
+                if (!(cell->weight > 0.0))
+                    continue;
                 mean += cell->weight * (gsl_matrix_get(cell->covariance, at, with) +
                                         cell->value[at] * cell->value[with]);
                 mean_i += cell->weight * cell->value[at];

@@ -149,7 +149,7 @@ wt_status master_work_alloc(master_work *work, wt_error *err)
     work->b = pool_numbers(m, n);
     work->physical = pool_numbers(m, n);
     work->overlap = pool_numbers(m, n);
-    work->vertical.precision = pool_matrix(m, n, n);
+    vertical_make_room(m, n, &work->vertical);
     work->link = pool_alloc(m, n, sizeof *work->link);
     work->own_a = pool_numbers(m, n);
     work->posterior = posterior_new();
@@ -193,6 +193,7 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
     p->mean_b = pool_numbers(m, n);
     p->slope = pool_numbers(m, n);
     p->scratch = pool_numbers(m, 7 * n + 4 * work->s->n_linear);
+    p->with_all = pool_numbers(m, 3 * n + work->s->n_linear);
     if (m->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;

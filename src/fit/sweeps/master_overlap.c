@@ -19,7 +19,7 @@ static bool all_agree(const master_work *work, const overlap_link *link)
         const long column = work->placed[i] ? s->column_a[work->curve[i]] : -1;
         if (column < 0)
             continue;
-        const double variance = gsl_matrix_get(s->covariance, (size_t)column, (size_t)column);
+        const double variance = spectrum_variance(s, work->curve[i]);
         const double off = spectrum_a(s, work->curve[i]) / M_LN10 - link[i].a;
         if (!(fabs(off) <= agree * hypot(link[i].error, sqrt(variance) / M_LN10)))
             return false;

@@ -34,13 +34,30 @@ void posterior_free(wt_posterior *p)
  * most. */
 static double step_left(const spectrum *s)
 {
+    double sum = 0.0;
+    spectrum_solve(s, s->gradient->data, s->direction->data);
+    for (size_t u = 0; u < s->n_unknowns; u++)
+        sum += s->gradient->data[u] * s->direction->data[u];
+    return sqrt(fmax(sum, 0.0));
+}
+
+/* Its covariance, and the factor of the inverse of that. */
+static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *err)
+{
+    const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns;
-    gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);
-    gsl_vector_const_view gradient = gsl_vector_const_subvector(s->gradient, 0, n);
-    gsl_vector_view step = gsl_vector_subvector(s->direction, 0, n);
-    gsl_vector_memcpy(&step.vector, &gradient.vector);
-    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &root.matrix, &step.vector);
-    return gsl_blas_dnrm2(&step.vector);
+    gsl_matrix *scratch = gsl_matrix_alloc(n, n);
+    if (scratch == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
+    spectrum_precision(s, c->root);
+    for (size_t u = 0; u < n; u++)
+        *gsl_matrix_ptr(c->root, u, u) *= 1.0 + s->rounding;
+    const bool good = dense_factor(c->root);
+    if (good)
+        dense_inverse(c->root, scratch, c->covariance);
+    gsl_matrix_free(scratch);
+    return good ? WT_OK
+                : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
 }
 
 wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
@@ -50,27 +67,26 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
     const size_t n = s->n_unknowns, n_curves = s->n_curves;
     posterior_cell *c = &p->cells[p->n_cells++];
     *c = (posterior_cell){.value = pool_numbers(&p->memory, n),
-                          .covariance = pool_matrix(&p->memory, n, n),
-                          .root = pool_matrix(&p->memory, n, n),
                           .noise = {s->noise[STORAGE], s->noise[LOSS]},
                           .smoothness = s->smooth,
                           .geometry = v->geometry,
                           .departure = v->departure,
                           .log_weight = log_weight,
                           .settled = s->settled};
-    if (kind == WT_VERTICAL_TIED)
+    const bool counts = log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
+    if (counts) {
+        c->covariance = pool_matrix(&p->memory, n, n);
+        c->root = pool_matrix(&p->memory, n, n);
+    }
+    if (counts && kind == WT_VERTICAL_TIED)
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
     p->step_left = fmax(p->step_left, step_left(s));
     memcpy(c->value, s->value, n * sizeof *c->value);
-    gsl_matrix_const_view part = gsl_matrix_const_submatrix(s->covariance, 0, 0, n, n);
-    gsl_matrix_const_view factor = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);
-    gsl_matrix_memcpy(c->covariance, &part.matrix);
-    gsl_matrix_memcpy(c->root, &factor.matrix);
     if (c->smooth != NULL)
-        vertical_smooth_part(v, s->prior, p->temperature, n_curves, c->smooth);
-    return WT_OK;
+        vertical_smooth_part(s->prior, n_curves, c->smooth);
+    return counts ? fill_cell(p, c, err) : WT_OK;
 }
 
 const posterior_cell *posterior_best(const wt_posterior *p)
@@ -95,8 +111,12 @@ static void weigh_cells(wt_posterior *p)
 {
     const double most = posterior_best(p)->log_weight;
     double sum = 0.0;
-    for (size_t i = 0; i < p->n_cells; i++)
-        sum += p->cells[i].weight = exp(p->cells[i].log_weight - most);
+    for (size_t i = 0; i < p->n_cells; i++) {
+        const double weight = exp(p->cells[i].log_weight - most);
+        /* no law brings back what is less than that */
+        p->cells[i].weight = weight > least_share * least_share ? weight : 0.0;
+        sum += p->cells[i].weight;
+    }
     for (size_t i = 0; i < p->n_cells; i++)
         p->cells[i].weight /= sum;
 }
@@ -176,8 +196,8 @@ static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl
 {
     double most = -HUGE_VAL, sum = 0.0;
     for (size_t c = 0; c < p->n_cells; c++) {
-        if (p->cells[c].weight < least_share * least_share)
-            continue; /* no law brings it back */
+        if (!(p->cells[c].weight > 0.0))
+            continue;
         shifts_of(p, &p->cells[c]);
         for (size_t i = 0; i < LAW_SPREADS; i++, (*n)++) {
             posterior_part *one = &part[*n];
@@ -226,11 +246,14 @@ static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
 /* Without a law the cells are the parts. */
 static wt_status parts_without_law(wt_posterior *p, wt_error *err)
 {
-    p->n_parts = p->n_cells;
-    p->parts = pool_alloc(&p->memory, p->n_parts, sizeof *p->parts);
-    for (size_t i = 0; p->parts != NULL && i < p->n_parts; i++) {
-        p->parts[i] = (posterior_part){.cell = &p->cells[i], .weight = p->cells[i].weight};
-        part_alloc(p, &p->parts[i]);
+    p->parts = pool_alloc(&p->memory, p->n_cells, sizeof *p->parts);
+    for (size_t i = 0; p->parts != NULL && i < p->n_cells; i++) {
+        posterior_part *part = &p->parts[p->n_parts];
+        *part = (posterior_part){.cell = &p->cells[i], .weight = p->cells[i].weight};
+        if (!(part->weight > 0.0))
+            continue;
+        part_alloc(p, part);
+        p->n_parts++;
     }
     p->shape = (law_shape){.kind = WT_LAW_NONE, .odd = -1};
     return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
@@ -246,7 +269,7 @@ wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
                          .log_a = pool_numbers(&p->memory, n),
                          .covariance = pool_matrix(&p->memory, n, n),
                          .slope = p->slope,
-                         .scratch = pool_numbers(&p->memory, n * (LAW_MOST + 1))};
+                         .scratch = pool_numbers(&p->memory, n * (LAW_MOST + 2))};
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     weigh_cells(p);

@@ -12,8 +12,8 @@ enum { POSTERIOR_CELLS = 12 }; /* widths of geometry times those of departure in
 /* One fit of the spectrum, for one width of the vertical shift. */
 typedef struct posterior_cell {
     double *value;          /* [n_unknowns] */
-    gsl_matrix *covariance; /* [n_unknowns^2] */
-    gsl_matrix *root;       /* Cholesky factor of its inverse */
+    gsl_matrix *covariance; /* [n_unknowns^2]; NULL: it weighs nothing */
+    gsl_matrix *root;       /* Cholesky factor of its inverse, or NULL */
     double *smooth;         /* [n_curves^2] smooth part of b at the isotherms; NULL: b itself */
     double noise[MODULI], smoothness;
     double geometry, departure; /* widths of the vertical shift */
@@ -39,6 +39,7 @@ struct wt_posterior {
     double *mean_b;      /* [n_curves] prior of ln b */
     double *slope;       /* [n_curves] of the law */
     double *scratch;     /* [7 n_curves + 4 n_linear] */
+    double *with_all;    /* [3 n_curves + n_linear] scratch */
     char no_law[256];    /* why there is none */
     size_t *curve;       /* [isotherms of the sweep] in the spectrum */
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */

@@ -3,6 +3,7 @@
 #include "fit/sweeps/posterior.h"
 
 #include "base/mix.h"
+#include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
@@ -29,11 +30,13 @@ static wt_interval of_column(const wt_posterior *p, long column, double held, do
     if (column < 0)
         return (wt_interval){held, 0.0, held, held};
     const size_t c = (size_t)column;
+    size_t n = 0;
     for (size_t i = 0; i < p->n_cells; i++)
-        part[i] = (mixture_part){
-            p->cells[i].weight, p->cells[i].value[c] / M_LN10,
-            sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
-    return mixture_interval(part, p->n_cells);
+        if (p->cells[i].weight > 0.0)
+            part[n++] = (mixture_part){
+                p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+                sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
+    return mixture_interval(part, n);
 }
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
@@ -57,7 +60,7 @@ wt_interval posterior_b(const wt_posterior *p, size_t curve)
 double posterior_tie(const wt_posterior *p, size_t curve)
 {
     const long a = p->frame.column_a[curve], b = p->frame.column_b[curve];
-    const gsl_matrix *v = p->cells[0].covariance;
+    const gsl_matrix *v = posterior_best(p)->covariance;
     return a < 0 || b < 0
                ? 0.0
                : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
@@ -71,36 +74,43 @@ struct quantity {
     double by_law[LAW_MOST];
 };
 
+/* What a quantity has with all unknowns of a cell [n_unknowns], and its variance. */
+static double spread_in_cell(const wt_posterior *p, const posterior_cell *cell, const double *by,
+                             double *with_all)
+{
+    const size_t n = p->frame.n_unknowns;
+    double variance = 0.0;
+    memset(with_all, 0, n * sizeof *with_all);
+    for (size_t i = 0; i < n; i++)
+        if (by[i] != 0.0)
+            dense_add(with_all, n, by + i, 1, gsl_matrix_const_ptr(cell->covariance, i, 0), n, 1);
+    for (size_t i = 0; i < n; i++)
+        variance += by[i] * with_all[i];
+    return variance;
+}
+
 /* Mean and variance of a quantity in a part; with: [n_curves] its covariance with log a. */
 static mixture_part of_part(const wt_posterior *p, const posterior_part *part,
                             const struct quantity *x, double *with)
 {
-    const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
-    const gsl_matrix *v = part->cell->covariance;
+    const size_t n_curves = p->frame.n_curves;
+    double *with_all = p->with_all, *pulled = with_all + p->frame.n_unknowns;
     double variance = 0.0, mean = x->value;
-    for (size_t i = 0; x->by_unknown != NULL && i < n; i++) {
-        const double *c = gsl_matrix_const_ptr(v, i, 0), g = x->by_unknown[i];
-        double half = 0.0;
-        for (size_t j = 0; g != 0.0 && j < i; j++)
-            half += c[j] * x->by_unknown[j];
-        variance += g * (2.0 * half + c[i] * g);
+    if (x->by_unknown != NULL) {
+        variance = spread_in_cell(p, part->cell, x->by_unknown, with_all);
+        memset(pulled, 0, n_curves * sizeof *pulled);
     }
     for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
         size_t column;
-        with[k] = 0.0;
-        if (!posterior_column(p, k, &column))
-            continue;
-        const double *c = gsl_matrix_const_ptr(v, column, 0);
-        for (size_t j = 0; j < n; j++)
-            with[k] += c[j] * x->by_unknown[j] / M_LN10;
+        with[k] = posterior_column(p, k, &column) ? with_all[column] / M_LN10 : 0.0;
+        dense_add(pulled, n_curves, with + k, 1, gsl_matrix_const_ptr(part->inner, k, 0), n_curves,
+                  1);
     }
     for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
-        const double *inner = gsl_matrix_const_ptr(part->inner, k, 0);
         mean += with[k] * gsl_vector_get(part->pull, k);
+        variance -= with[k] * pulled[k];
         for (size_t u = 0; u < part->law.n_unknowns; u++)
             variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, u) * x->by_law[u];
-        for (size_t j = 0; j < n_curves; j++)
-            variance -= with[k] * inner[j] * with[j];
     }
     for (size_t u = 0; u < part->law.n_unknowns; u++)
         for (size_t w = 0; w < part->law.n_unknowns; w++)

@@ -220,25 +220,35 @@ struct gls {
     const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
     gsl_vector_view y;      /* [n] */
     gsl_matrix_view x;      /* [n * unknowns] */
+    double *copy;           /* [n] of a column */
 };
 
 /* The columns that hang on the pole, or those that do not. */
 static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
 {
     for (size_t u = 0; u < x->size2; u++) {
-        gsl_vector_view column = gsl_matrix_column(x, u);
-        if ((u == 1 || u == law_pole_index(g->shape)) == of_pole)
-            gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, g->root, &column.vector);
+        gsl_vector_view column = gsl_matrix_column(x, u),
+                        copy = gsl_vector_view_array(g->copy, x->size1);
+        if ((u == 1 || u == law_pole_index(g->shape)) != of_pole)
+            continue;
+        gsl_vector_memcpy(&copy.vector, &column.vector);
+        dense_forward(g->root, g->copy);
+        gsl_vector_memcpy(&column.vector, &copy.vector);
     }
 }
 
 static struct gls gls_new(const law_data *data, const law_shape *shape, const gsl_matrix *root)
 {
-    struct gls g = {data, shape, root, gsl_vector_view_array(data->scratch, data->n),
-                    gsl_matrix_view_array(data->scratch + data->n, data->n, law_unknowns(shape))};
+    struct gls g = {
+        data,
+        shape,
+        root,
+        gsl_vector_view_array(data->scratch, data->n),
+        gsl_matrix_view_array(data->scratch + 2 * data->n, data->n, law_unknowns(shape)),
+        data->scratch + data->n};
     for (size_t i = 0; i < data->n; i++)
         gsl_vector_set(&g.y.vector, i, data->log_a[i]);
-    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, root, &g.y.vector);
+    dense_forward(root, data->scratch);
     design_fixed(data, shape, &g.x.matrix);
     whiten_columns(&g, &g.x.matrix, false);
     return g;

@@ -45,7 +45,7 @@ typedef struct law_data {
     double *log_a;             /* [n] */
     gsl_matrix *covariance;    /* [n * n] of log_a */
     double *slope;             /* [n] of the law [decade/K], found by law_choose */
-    double *scratch;           /* [n * (LAW_MOST + 1)] */
+    double *scratch;           /* [n * (LAW_MOST + 2)] */
 } law_data;
 
 typedef struct law_fit {

@@ -6,18 +6,27 @@
 #define WEARTRACK_FIT_SWEEPS_SPECTRUM_H
 
 #include "base/pool.h"
+#include "fit/sweeps/bordered.h"
 #include "fit/sweeps/isotherm.h"
 
 #include <gsl/gsl_matrix.h>
 
-/* Prior of the vertical shifts: normal about `mean` with precision matrix; without one they are
- * free but for those that are held. */
+/* Prior of the vertical shifts: normal about `mean` with the precision P - P S S' P, where P is
+ * that of each by itself and S what is smooth in them; without one they are free but for those that
+ * are held. */
 typedef struct spectrum_prior {
-    bool held;             /* the vertical shifts are `mean` */
-    const double *mean;    /* [n_curves] */
-    gsl_matrix *precision; /* [n_curves^2], or NULL: free, the anchor held */
-    double log_det;        /* of the covariance */
+    bool held;          /* the vertical shifts are `mean` */
+    const double *mean; /* [n_curves] */
+    double *precision;  /* [n_curves] P, or NULL: free, the anchor held */
+    gsl_matrix *smooth; /* [n_curves * n_smooth] S */
+    size_t n_smooth;    /* 0: nothing is */
+    double *at;         /* [n_smooth] scratch */
+    double log_det;     /* of the covariance */
 } spectrum_prior;
+
+/* Of shifts the more is smooth the wider their departure reaches (vertical_shift.c): so many
+ * numbers tell it to rounding over a thousand kelvin. */
+enum { SPECTRUM_MOST_SMOOTH = 64 };
 
 /* Second differences beyond an end of the measured range: their law is given. */
 typedef struct spectrum_beyond {
@@ -44,6 +53,7 @@ typedef struct spectrum {
     size_t n_fast;            /* terms before the fast end of the measured range */
     size_t n_measured;        /* and before the slow one */
     double log_tau, step;     /* ln of the first relaxation time and between them */
+    double *time;             /* [n_terms] relaxation times, of the first one */
     bool liquid;              /* no equilibrium modulus */
     size_t n_unknowns;
     double *value;                               /* [n_unknowns] */
@@ -69,10 +79,16 @@ typedef struct spectrum {
     double *residual[MODULI]; /* [n] */
     double *row[MODULI];      /* [n * (n_linear + 2)] d/d terms, d/da, d/db */
     double objective;
-    gsl_matrix *normal[MODULI]; /* J'J of the rows of a modulus */
-    gsl_matrix *precision;      /* of all unknowns: normal / noise^2 + priors */
-    gsl_matrix *covariance;     /* its inverse, the errors of everything */
+    /* Border: terms, and behind them one for each column of prior->smooth: with 1 on the diagonal
+     * and -P S beside it, the equations without it are those of the prior. Blocks: a and b. */
+    bordered normal[MODULI]; /* J'J of the rows of a modulus */
+    bordered precision;      /* normal / noise^2 + priors */
+    bordered factor;         /* of it */
+    bordered covariance;     /* of its inverse what lies where it is not 0 */
+    gsl_matrix *scratch;
+    double *border, *side; /* of a vector */
     gsl_vector *gradient;
+    double rounding;        /* of a diagonal, that the precision was given to be positive */
     double log_det;         /* of the precision */
     double criterion;       /* -2 ln evidence */
     double freedom[MODULI]; /* effective parameters of a modulus */
@@ -80,7 +96,6 @@ typedef struct spectrum {
     double *term;        /* [n_linear] */
     double *copy;        /* [n] scratch */
     double *was[MODULI]; /* [n] weights before */
-    gsl_matrix *factor, *scratch;
     gsl_vector *direction;
     double *trial;
 } spectrum;
@@ -103,10 +118,16 @@ void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n
 
 /* ---- spectrum_model.c: rows, normal equations, priors */
 void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
-/* Takes from the values of a curve, v[n * width], what the neighbour before foretells. */
+/* Takes from the values of the points of a curve, v[points * width], what the neighbour before
+ * foretells. */
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
 double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
+/* x = covariance times y, of unknowns; they may be the same. */
+void spectrum_solve(const spectrum *s, const double *y, double *x);
+/* All of the precision [n_unknowns^2]. */
+void spectrum_precision(const spectrum *s, gsl_matrix *precision);
+double spectrum_variance(const spectrum *s, size_t curve); /* of a, that is fitted */
 /* What a residual in ln of a point is multiplied by; 0: left out. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
 double spectrum_squares(const spectrum *s, int q); /* of the whitened residuals */

@@ -92,7 +92,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
     }
     if (sum.freedom < (double)LEAST_LEFT)
         return (struct within){0.0, 0.0, 0.0};
-    spectrum_whiten(s, curve, q, v, width);
+    spectrum_whiten(s, curve, q, v + from * width, width);
     for (size_t k = from; k < to; k++)
         for (size_t i = 0; i < width; i++)
             for (size_t j = 0; j < width; j++)

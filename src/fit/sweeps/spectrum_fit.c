@@ -4,10 +4,7 @@
 #include "fit/sweeps/spectrum.h"
 
 #include "base/gsl_quiet.h"
-#include "fit/dense.h"
-
 #include <float.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,40 +29,61 @@ static const double trial_gain = 0.005;
 /* Of a diagonal: more is no rounding. */
 static const double most_rounding = 1e-8;
 
-static gsl_matrix_view leading_block(gsl_matrix *m, size_t n)
-{
-    return gsl_matrix_submatrix(m, 0, 0, n, n);
-}
-
-/* Factor of precision + damping * its diagonal. */
+/* Factor of precision + damping * its diagonal. What is smooth in the vertical shifts is no
+ * unknown: it is not damped, and the diagonal of a vertical shift is that which it leaves. */
 static bool factor_damped(spectrum *s, double damping)
 {
-    const size_t n = s->n_unknowns;
-    gsl_matrix_view factor = leading_block(s->factor, n),
-                    precision = leading_block(s->precision, n);
-    gsl_matrix_memcpy(&factor.matrix, &precision.matrix);
-    for (size_t i = 0; i < n; i++)
-        *gsl_matrix_ptr(s->factor, i, i) *= 1.0 + damping;
-    return dense_factor(&factor.matrix);
+    bordered_copy(&s->factor, &s->precision);
+    for (size_t i = 0; i < s->n_linear; i++)
+        *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        double *own = s->factor.own + BLOCK_OWN * i;
+        double smooth = 0.0;
+        for (size_t j = 0; j < s->prior->n_smooth; j++)
+            smooth +=
+                pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j), 2);
+        own[0] += s->column_a[i] < 0 ? 0.0 : damping * own[0];
+        own[2] += s->column_b[i] < 0 ? 0.0 : damping * (own[2] - smooth);
+    }
+    return bordered_factor(&s->factor);
+}
+
+void spectrum_solve(const spectrum *s, const double *y, double *x)
+{
+    double *border = s->border, *side = s->side;
+    memset(border, 0, s->factor.m * sizeof *border);
+    memcpy(border, y, s->n_linear * sizeof *border);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        side[BLOCK_SIDE * i] = s->column_a[i] < 0 ? 0.0 : y[s->column_a[i]];
+        side[BLOCK_SIDE * i + 1] = s->column_b[i] < 0 ? 0.0 : y[s->column_b[i]];
+    }
+    bordered_solve(&s->factor, border, side);
+    memcpy(x, border, s->n_linear * sizeof *border);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        if (s->column_a[i] >= 0)
+            x[s->column_a[i]] = side[BLOCK_SIDE * i];
+        if (s->column_b[i] >= 0)
+            x[s->column_b[i]] = side[BLOCK_SIDE * i + 1];
+    }
+}
+
+double spectrum_variance(const spectrum *s, size_t curve)
+{
+    return s->covariance.own[BLOCK_OWN * curve];
 }
 
 static wt_status invert_precision(spectrum *s, wt_error *err)
 {
-    const size_t n = s->n_unknowns;
-    gsl_matrix_view factor = leading_block(s->factor, n),
-                    covariance = leading_block(s->covariance, n);
     /* little noise beside a loose prior: rounding may leave no more than a part in 1/(n epsilon) of
      * a diagonal, which is given back */
     double rounding = 0.0;
     while (!factor_damped(s, rounding) && rounding < most_rounding)
-        rounding = fmax(10.0 * rounding, (double)n * DBL_EPSILON);
+        rounding = fmax(10.0 * rounding, (double)s->n_unknowns * DBL_EPSILON);
     if (!(rounding < most_rounding))
         return wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
-    s->log_det = 0.0;
-    for (size_t i = 0; i < n; i++)
-        s->log_det += 2.0 * log(gsl_matrix_get(s->factor, i, i));
-    gsl_matrix_view scratch = leading_block(s->scratch, n);
-    dense_inverse(&factor.matrix, &scratch.matrix, &covariance.matrix);
+    s->rounding = rounding;
+    s->log_det = bordered_log_det(&s->factor);
+    bordered_inverse(&s->factor, s->scratch, &s->covariance);
     return WT_OK;
 }
 
@@ -75,14 +93,11 @@ static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error 
     const size_t n = s->n_unknowns;
     *gain = 0.0;
     for (int i = 0; i < MAX_DAMPINGS; i++) {
-        gsl_matrix_view factor = leading_block(s->factor, n);
-        gsl_vector_view move = gsl_vector_subvector(s->direction, 0, n);
-        gsl_vector_view gradient = gsl_vector_subvector(s->gradient, 0, n);
         if (!factor_damped(s, *damping)) {
             *damping = fmax(10.0 * *damping, 1e-6);
             continue;
         }
-        gsl_linalg_cholesky_solve(&factor.matrix, &gradient.vector, &move.vector);
+        spectrum_solve(s, s->gradient->data, s->direction->data);
         for (size_t u = 0; u < n; u++)
             s->trial[u] = s->value[u] + gsl_vector_get(s->direction, u);
         spectrum_evaluate(s, s->trial, false);

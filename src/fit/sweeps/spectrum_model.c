@@ -6,6 +6,7 @@
 #include "fit/tile.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: a factor
  * 20 either way, so that it holds what the data leave open, and is nothing beside what they say. */
@@ -26,6 +27,8 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
     pool *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
+    const size_t smooth = s->n_curves < SPECTRUM_MOST_SMOOTH ? s->n_curves : SPECTRUM_MOST_SMOOTH;
+    const size_t border = s->n_linear + smooth;
     s->first = pool_alloc(m, s->n_curves + 1, sizeof *s->first);
     s->column_a = pool_alloc(m, s->n_curves, sizeof *s->column_a);
     s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
@@ -41,17 +44,20 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
         s->spread[q] = pool_numbers(m, s->n);
         s->residual[q] = pool_numbers(m, s->n);
         s->row[q] = pool_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
-        s->normal[q] = pool_matrix(m, most, most);
+        s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
     }
     s->kappa = pool_numbers(m, s->n_curves);
     s->bend = pool_numbers(m, s->n_terms);
     s->term = pool_numbers(m, s->n_linear);
+    s->time = pool_numbers(m, s->n_terms);
     s->value = pool_numbers(m, most);
     s->trial = pool_numbers(m, most);
-    s->precision = pool_matrix(m, most, most);
-    s->covariance = pool_matrix(m, most, most);
-    s->factor = pool_matrix(m, most, most);
-    s->scratch = pool_matrix(m, most, most);
+    s->precision = bordered_new(m, border, s->n_curves);
+    s->covariance = bordered_new(m, border, s->n_curves);
+    s->factor = bordered_new(m, border, s->n_curves);
+    s->scratch = pool_matrix(m, border, border);
+    s->border = pool_numbers(m, border);
+    s->side = pool_numbers(m, BLOCK_SIDE * s->n_curves);
     s->gradient = pool_vector(m, most);
     s->direction = pool_vector(m, most);
     return m->failed
@@ -183,8 +189,10 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->first[curve] = k;
     start_terms(s, start, start + s->n_curves);
     s->smooth = 0.3;
-    for (size_t j = 0; j < s->n_terms; j++)
+    for (size_t j = 0; j < s->n_terms; j++) {
         s->bend[j] = 1.0;
+        s->time[j] = exp((double)j * s->step);
+    }
     spectrum_set_bends(s);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
@@ -247,37 +255,75 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
 
 /* ---- the moduli ------------------------------------------------------------------------------ */
 
+/* Sums over the terms at a frequency: E', E'', and their slopes. */
+enum { SUMS = 2 * MODULI };
+
+/* Terms from j on, as many as there are lanes; gradient: E' and E'' of each, or NULL. */
+WIDE_PART void add_terms(const double *term, const double *time, double first, wide sum[SUMS],
+                         double *storage_at, double *loss_at)
+{
+    wide e, z;
+    wide_load(&e, term);
+    wide_load(&z, time);
+    z *= first;
+    const wide share = z / (1.0 + z * z), loss = e * share, storage = loss * z;
+    sum[STORAGE] += storage;
+    sum[LOSS] += loss;
+    sum[MODULI + STORAGE] += 2.0 * loss * share;
+    sum[MODULI + LOSS] += loss * (1.0 - 2.0 * z * share);
+    if (storage_at != NULL) {
+        wide_store(storage_at, &storage);
+        wide_store(loss_at, &loss);
+    }
+}
+
+/* The moduli and their rises at a frequency by all terms, whose times are first * s->time. */
+WIDE_REGISTERS
+static void sum_terms(const spectrum *s, const double *term, double first, double total[SUMS],
+                      double *const by[MODULI])
+{
+    wide sum[SUMS] = {{0.0}};
+    const size_t whole = s->n_terms / WIDE * WIDE, rest = s->n_terms - whole;
+    for (size_t j = 0; j < whole; j += WIDE)
+        add_terms(term + j, s->time + j, first, sum, by != NULL ? by[STORAGE] + j : NULL,
+                  by != NULL ? by[LOSS] + j : NULL);
+    if (rest > 0) {
+        double last[WIDE] = {0.0}, time[WIDE] = {0.0}, storage[WIDE], loss[WIDE];
+        memcpy(last, term + whole, rest * sizeof *last);
+        memcpy(time, s->time + whole, rest * sizeof *time);
+        add_terms(last, time, first, sum, storage, loss);
+        if (by != NULL) {
+            memcpy(by[STORAGE] + whole, storage, rest * sizeof *storage);
+            memcpy(by[LOSS] + whole, loss, rest * sizeof *loss);
+        }
+    }
+    for (int i = 0; i < SUMS; i++)
+        total[i] = wide_sum(&sum[i]);
+}
+
+WIDE_REGISTERS
+static void scale_row(double *row, size_t n, double by)
+{
+    for (size_t j = 0; j < n; j++)
+        row[j] *= by;
+}
+
 void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
                  double slope[MODULI], double *const gradient[MODULI])
 {
-    const double ratio = exp(s->step);
-    double modulus[MODULI] = {s->liquid ? 0.0 : term[s->n_terms], 0.0};
-    double rise[MODULI] = {0.0, 0.0};
-    double z = exp(x + s->log_tau);
-    double *by[MODULI] = {gradient != NULL ? gradient[STORAGE] : NULL,
-                          gradient != NULL ? gradient[LOSS] : NULL};
-    const double equilibrium = modulus[STORAGE];
-    for (size_t j = 0; j < s->n_terms; j++, z *= ratio) {
-        const double share = z / (1.0 + z * z);
-        const double loss = term[j] * share, storage = loss * z;
-        modulus[STORAGE] += storage;
-        modulus[LOSS] += loss;
-        rise[STORAGE] += 2.0 * loss * share;
-        rise[LOSS] += loss * (1.0 - 2.0 * z * share);
-        if (gradient != NULL) {
-            by[STORAGE][j] = storage;
-            by[LOSS][j] = loss;
-        }
-    }
+    const double equilibrium = s->liquid ? 0.0 : term[s->n_terms];
+    double total[SUMS];
+    sum_terms(s, term, exp(x + s->log_tau), total, gradient);
+    total[STORAGE] += equilibrium;
     for (int q = 0; q < MODULI; q++) {
-        log_modulus[q] = log(modulus[q]);
-        slope[q] = rise[q] / modulus[q];
-        for (size_t j = 0; gradient != NULL && j < s->n_terms; j++)
-            by[q][j] /= modulus[q];
+        log_modulus[q] = log(total[q]);
+        slope[q] = total[MODULI + q] / total[q];
+        if (gradient != NULL)
+            scale_row(gradient[q], s->n_terms, 1.0 / total[q]);
     }
     if (gradient != NULL && !s->liquid) {
-        by[STORAGE][s->n_terms] = equilibrium / modulus[STORAGE];
-        by[LOSS][s->n_terms] = 0.0;
+        gradient[STORAGE][s->n_terms] = equilibrium / total[STORAGE];
+        gradient[LOSS][s->n_terms] = 0.0;
     }
 }
 
@@ -299,6 +345,7 @@ static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_
 
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width)
 {
+    const size_t from = s->first[curve];
     size_t at, before;
     if (s->rho == 0.0 || !point_before(s, curve, q, s->first[curve + 1], &at))
         return;
@@ -306,7 +353,8 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
         const double rho = pow(s->rho, (double)(at - before));
         const double scale = 1.0 / sqrt(1.0 - rho * rho);
         for (size_t j = 0; j < width; j++)
-            v[at * width + j] = (v[at * width + j] - rho * v[before * width + j]) * scale;
+            v[(at - from) * width + j] =
+                (v[(at - from) * width + j] - rho * v[(before - from) * width + j]) * scale;
     }
 }
 
@@ -351,16 +399,16 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
             for (int q = 0; q < MODULI; q++) {
                 const double w = spectrum_weight(s, k, q);
                 s->residual[q][k] = w * (s->y[q][k] - modulus[q] + (s->ratio ? 0.0 : b));
-                for (size_t j = 0; with_rows && j < s->n_linear; j++)
-                    row[q][j] *= w;
+                if (with_rows)
+                    scale_row(row[q], s->n_linear, w);
                 row[q][s->n_linear] = w * slope[q];
                 row[q][s->n_linear + 1] = s->ratio ? 0.0 : -w;
             }
         }
         for (int q = 0; q < MODULI; q++) {
-            spectrum_whiten(s, i, q, s->residual[q], 1);
+            spectrum_whiten(s, i, q, s->residual[q] + s->first[i], 1);
             if (with_rows)
-                spectrum_whiten(s, i, q, s->row[q], width);
+                spectrum_whiten(s, i, q, s->row[q] + s->first[i] * width, width);
         }
     }
 }
@@ -383,19 +431,18 @@ static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t wid
 static void add_shifts(spectrum *s, size_t curve, int q)
 {
     const size_t m = s->n_linear, width = m + 2;
-    const long column[2] = {s->column_a[curve], s->column_b[curve]};
-    for (int c = 0; c < 2; c++) {
-        if (column[c] < 0)
-            continue;
-        double *restrict into = gsl_matrix_ptr(s->normal[q], (size_t)column[c], 0);
-        for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
+    const bool free[BLOCK_SIDE] = {s->column_a[curve] >= 0, s->column_b[curve] >= 0};
+    double *own = s->normal[q].own + BLOCK_OWN * curve;
+    for (size_t c = 0; c < BLOCK_SIDE; c++) {
+        double *restrict into = gsl_matrix_ptr(s->normal[q].side, BLOCK_SIDE * curve + c, 0);
+        for (size_t k = s->first[curve]; free[c] && k < s->first[curve + 1]; k++) {
             const double *row = s->row[q] + k * width;
-            const double r = row[m + (size_t)c];
+            const double r = row[m + c];
             for (size_t j = 0; j < m; j++)
                 into[j] += r * row[j];
-            for (int d = 0; d <= c; d++)
-                if (column[d] >= 0)
-                    into[column[d]] += r * row[m + (size_t)d];
+            for (size_t d = 0; d <= c; d++)
+                if (free[d])
+                    own[c + d] += r * row[m + d];
         }
     }
 }
@@ -404,19 +451,16 @@ void spectrum_normal(spectrum *s)
 {
     const size_t m = s->n_linear, width = m + 2;
     for (int q = 0; q < MODULI; q++) {
-        gsl_matrix *normal = s->normal[q];
-        gsl_matrix_set_zero(normal);
+        gsl_matrix *normal = s->normal[q].border;
+        bordered_zero(&s->normal[q]);
         for (size_t k = 0; k < s->n; k += TILE_NEAR) /* the last rows are zeros */
             add_rows(normal, m, s->row[q] + k * width, width,
                      k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
             add_shifts(s, i, q);
-        for (size_t i = 0; i < s->n_unknowns; i++) /* the other triangle */
+        for (size_t i = 0; i < m; i++) /* the other triangle */
             for (size_t j = 0; j < i; j++)
-                if (i < m)
-                    gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
-                else
-                    gsl_matrix_set(normal, j, i, gsl_matrix_get(normal, i, j));
+                gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
     }
 }
 

@@ -35,13 +35,21 @@ static double count_used(const spectrum *s, int q)
     return n;
 }
 
-static double trace_of_product(const gsl_matrix *a, const gsl_matrix *b, size_t n)
+/* Of the covariance with normal equations, which tell nothing of what is smooth. */
+static double trace_of_product(const bordered *covariance, const bordered *normal)
 {
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < n; k++)
-            sum += gsl_matrix_get(a, i, k) * gsl_matrix_get(b, i, k);
-    return sum;
+    double sum = 0.0, sides = 0.0;
+    for (size_t i = 0; i < normal->m; i++)
+        for (size_t k = 0; k < normal->m; k++)
+            sum += gsl_matrix_get(covariance->border, i, k) * gsl_matrix_get(normal->border, i, k);
+    for (size_t i = 0; i < BLOCK_SIDE * normal->n; i++)
+        for (size_t k = 0; k < normal->m; k++)
+            sides += gsl_matrix_get(covariance->side, i, k) * gsl_matrix_get(normal->side, i, k);
+    for (size_t i = 0; i < normal->n; i++) {
+        const double *v = covariance->own + BLOCK_OWN * i, *n = normal->own + BLOCK_OWN * i;
+        sum += v[0] * n[0] + 2.0 * v[1] * n[1] + v[2] * n[2];
+    }
+    return sum + 2.0 * sides;
 }
 
 double spectrum_noise_update(spectrum *s)
@@ -49,7 +57,7 @@ double spectrum_noise_update(spectrum *s)
     double change = 0.0;
     for (int q = 0; q < MODULI; q++) {
         const double square = s->noise[q] * s->noise[q];
-        s->freedom[q] = trace_of_product(s->covariance, s->normal[q], s->n_unknowns) / square;
+        s->freedom[q] = trace_of_product(&s->covariance, &s->normal[q]) / square;
         const double left = fmax(count_used(s, q) - s->freedom[q], 1.0);
         const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
         change = fmax(change, fabs(log(next / s->noise[q])));
@@ -93,7 +101,7 @@ static double bend_known(const spectrum *s, size_t j, double *square)
     double variance = 0.0;
     for (size_t i = 0; i < 3; i++)
         for (size_t k = 0; k < 3; k++)
-            variance += weight[i] * weight[k] * gsl_matrix_get(s->covariance, j + i, j + k);
+            variance += weight[i] * weight[k] * gsl_matrix_get(s->covariance.border, j + i, j + k);
     *square = bend * bend / unit;
     return fmax(1.0 - s->bend[j] * variance / unit, 0.0);
 }

@@ -3,7 +3,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/spectrum.h"
 
+#include "fit/dense.h"
+
 #include <math.h>
+#include <string.h>
 
 /* Of terms j to j + 2: by the measured range, or beyond one of its ends. */
 typedef struct bend_law {
@@ -49,7 +52,7 @@ double spectrum_roughness_trace(const spectrum *s)
         for (size_t i = 0; i < 3; i++)
             for (size_t k = 0; k < 3; k++)
                 sum += s->bend[j] * law.weight[i] * law.weight[k] *
-                       gsl_matrix_get(s->covariance, j + i, j + k);
+                       gsl_matrix_get(s->covariance.border, j + i, j + k);
     }
     return sum;
 }
@@ -68,6 +71,40 @@ static double off_level(const spectrum *s, const double *value)
     return sum;
 }
 
+/* S' P times how far the vertical shifts are from their mean, into prior->at. */
+static void find_smooth(const spectrum *s, const double *value)
+{
+    const spectrum_prior *p = s->prior;
+    memset(p->at, 0, p->n_smooth * sizeof *p->at);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double off = p->precision[i] * off_mean_b(s, value, i);
+        for (size_t j = 0; j < p->n_smooth; j++)
+            p->at[j] += gsl_matrix_get(p->smooth, i, j) * off;
+    }
+}
+
+/* What is left of a vertical shift without what is smooth. */
+static double off_smooth(const spectrum *s, const double *value, size_t curve)
+{
+    const spectrum_prior *p = s->prior;
+    double off = off_mean_b(s, value, curve);
+    for (size_t j = 0; j < p->n_smooth; j++)
+        off -= gsl_matrix_get(p->smooth, curve, j) * p->at[j];
+    return off;
+}
+
+static double off_vertical(const spectrum *s, const double *value)
+{
+    const spectrum_prior *p = s->prior;
+    double sum = 0.0;
+    if (p->precision == NULL)
+        return 0.0;
+    find_smooth(s, value);
+    for (size_t i = 0; i < s->n_curves; i++)
+        sum += p->precision[i] * off_mean_b(s, value, i) * off_smooth(s, value, i);
+    return sum;
+}
+
 double spectrum_objective(const spectrum *s, const double *value)
 {
     double sum = 0.0;
@@ -83,11 +120,7 @@ double spectrum_objective(const spectrum *s, const double *value)
     }
     if (s->ratio)
         sum += pow(off_level(s, value), 2);
-    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
-        for (size_t k = 0; k < s->n_curves; k++)
-            sum += gsl_matrix_get(s->prior->precision, i, k) * off_mean_b(s, value, i) *
-                   off_mean_b(s, value, k);
-    return sum;
+    return sum + off_vertical(s, value);
 }
 
 static void add_bends(spectrum *s)
@@ -98,7 +131,7 @@ static void add_bends(spectrum *s)
         for (size_t i = 0; i < 3; i++) {
             *gsl_vector_ptr(s->gradient, j + i) -= law.precision * law.weight[i] * off;
             for (size_t k = 0; k < 3; k++)
-                *gsl_matrix_ptr(s->precision, j + i, j + k) +=
+                *gsl_matrix_ptr(s->precision.border, j + i, j + k) +=
                     law.precision * law.weight[i] * law.weight[k];
         }
     }
@@ -106,13 +139,22 @@ static void add_bends(spectrum *s)
 
 static void add_vertical(spectrum *s)
 {
-    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
-        for (size_t k = 0; s->column_b[i] >= 0 && k < s->n_curves; k++) {
-            const double w = gsl_matrix_get(s->prior->precision, i, k);
-            *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * off_mean_b(s, s->value, k);
-            if (s->column_b[k] >= 0)
-                *gsl_matrix_ptr(s->precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) += w;
-        }
+    const spectrum_prior *p = s->prior;
+    if (p->precision == NULL)
+        return;
+    find_smooth(s, s->value);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double w = p->precision[i];
+        if (s->column_b[i] < 0)
+            continue;
+        *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * off_smooth(s, s->value, i);
+        s->precision.own[BLOCK_OWN * i + 2] += w;
+        for (size_t j = 0; j < p->n_smooth; j++)
+            gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j,
+                           -w * gsl_matrix_get(p->smooth, i, j));
+    }
+    for (size_t j = 0; j < p->n_smooth; j++)
+        gsl_matrix_set(s->precision.border, s->n_linear + j, s->n_linear + j, 1.0);
 }
 
 static void add_priors(spectrum *s)
@@ -120,7 +162,7 @@ static void add_priors(spectrum *s)
     add_bends(s);
     if (!s->liquid) {
         const double w = 1.0 / (s->equilibrium_spread * s->equilibrium_spread);
-        *gsl_matrix_ptr(s->precision, s->n_terms, s->n_terms) += w;
+        *gsl_matrix_ptr(s->precision.border, s->n_terms, s->n_terms) += w;
         *gsl_vector_ptr(s->gradient, s->n_terms) -=
             w * (s->value[s->n_terms] - s->equilibrium_mean);
     }
@@ -128,7 +170,7 @@ static void add_priors(spectrum *s)
     for (size_t j = 0; s->ratio && j < s->n_terms; j++) {
         *gsl_vector_ptr(s->gradient, j) -= share * off;
         for (size_t i = 0; i < s->n_terms; i++)
-            *gsl_matrix_ptr(s->precision, j, i) += share * share;
+            *gsl_matrix_ptr(s->precision.border, j, i) += share * share;
     }
     add_vertical(s);
 }
@@ -150,18 +192,72 @@ static void add_gradient(spectrum *s, int q, double scale)
         }
 }
 
+/* Adds the normal equations of a modulus times `scale`. */
+static void add_normal(bordered *into, const bordered *normal, double scale)
+{
+    const size_t m = normal->m;
+    for (size_t i = 0; i < m; i++)
+        dense_add(gsl_matrix_ptr(into->border, i, 0), m, &scale, 1,
+                  gsl_matrix_const_ptr(normal->border, i, 0), m, 1);
+    for (size_t i = 0; i < BLOCK_SIDE * normal->n; i++)
+        dense_add(gsl_matrix_ptr(into->side, i, 0), m, &scale, 1,
+                  gsl_matrix_const_ptr(normal->side, i, 0), m, 1);
+    for (size_t i = 0; i < BLOCK_OWN * normal->n; i++)
+        into->own[i] += scale * normal->own[i];
+}
+
 void spectrum_assemble(spectrum *s)
 {
     gsl_vector_set_zero(s->gradient);
-    gsl_matrix_set_zero(s->precision);
+    s->precision.m = s->n_linear + s->prior->n_smooth;
+    bordered_zero(&s->precision);
     for (int q = 0; q < MODULI; q++) {
         const double scale = 1.0 / (s->noise[q] * s->noise[q]);
-        for (size_t i = 0; i < s->n_unknowns; i++)
-            for (size_t k = 0; k < s->n_unknowns; k++)
-                *gsl_matrix_ptr(s->precision, i, k) += scale * gsl_matrix_get(s->normal[q], i, k);
+        add_normal(&s->precision, &s->normal[q], scale);
         add_gradient(s, q, scale);
     }
     add_priors(s);
+    for (size_t i = 0; i < s->n_curves; i++) { /* what is no unknown */
+        double *own = s->precision.own + BLOCK_OWN * i;
+        if (s->column_a[i] < 0)
+            own[0] = 1.0;
+        if (s->column_b[i] < 0)
+            own[2] = 1.0;
+    }
+}
+
+void spectrum_precision(const spectrum *s, gsl_matrix *precision)
+{
+    const bordered *p = &s->precision;
+    const size_t m = s->n_linear;
+    gsl_matrix_set_zero(precision);
+    for (size_t i = 0; i < m; i++)
+        memcpy(gsl_matrix_ptr(precision, i, 0), gsl_matrix_const_ptr(p->border, i, 0),
+               m * sizeof(double));
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const long column[BLOCK_SIDE] = {s->column_a[i], s->column_b[i]};
+        for (size_t c = 0; c < BLOCK_SIDE; c++) {
+            const double *row = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + c, 0);
+            if (column[c] < 0)
+                continue;
+            const size_t at = (size_t)column[c];
+            for (size_t j = 0; j < m; j++) {
+                gsl_matrix_set(precision, at, j, row[j]);
+                gsl_matrix_set(precision, j, at, row[j]);
+            }
+            for (size_t d = 0; d < BLOCK_SIDE; d++)
+                if (column[d] >= 0)
+                    gsl_matrix_set(precision, at, (size_t)column[d], p->own[BLOCK_OWN * i + c + d]);
+        }
+        /* what is smooth is taken out: P - P S S' P */
+        for (size_t k = 0; s->column_b[i] >= 0 && s->prior->n_smooth > 0 && k < s->n_curves; k++) {
+            const double *one = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + 1, m),
+                         *other = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * k + 1, m);
+            for (size_t j = 0; s->column_b[k] >= 0 && j < s->prior->n_smooth; j++)
+                *gsl_matrix_ptr(precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) -=
+                    one[j] * other[j];
+        }
+    }
 }
 
 double spectrum_prior_log_det(const spectrum *s)

@@ -9,9 +9,10 @@
 #include "model/cholesky.h"
 #include "model/root.h"
 
-#include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_eigen.h>
 #include <math.h>
+#include <string.h>
 
 /* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
  * on both moduli is the vertical shift. */
@@ -42,41 +43,64 @@ static const double least_known = 12.0;
 static const double misfit_close = 1e-4;
 enum { MOST_HALVINGS = 100 }; /* of [0, high] down to that part of what may be 1e-25 of it */
 
+/* Columns that have data in common: those of one isotherm, or those of all. */
+enum { MOST_COLUMNS = MODULI * POWERS - 1 };
+struct columns {
+    size_t n;
+    double product[MOST_COLUMNS * MOST_COLUMNS]; /* of each other; later what the model leaves */
+    double right[MOST_COLUMNS];                  /* with the residuals */
+    double length[MOST_COLUMNS];                 /* of a column before it is 1 */
+    double *border[MOST_COLUMNS];                /* [n_linear] with the terms, shifts taken out */
+};
+
 struct extra {
     const spectrum *s;
     pool memory;
-    size_t n;           /* columns */
-    gsl_matrix *column; /* [n * 2N]: whitened, E' then E'' */
-    gsl_matrix *matrix; /* [n * n] what the model leaves of them */
-    gsl_vector *right;  /* [n] with the residuals */
-    size_t *from, *to;  /* [n] where a column is not zero */
-    double *length;     /* [n] of a column before it is 1 */
-    double *share;      /* [PARTINGS * n_terms] how much a term follows a parting */
+    size_t n;             /* columns that are filled */
+    double *column;       /* [MOST_COLUMNS * 2 longest] of one isotherm: whitened, E' then E'' */
+    size_t longest;       /* points of an isotherm */
+    gsl_matrix *together; /* [n_linear^2] what the columns have in common through the terms */
+    double *toward;       /* [n_linear] the same with the residuals */
+    double *share;        /* [PARTINGS * n_terms] how much a term follows a parting */
+    double explained;     /* squares, of columns that have only the terms in common */
+    size_t rank;
     double squares, points, freedom;
     double uncertainty; /* variance of ln of the variance of what columns explain */
 };
+
+static double *column_of(const struct extra *x, size_t column, int q)
+{
+    return x->column + (column * MODULI + (size_t)q) * x->longest;
+}
 
 /* Whitened and divided by the noise. */
 static void add_column(struct extra *x, size_t curve, int q, int power)
 {
     const spectrum *s = x->s;
-    double *v = gsl_matrix_ptr(x->column, x->n++, 0) + (q == LOSS ? s->n : 0);
+    double *v = column_of(x, x->n++, q);
     const size_t from = s->first[curve], to = s->first[curve + 1];
     const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
     const double half = fmax(0.5 * (s->x[to - 1] - s->x[from]), 1e-300);
     for (size_t k = from; k < to; k++)
-        v[k] += spectrum_weight(s, k, q) / s->noise[q] * pow((s->x[k] - middle) / half, power);
+        v[k - from] =
+            spectrum_weight(s, k, q) / s->noise[q] * pow((s->x[k] - middle) / half, power);
     spectrum_whiten(s, curve, q, v, 1);
 }
 
-static void add_columns(struct extra *x)
+/* No columns. */
+static void clear_columns(struct extra *x)
 {
-    for (size_t i = 0; i < x->s->n_curves; i++) {
-        const size_t points = x->s->first[i + 1] - x->s->first[i];
-        for (int q = 0; q < MODULI; q++)
-            for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
-                add_column(x, i, q, p);
-    }
+    x->n = 0;
+    memset(x->column, 0, MOST_COLUMNS * MODULI * x->longest * sizeof *x->column);
+}
+
+static void fill_columns(struct extra *x, size_t curve)
+{
+    const size_t points = x->s->first[curve + 1] - x->s->first[curve];
+    clear_columns(x);
+    for (int q = 0; q < MODULI; q++)
+        for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
+            add_column(x, curve, q, p);
 }
 
 /* How much the terms follow each parting: rising from -1 to 1 across it [PARTINGS * n_terms]. */
@@ -109,14 +133,231 @@ static void add_parted(struct extra *x, size_t curve, size_t k, const double *sh
         const double rise[MODULI] = {2.0 / (1.0 + z * z), 2.0 / (1.0 + z * z) - 1.0};
         for (int q = 0; q < MODULI; q++)
             for (size_t p = 0; p < PARTINGS; p++)
-                *gsl_matrix_ptr(x->column, p, (q == LOSS ? s->n : 0) + k) +=
-                    a * spectrum_weight(s, k, q) / s->noise[q] * share[p * s->n_terms + j] *
-                    part[q][j] * rise[q];
+                column_of(x, p, q)[k - s->first[curve]] += a * spectrum_weight(s, k, q) /
+                                                           s->noise[q] * share[p * s->n_terms + j] *
+                                                           part[q][j] * rise[q];
     }
 }
 
+/* ---- products -------------------------------------------------------------------------------- */
+
+/* Products of the columns of a curve with its rows, which are divided by the noise, and residuals;
+ * its shifts are taken out. */
+static void add_products(const struct extra *x, size_t curve, struct columns *to)
+{
+    const spectrum *s = x->s;
+    const size_t m = s->n_linear, width = m + 2, from = s->first[curve], end = s->first[curve + 1];
+    const double *own = s->factor.own + BLOCK_OWN * curve;
+    const double *side[BLOCK_SIDE] = {
+        gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve, 0),
+        gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve + 1, 0)};
+    double shift[MOST_COLUMNS][BLOCK_SIDE] = {{0.0}};
+    for (size_t c = 0; c < to->n; c++) {
+        for (int q = 0; q < MODULI; q++)
+            for (size_t k = from; k < end; k++) {
+                const double w = column_of(x, c, q)[k - from] / s->noise[q];
+                const double *row = s->row[q] + k * width;
+                if (w == 0.0)
+                    continue;
+                dense_add(to->border[c], m, &w, 1, row, width, 1);
+                to->right[c] += w * s->residual[q][k];
+                shift[c][0] += s->column_a[curve] >= 0 ? w * row[m] : 0.0;
+                shift[c][1] += s->column_b[curve] >= 0 ? w * row[m + 1] : 0.0;
+            }
+        shift[c][0] /= own[0];
+        shift[c][1] = (shift[c][1] - own[1] * shift[c][0]) / own[2];
+        for (size_t j = 0; j < m; j++)
+            to->border[c][j] -= shift[c][0] * side[0][j] + shift[c][1] * side[1][j];
+        for (size_t d = 0; d <= c; d++) {
+            double sum = 0.0;
+            for (int q = 0; q < MODULI; q++)
+                for (size_t k = 0; k < end - from; k++)
+                    sum += column_of(x, c, q)[k] * column_of(x, d, q)[k];
+            if (c == d)
+                to->length[c] += sum;
+            to->product[c * MOST_COLUMNS + d] +=
+                sum - shift[c][0] * shift[d][0] - shift[c][1] * shift[d][1];
+        }
+    }
+}
+
+static void clear_products(const struct extra *x, size_t n, struct columns *c)
+{
+    c->n = n;
+    for (size_t i = 0; i < n; i++) {
+        memset(c->border[i], 0, x->s->n_linear * sizeof *c->border[i]);
+        memset(c->product + i * MOST_COLUMNS, 0, MOST_COLUMNS * sizeof *c->product);
+        c->right[i] = c->length[i] = 0.0;
+    }
+}
+
+/* As if each column had been of length 1. */
+static void scale_products(const struct extra *x, struct columns *c)
+{
+    for (size_t i = 0; i < c->n; i++)
+        c->length[i] = sqrt(c->length[i]);
+    for (size_t i = 0; i < c->n; i++) {
+        const double by = c->length[i] > 0.0 ? 1.0 / c->length[i] : 1.0;
+        c->right[i] *= by;
+        for (size_t j = 0; j < x->s->n_linear; j++)
+            c->border[i][j] *= by;
+        for (size_t j = 0; j < c->n; j++)
+            c->product[(j > i ? j : i) * MOST_COLUMNS + (j > i ? i : j)] *= i == j ? by * by : by;
+    }
+}
+
+/* Times the inverse of the factor of the border, from the left. */
+static void by_border(const spectrum *s, double *v)
+{
+    const size_t m = s->n_linear; /* free shifts have nothing behind the terms */
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor.border, 0, 0, m, m);
+    dense_forward(&root.matrix, v);
+}
+
+/* Takes out the terms, too. */
+static void take_out_terms(const struct extra *x, struct columns *c)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        by_border(x->s, c->border[i]);
+        for (size_t j = 0; j <= i; j++)
+            for (size_t k = 0; k < x->s->n_linear; k++)
+                c->product[i * MOST_COLUMNS + j] -= c->border[i][k] * c->border[j][k];
+    }
+}
+
+/* How far the times of the measured range part from the shifts, as a share of those: half of the
+ * range of what the partings, fitted together, make of the terms. */
+static double parted_share(const struct extra *x, const struct columns *c)
+{
+    const spectrum *s = x->s;
+    double matrix[PARTINGS * PARTINGS] = {0.0}, by[PARTINGS], low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t p = 0; p < PARTINGS; p++) {
+        by[p] = c->right[p];
+        for (size_t k = 0; k <= p; k++)
+            matrix[p * PARTINGS + k] = c->product[p * MOST_COLUMNS + k];
+    }
+    if (!cholesky_solve(matrix, PARTINGS, PARTINGS, 0.0, by))
+        return 1.0; /* too little is left of them to tell: it may be all of a shift */
+    for (size_t j = s->n_fast; j < s->n_measured; j++) {
+        double sum = 0.0;
+        for (size_t p = 0; p < PARTINGS; p++)
+            sum += by[p] / c->length[p] * x->share[p * s->n_terms + j];
+        low = fmin(low, sum);
+        high = fmax(high, sum);
+    }
+    return high > low ? 0.5 * (high - low) : 0.0;
+}
+
+static void swap(double *a, double *b)
+{
+    const double keep = *a;
+    *a = *b;
+    *b = keep;
+}
+
+/* Makes the columns that the model leaves orthogonal and of length 1, those of which most is left
+ * first, and adds what they explain of the residuals. */
+static void orthogonalise(struct extra *x, struct columns *c)
+{
+    double *a = c->product;
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t j = 0; j < i; j++)
+            a[j * MOST_COLUMNS + i] = a[i * MOST_COLUMNS + j];
+    for (size_t rank = 0; rank < c->n; rank++) {
+        size_t pivot = rank;
+        for (size_t i = rank; i < c->n; i++)
+            pivot = a[i * MOST_COLUMNS + i] > a[pivot * MOST_COLUMNS + pivot] ? i : pivot;
+        for (size_t i = 0; i < c->n; i++)
+            swap(a + rank * MOST_COLUMNS + i, a + pivot * MOST_COLUMNS + i);
+        for (size_t i = 0; i < c->n; i++)
+            swap(a + i * MOST_COLUMNS + rank, a + i * MOST_COLUMNS + pivot);
+        swap(c->right + rank, c->right + pivot);
+        double *const border = c->border[rank];
+        c->border[rank] = c->border[pivot];
+        c->border[pivot] = border;
+        const double d = a[rank * MOST_COLUMNS + rank];
+        if (!(d > least_left)) {
+            c->n = rank;
+            break;
+        }
+        const double root = 1.0 / sqrt(d);
+        c->right[rank] *= root;
+        for (size_t j = 0; j < x->s->n_linear; j++)
+            c->border[rank][j] *= root;
+        for (size_t i = rank + 1; i < c->n; i++) {
+            const double f = a[i * MOST_COLUMNS + rank] * root, less = -f;
+            c->right[i] -= f * c->right[rank];
+            dense_add(c->border[i], x->s->n_linear, &less, 1, c->border[rank], 1, 1);
+            for (size_t j = rank + 1; j < c->n; j++)
+                a[i * MOST_COLUMNS + j] -= f * a[rank * MOST_COLUMNS + j] * root;
+        }
+    }
+    for (size_t i = 0; i < c->n; i++)
+        x->explained += c->right[i] * c->right[i];
+    x->rank += c->n;
+}
+
+/* What orthogonal columns of an isotherm have in common with all others. */
+static void add_together(struct extra *x, const struct columns *c)
+{
+    const size_t m = x->s->n_linear;
+    for (size_t i = 0; i < c->n; i++) {
+        dense_add(x->toward, m, &c->right[i], 1, c->border[i], m, 1);
+        for (size_t j = 0; j < m; j++)
+            dense_add(gsl_matrix_ptr(x->together, j, 0), m, &c->border[i][j], 1, c->border[i], m,
+                      1);
+    }
+}
+
+/* Takes the terms out of the columns of all isotherms at once: of what they have in common, by its
+ * eigenvectors, the model leaves 1 less the eigenvalue. */
+static wt_status take_out_together(struct extra *x, wt_error *err)
+{
+    const size_t m = x->s->n_linear;
+    gsl_vector *value = pool_vector(&x->memory, m);
+    gsl_matrix *vector = pool_matrix(&x->memory, m, m);
+    gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(m);
+    if (x->memory.failed || work == NULL) {
+        gsl_eigen_symmv_free(work);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    }
+    for (size_t i = 0; i < m; i++)
+        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
+    gsl_matrix_transpose(x->together);
+    for (size_t i = 0; i < m; i++)
+        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
+    by_border(x->s, x->toward);
+    gsl_eigen_symmv(x->together, value, vector, work);
+    gsl_eigen_symmv_free(work);
+    for (size_t k = 0; k < m; k++) {
+        const double taken = gsl_vector_get(value, k), left = 1.0 - taken;
+        double sum = 0.0;
+        for (size_t i = 0; i < m; i++)
+            sum += gsl_matrix_get(vector, i, k) * x->toward[i];
+        x->explained += left > least_left ? sum * sum / left : -sum * sum / taken;
+        x->rank -= left > least_left ? 0 : 1;
+    }
+    return WT_OK;
+}
+
+/* A line and a parabola of each isotherm. */
+static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error *err)
+{
+    x->explained = 0.0;
+    x->rank = 0;
+    for (size_t i = 0; i < x->s->n_curves; i++) {
+        fill_columns(x, i);
+        clear_products(x, x->n, c);
+        add_products(x, i, c);
+        scale_products(x, c);
+        orthogonalise(x, c);
+        add_together(x, c);
+    }
+    return take_out_together(x, err);
+}
+
 /* A second process has a law of its own: slow and fast times part in proportion to the shift. */
-static wt_status part_columns(struct extra *x, wt_error *err)
+static wt_status explain_partings(struct extra *x, struct columns *c, double *parted, wt_error *err)
 {
     const spectrum *s = x->s;
     double *share = x->share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
@@ -124,158 +365,24 @@ static wt_status part_columns(struct extra *x, wt_error *err)
                                   pool_numbers(&x->memory, s->n_linear)};
     if (x->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-    gsl_matrix_set_zero(x->column);
-    x->n = PARTINGS;
     follow_partings(s, share);
+    clear_products(x, PARTINGS, c);
     for (size_t i = 0; i < s->n_curves; i++) {
+        clear_columns(x);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
             add_parted(x, i, k, share, part);
         for (size_t p = 0; p < PARTINGS; p++)
             for (int q = 0; q < MODULI; q++)
-                spectrum_whiten(s, i, q, gsl_matrix_ptr(x->column, p, q == LOSS ? s->n : 0), 1);
+                spectrum_whiten(s, i, q, column_of(x, p, q), 1);
+        add_products(x, i, c);
     }
+    scale_products(x, c);
+    take_out_terms(x, c);
+    *parted = parted_share(x, c);
+    x->explained = 0.0;
+    x->rank = 0;
+    orthogonalise(x, c);
     return WT_OK;
-}
-
-/* Adds J'z of one column, J the rows divided by the noise. */
-static void add_product(const spectrum *s, const double *z, double *product)
-{
-    const size_t m = s->n_linear, width = m + 2;
-    for (int q = 0; q < MODULI; q++)
-        for (size_t i = 0; i < s->n_curves; i++)
-            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-                const double w = z[(q == LOSS ? s->n : 0) + k] / s->noise[q];
-                const double *row = s->row[q] + k * width;
-                if (w == 0.0)
-                    continue;
-                for (size_t j = 0; j < m; j++)
-                    product[j] += w * row[j];
-                if (s->column_a[i] >= 0)
-                    product[s->column_a[i]] += w * row[m];
-                if (s->column_b[i] >= 0)
-                    product[s->column_b[i]] += w * row[m + 1];
-            }
-}
-
-/* Products of the columns with each other, where both are not zero: most are of one isotherm. */
-static void multiply_columns(struct extra *x, const gsl_matrix *columns)
-{
-    const size_t n = columns->size1;
-    size_t *from = x->from, *to = x->to;
-    for (size_t c = 0; c < n; c++) {
-        const double *v = gsl_matrix_const_ptr(columns, c, 0);
-        to[c] = columns->size2;
-        for (from[c] = 0; from[c] < to[c] && v[from[c]] == 0.0;)
-            from[c]++;
-        while (to[c] > from[c] && v[to[c] - 1] == 0.0)
-            to[c]--;
-        for (size_t d = 0; d <= c; d++) {
-            const double *w = gsl_matrix_const_ptr(columns, d, 0);
-            const size_t end = to[c] < to[d] ? to[c] : to[d];
-            double sum = 0.0;
-            for (size_t k = from[c] > from[d] ? from[c] : from[d]; k < end; k++)
-                sum += v[k] * w[k];
-            gsl_matrix_set(x->matrix, c, d, sum);
-            gsl_matrix_set(x->matrix, d, c, sum);
-        }
-    }
-}
-
-/* Takes by' V by from the products, V the covariance; by: [n * unknowns]. */
-static wt_status take_out_model(struct extra *x, gsl_matrix *by, wt_error *err)
-{
-    const size_t n = by->size1, m = by->size2;
-    const gsl_matrix *v = x->s->covariance;
-    gsl_matrix *solved = pool_matrix(&x->memory, m, n), *across = pool_matrix(&x->memory, m, n);
-    if (x->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-    gsl_matrix_transpose_memcpy(across, by);
-    for (size_t u = 0; u < m; u++)
-        dense_add(gsl_matrix_ptr(solved, u, 0), n, gsl_matrix_const_ptr(v, u, 0), 1, across->data,
-                  across->tda, m);
-    gsl_matrix_scale(by, -1.0);
-    for (size_t c = 0; c < n; c++)
-        dense_add(gsl_matrix_ptr(x->matrix, c, 0), n, gsl_matrix_const_ptr(by, c, 0), 1,
-                  solved->data, solved->tda, m);
-    return WT_OK;
-}
-
-/* Columns and residuals with the model taken out, each column of length 1 before. */
-static wt_status take_out_spectrum(struct extra *x, wt_error *err)
-{
-    const spectrum *s = x->s;
-    const size_t n = x->n, m = s->n_unknowns;
-    gsl_matrix *by = pool_matrix(&x->memory, n, m);
-    if (x->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-    gsl_matrix_view columns = gsl_matrix_submatrix(x->column, 0, 0, n, 2 * s->n);
-    for (size_t c = 0; c < n; c++) {
-        gsl_vector_view column = gsl_matrix_row(&columns.matrix, c);
-        const double length = x->length[c] = gsl_blas_dnrm2(&column.vector);
-        if (length > 0.0)
-            gsl_vector_scale(&column.vector, 1.0 / length);
-        add_product(s, column.vector.data, gsl_matrix_ptr(by, c, 0));
-        double sum = 0.0;
-        for (int q = 0; q < MODULI; q++)
-            for (size_t k = 0; k < s->n; k++)
-                sum += gsl_vector_get(&column.vector, (q == LOSS ? s->n : 0) + k) *
-                       s->residual[q][k] / s->noise[q];
-        gsl_vector_set(x->right, c, sum);
-    }
-    multiply_columns(x, &columns.matrix);
-    return take_out_model(x, by, err);
-}
-
-/* right' matrix^- right and the rank, by Cholesky with the largest pivot left. */
-static double explained_squares(struct extra *x, size_t *rank)
-{
-    double sum = 0.0;
-    for (*rank = 0; *rank < x->n; (*rank)++) {
-        size_t pivot = *rank;
-        for (size_t i = *rank; i < x->n; i++)
-            if (gsl_matrix_get(x->matrix, i, i) > gsl_matrix_get(x->matrix, pivot, pivot))
-                pivot = i;
-        gsl_matrix_view part = gsl_matrix_submatrix(x->matrix, 0, 0, x->n, x->n);
-        gsl_matrix_swap_rows(&part.matrix, *rank, pivot);
-        gsl_matrix_swap_columns(&part.matrix, *rank, pivot);
-        gsl_vector_swap_elements(x->right, *rank, pivot);
-        const double d = gsl_matrix_get(x->matrix, *rank, *rank);
-        if (!(d > least_left))
-            break;
-        const double r = gsl_vector_get(x->right, *rank);
-        sum += r * r / d;
-        for (size_t i = *rank + 1; i < x->n; i++) {
-            const double f = gsl_matrix_get(x->matrix, i, *rank) / d;
-            const double less = -f;
-            *gsl_vector_ptr(x->right, i) -= f * r;
-            dense_add(gsl_matrix_ptr(x->matrix, i, *rank + 1), x->n - *rank - 1, &less, 1,
-                      gsl_matrix_const_ptr(x->matrix, *rank, *rank + 1), x->matrix->tda, 1);
-        }
-    }
-    return sum;
-}
-
-/* How far the times of the measured range part from the shifts, as a share of those: half of the
- * range of what the partings, fitted together, make of the terms. */
-static double parted_share(const struct extra *x)
-{
-    const spectrum *s = x->s;
-    double matrix[PARTINGS * PARTINGS], by[PARTINGS], low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t p = 0; p < PARTINGS; p++) {
-        by[p] = gsl_vector_get(x->right, p);
-        for (size_t k = 0; k < PARTINGS; k++)
-            matrix[p * PARTINGS + k] = gsl_matrix_get(x->matrix, p, k);
-    }
-    if (!cholesky_solve(matrix, PARTINGS, PARTINGS, 0.0, by))
-        return 1.0; /* too little is left of them to tell: it may be all of a shift */
-    for (size_t j = s->n_fast; j < s->n_measured; j++) {
-        double sum = 0.0;
-        for (size_t p = 0; p < PARTINGS; p++)
-            sum += by[p] / x->length[p] * x->share[p * s->n_terms + j];
-        low = fmin(low, sum);
-        high = fmax(high, sum);
-    }
-    return high > low ? 0.5 * (high - low) : 0.0;
 }
 
 /* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
@@ -329,18 +436,12 @@ static double known_freedom(const struct extra *x, double left)
 
 /* Probability and misfit of what the columns explain, if that is less likely than what is in
  * `result`; the misfit is the larger one. */
-static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *err)
+static void judge_columns(const struct extra *x, lack_of_fit *result)
 {
     const spectrum *s = x->s;
-    size_t rank;
-    wt_status status = take_out_spectrum(x, err);
-    if (status != WT_OK)
-        return status;
-    if (x->share != NULL)
-        result->parted = parted_share(x);
-    const double q = explained_squares(x, &rank), k = (double)rank;
-    if (rank == 0)
-        return WT_OK;
+    const double q = x->explained, k = (double)x->rank;
+    if (x->rank == 0)
+        return;
     const double left = fmax(x->points - x->freedom - k, 1.0);
     const double variance = fmax(x->squares - q, least_squares * x->squares) / left;
     const double known = known_freedom(x, left);
@@ -351,43 +452,48 @@ static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *er
     result->misfit_low = fmax(result->misfit_low, sqrt(noncentrality(above, k, 0.975) * to_misfit));
     result->misfit_high =
         fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
-    return WT_OK;
 }
 
-static wt_status test_factor(struct extra *x, lack_of_fit *result, wt_error *err)
+/* One column of all isotherms: a factor on E''. */
+static void test_factor(struct extra *x, struct columns *c, lack_of_fit *result)
 {
-    const spectrum *s = x->s;
-    gsl_matrix_set_zero(x->column);
-    for (size_t i = 0; i < s->n_curves; i++) { /* one column of all */
-        x->n = 0;
+    clear_products(x, 1, c);
+    for (size_t i = 0; i < x->s->n_curves; i++) {
+        clear_columns(x);
         add_column(x, i, LOSS, 0);
+        add_products(x, i, c);
     }
-    gsl_vector_view column = gsl_matrix_row(x->column, 0);
-    const double scale = gsl_blas_dnrm2(&column.vector);
-    wt_status status = take_out_spectrum(x, err);
-    if (status != WT_OK)
-        return status;
-    const double d = gsl_matrix_get(x->matrix, 0, 0), r = gsl_vector_get(x->right, 0);
+    scale_products(x, c);
+    take_out_terms(x, c);
+    const double d = c->product[0], r = c->right[0], scale = c->length[0];
     const double left = fmax(x->points - x->freedom - 1.0, 1.0);
     const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
     const double known = known_freedom(x, left);
     result->factor = r / d / scale;
     result->factor_error = sqrt(spread / d) / scale;
     result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
-    return WT_OK;
+}
+
+static void make_room(struct extra *x, struct columns *c)
+{
+    const spectrum *s = x->s;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const size_t points = s->first[i + 1] - s->first[i];
+        x->longest = points > x->longest ? points : x->longest;
+    }
+    x->column = pool_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
+    x->together = pool_matrix(&x->memory, s->n_linear, s->n_linear);
+    x->toward = pool_numbers(&x->memory, s->n_linear);
+    for (size_t i = 0; i < MOST_COLUMNS; i++)
+        c->border[i] = pool_numbers(&x->memory, s->n_linear);
 }
 
 wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
                              wt_error *err)
 {
-    const size_t most = s->n_curves * (MODULI * POWERS - 1) + PARTINGS;
     struct extra x = {.s = s, .uncertainty = uncertainty};
-    x.column = pool_matrix(&x.memory, most, 2 * s->n);
-    x.matrix = pool_matrix(&x.memory, most, most);
-    x.right = pool_vector(&x.memory, most);
-    x.from = pool_alloc(&x.memory, most, sizeof *x.from);
-    x.to = pool_alloc(&x.memory, most, sizeof *x.to);
-    x.length = pool_numbers(&x.memory, most);
+    struct columns c = {0};
+    make_room(&x, &c);
     wt_status status = x.memory.failed
                            ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
                            : WT_OK;
@@ -398,16 +504,16 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
             x.points += s->weight[q][k] > 0.0;
     }
     *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0};
+    if (status == WT_OK)
+        status = explain_isotherms(&x, &c, err);
     if (status == WT_OK) {
-        add_columns(&x);
-        status = test_columns(&x, result, err);
+        judge_columns(&x, result);
+        status = explain_partings(&x, &c, &result->parted, err);
     }
-    if (status == WT_OK)
-        status = part_columns(&x, err);
-    if (status == WT_OK)
-        status = test_columns(&x, result, err);
-    if (status == WT_OK)
-        status = test_factor(&x, result, err);
+    if (status == WT_OK) {
+        judge_columns(&x, result);
+        test_factor(&x, &c, result);
+    }
     pool_free(&x.memory);
     return status;
 }

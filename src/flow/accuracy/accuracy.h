@@ -4,6 +4,7 @@
 #ifndef WEARTRACK_FLOW_ACCURACY_H
 #define WEARTRACK_FLOW_ACCURACY_H
 
+#include "data/tables/rows.h"
 #include "weartrack/flow.h"
 
 #include <math.h>
@@ -13,13 +14,15 @@ typedef struct accuracy_errors {
     double true_error, stated_error;
 } accuracy_errors;
 
+/* The timed work at a value of its setting; what it gives stays in `problem`. */
+typedef wt_status accuracy_solve(void *problem, double value, wt_error *err);
+
 enum { ACCURACY_METHODS = 3, ACCURACY_VALUES = 8 }; /* room in the lists below */
 
 typedef struct accuracy_method {
     const char *name, *setting;
     double values[ACCURACY_VALUES]; /* rising work; ends with 0 */
-    /* The timed work; what it gives stays in `problem`. */
-    wt_status (*solve)(void *problem, double value, wt_error *err);
+    accuracy_solve *solve;
 } accuracy_method;
 
 typedef struct accuracy_part {
@@ -35,6 +38,26 @@ typedef struct accuracy_part {
 /* Each ends with a name that is NULL. */
 extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_angular[],
     accuracy_friction[], accuracy_layer[];
+
+typedef struct accuracy_timing {
+    double median, spread; /* [s] */
+    size_t repeats;
+} accuracy_timing;
+wt_status accuracy_time(accuracy_solve *solve, void *problem, double value, size_t repeats,
+                        accuracy_timing *t, wt_error *err) WT_NODISCARD;
+
+/* A row of the table "work_precision". A true error below that of the reference stands as that:
+ * no less can be told. */
+typedef struct accuracy_row {
+    const char *part, *method, *setting, *words;
+    double value, reference_error;
+    accuracy_errors errors;
+    accuracy_timing time;
+} accuracy_row;
+void accuracy_put(table_writer *t, accuracy_row row);
+/* The rows of all parts that are built in, or of one. The writer keeps the status. */
+void accuracy_add_parts(const wt_accuracy_job *job, const wt_job *work, table_writer *t,
+                        wt_error *err);
 
 /* Where `below` ceases to hold, by so many halves of the range. */
 static inline long double accuracy_bisect(bool (*below)(const void *user, long double x),

@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* Of the problems; nodes of the reference, and those that tell its error. */
-enum { TERMS = 6, KNOTS = 107, ORDER = 16, CHECK = 12 };
+enum { TERMS = 6, KNOTS = 107, ORDER = 20, CHECK = 16 };
 
 typedef struct friction_problem {
     reference_contact contact;

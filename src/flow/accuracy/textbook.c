@@ -28,6 +28,7 @@ wt_status friction_textbook(const wt_material *material, const wt_roughness *rou
 {
     if (n_q < 2 || n_angle < 2 || n_angle % 2)
         return WT_E_ARG;
+    const bool closed = material->law->angular != NULL;
     double *scratch = calloc(3 * (n_angle + 1), sizeof *scratch);
     if (!scratch)
         return WT_E_MEMORY;
@@ -40,7 +41,11 @@ wt_status friction_textbook(const wt_material *material, const wt_roughness *rou
         const double q = fmin(roughness->q0 * exp((double)i * step), roughness->q1);
         double c, j1, j2;
         roughness->law->density(roughness, &q, 1, &c);
-        textbook_angular(material, q * velocity, n_angle, scratch, &j1, &j2);
+        const double w = q * velocity;
+        if (closed)
+            material->law->angular(material, &w, 1, &j1, &j2);
+        else
+            textbook_angular(material, w, n_angle, scratch, &j1, &j2);
         const double g = q * q * q * q * c * stiffness * stiffness * j2 / 8;
         if (i > 0)
             r.stress_variance += step * (last_g + g) / 2;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 const char *wt_case_schema(void)
 {
@@ -55,14 +56,23 @@ const char *wt_case_style(const wt_case *c)
     return c->report.style;
 }
 
-wt_status wt_case_ask(wt_case *c, const char *table, wt_error *err)
+wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
 {
-    flow_things things = 0;
-    if (c == NULL || table == NULL)
+    char names[256], *rest = NULL;
+    flow_things asked = 0;
+    if (c == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no case, or no table");
-    if (!flow_things_of_table(table, &things) || things == 0)
-        return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", table);
+    snprintf(names, sizeof names, "%s", tables);
+    for (const char *name = strtok_r(names, " ", &rest); name != NULL;
+         name = strtok_r(NULL, " ", &rest)) {
+        flow_things things = 0;
+        if (!flow_things_of_table(name, &things) || things == 0)
+            return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", name);
+        asked |= things;
+    }
+    if (asked == 0)
+        return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", tables);
     c->has_asked = true;
-    c->asked = things;
+    c->asked = asked;
     return WT_OK;
 }

@@ -62,7 +62,8 @@
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
-    X(COVERAGE, "coverage", &coverage_schema, "")
+    X(COVERAGE, "coverage", &coverage_schema, "")                                                  \
+    X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
 
 /* Handed from stage to stage only: id, words. */
 #define INNER_THINGS(X)                                                                            \
@@ -84,9 +85,10 @@ typedef uint64_t flow_things; /* bit i = thing i */
 /* What costs more than it tells most, or is of another measurement than sliding needs: only where a
  * case names it. */
 #define FLOW_BY_NAME                                                                               \
-    (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_RAMP) |                 \
-     FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) | FLOW_BIT(FLOW_PRONY_REDUCED) |   \
-     FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) | FLOW_BIT(FLOW_PAYNE_SWEEP))
+    (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_WORK_PRECISION) |       \
+     FLOW_BIT(FLOW_RAMP) | FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) |            \
+     FLOW_BIT(FLOW_PRONY_REDUCED) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) |    \
+     FLOW_BIT(FLOW_PAYNE_SWEEP))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

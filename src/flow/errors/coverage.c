@@ -34,18 +34,16 @@ PARAM_TABLE(wt_coverage_job_params, wt_coverage_job, rows, wt_coverage_job_defau
 
 /* Whose intervals are judged; the numbers of a setting come first. */
 enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_CURVES, OF_CONTACT, OF_RATIO, N_JUDGED };
-static const char *const judged_words[N_JUDGED] = {
-    [SETTING_HYSTERESIS] = "hysteresis part",
-    [SETTING_AREA_RATIO] = "real over nominal contact area",
-    [SETTING_FRICTION] = "friction coefficient",
-    [SETTING_THICKNESS] = "layer thickness",
-    [SETTING_WITH_LAYER] = "friction coefficient with layer",
-    [OF_SHIFTS] = "shift factors",
-    [OF_C1] = "WLF constant c1",
-    [OF_C2] = "WLF constant c2",
-    [OF_CURVES] = "moduli of the curves",
-    [OF_CONTACT] = "contact points of the curves",
-    [OF_RATIO] = "modulus ratio by its spots"};
+static const char *judged_words(size_t k)
+{
+    static const char *const others[N_JUDGED] = {[OF_SHIFTS] = "shift factors",
+                                                 [OF_C1] = "WLF constant c1",
+                                                 [OF_C2] = "WLF constant c2",
+                                                 [OF_CURVES] = "moduli of the curves",
+                                                 [OF_CONTACT] = "contact points of the curves",
+                                                 [OF_RATIO] = "modulus ratio by its spots"};
+    return k < SETTING_NUMBERS ? setting_words[k] : others[k];
+}
 
 /* One trial of one number: whether the truth lies within, as a share where there are several. */
 typedef struct hit {
@@ -139,8 +137,8 @@ static wt_status try_material(const coverage *c, uint64_t seed, wt_rubber *rubbe
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : regenerate_sweep(&own->sweep, &c->fit, seed, &sweep, shift, err);
     if (status == WT_OK)
-        status =
-            flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, &c->work, &fit, rubber, err);
+        status = flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, FLOW_STORED_DRAWS, &c->work,
+                                 &fit, rubber, err);
     if (status == WT_OK && fit.n_shifts == c->fit.n_shifts)
         hits[OF_SHIFTS] = judge_shifts(&fit, shift);
     if (status == WT_OK && fit.law.kind == WT_LAW_WLF && c->fit.law.kind == WT_LAW_WLF) {
@@ -343,7 +341,7 @@ static void list_shares(const coverage *c, const char *verdict, char *text, size
         const tally found = count_hits(c, k);
         if (found.n == 0 || (verdict != NULL && strcmp(found.known.verdict, verdict) != 0))
             continue;
-        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words[k]);
+        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words(k));
         if (verdict == NULL && n < size)
             n += (size_t)snprintf(text + n, size - n, " %.0f %%", 100 * found.both);
         else if (!isnan(found.known.trials) && n < size)
@@ -395,7 +393,7 @@ static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
     for (size_t k = 0; k < N_JUDGED; k++) {
         const tally found = count_hits(c, k);
         if (found.n > 0)
-            TABLE_ADD(coverage, &t, judged_words[k], found);
+            TABLE_ADD(coverage, &t, judged_words(k), found);
     }
     put_verdicts(c, &t);
     coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);

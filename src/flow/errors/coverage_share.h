@@ -12,8 +12,8 @@ typedef struct coverage_share {
 } coverage_share;
 
 /* Of n > 0 trials in which intervals of 95 % held the truth with this share, which need not be that
- * of a whole number of trials. Too narrow or too wide: so many misses, or so few, are a chance of
- * less than one in 400 (binomial). Holds: the share is known to be 90 % or more. */
+ * of a whole number of trials. Too narrow or too wide: it is outside 92 to 98 %, and so many misses,
+ * or so few, are a chance of less than one in 400 (binomial). Holds: the share is known to be 90 % or more. */
 coverage_share coverage_judge(double share, size_t n);
 
 #endif

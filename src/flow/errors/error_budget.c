@@ -217,17 +217,14 @@ static wt_status compute_all(budget *b, wt_error *err)
 /* ---- choices of the model -------------------------------------------------------------------- */
 
 static const struct {
-    const char *words;
     what_if_column column;
     error_budget_key key;
 } numbers[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = {"hysteresis part", WHAT_IF_HYSTERESIS, ERROR_BUDGET_KEY_HYSTERESIS},
-    [SETTING_AREA_RATIO] = {"real over nominal contact area", WHAT_IF_AREA_RATIO,
-                            ERROR_BUDGET_KEY_AREA_RATIO},
-    [SETTING_FRICTION] = {"friction coefficient", WHAT_IF_FRICTION, ERROR_BUDGET_KEY_FRICTION},
-    [SETTING_THICKNESS] = {"layer thickness", WHAT_IF_THICKNESS, ERROR_BUDGET_KEY_THICKNESS},
-    [SETTING_WITH_LAYER] = {"friction coefficient with layer", WHAT_IF_WITH_LAYER,
-                            ERROR_BUDGET_KEY_WITH_LAYER}};
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, ERROR_BUDGET_KEY_HYSTERESIS},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, ERROR_BUDGET_KEY_AREA_RATIO},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, ERROR_BUDGET_KEY_FRICTION},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, ERROR_BUDGET_KEY_THICKNESS},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, ERROR_BUDGET_KEY_WITH_LAYER}};
 
 typedef struct choice_range {
     const char *words;
@@ -267,7 +264,7 @@ static void put_row(const char *number, double value, row r, table_writer *t)
 
 static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)
 {
-    put_row(numbers[k].words, b->values.number[k].value, r, t);
+    put_row(setting_words[k], b->values.number[k].value, r, t);
 }
 
 /* What a number rests on most. */

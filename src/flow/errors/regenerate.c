@@ -186,6 +186,16 @@ void regenerate_inputs(setting *s, uint64_t seed)
     }
 }
 
+void regenerate_hold(setting *s)
+{
+    for (size_t i = 0; i < COUNT_OF(inputs); i++) {
+        wt_estimate *e = input_of(s, i);
+        if (e != NULL)
+            e->standard_error = 0;
+    }
+    s->softness.storage_error = s->softness.loss_error = NULL;
+}
+
 void regenerate_words(const setting *s, char *text, size_t size)
 {
     setting any = *s;

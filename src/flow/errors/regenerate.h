@@ -31,6 +31,8 @@ void regenerate_group(const scattered_group *group, uint64_t seed, unsigned numb
 /* Every input with a stated error as another measurement of it would state it, with the same
  * relative error. */
 void regenerate_inputs(setting *s, uint64_t seed);
+/* All of them held as they are, and what softens the rubber. */
+void regenerate_hold(setting *s);
 /* Which those are, in words. */
 void regenerate_words(const setting *s, char *text, size_t size);
 

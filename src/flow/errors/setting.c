@@ -6,6 +6,13 @@
 
 #include <math.h>
 
+const char *const setting_words[SETTING_NUMBERS] = {
+    [SETTING_HYSTERESIS] = "hysteresis part",
+    [SETTING_AREA_RATIO] = "real over nominal contact area",
+    [SETTING_FRICTION] = "friction coefficient",
+    [SETTING_THICKNESS] = "layer thickness",
+    [SETTING_WITH_LAYER] = "friction coefficient with layer"};
+
 wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
                        const wt_layer_known *known, const wt_job *work, setting *s, wt_error *err)
 {

@@ -32,6 +32,7 @@ typedef enum setting_number {
     SETTING_WITH_LAYER,
     SETTING_NUMBERS
 } setting_number;
+extern const char *const setting_words[SETTING_NUMBERS];
 
 /* `layer` NULL: no thickness; `known` NULL: no friction with a layer. With both, the thickness is
  * that which `layer` gives. */

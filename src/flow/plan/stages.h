@@ -81,7 +81,10 @@ typedef enum flow_extra {
       flow_step_budget)                                                                            \
     X(COVERAGE, coverage, "How often the stated intervals hold: friction",                         \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(COVERAGE),                  \
-      flow_step_coverage)
+      flow_step_coverage)                                                                          \
+    X(WORK_PRECISION, work_precision, "Error against run time: friction",                          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WORK_PRECISION),            \
+      flow_step_precision)
 
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;

@@ -15,8 +15,11 @@
 wt_run_options wt_run_defaults(void)
 {
     const wt_job job = wt_job_defaults();
-    return (wt_run_options){
-        .tolerance = job.tolerance, .seed = job.seed, .replicates = job.replicates, .trials = 100};
+    return (wt_run_options){.tolerance = job.tolerance,
+                            .seed = job.seed,
+                            .replicates = job.replicates,
+                            .trials = 100,
+                            .precision = wt_accuracy_job_defaults()};
 }
 
 static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
@@ -312,6 +315,7 @@ static wt_status prepare_run(conduct *d, const wt_run_options *options, wt_parse
         log = d->own_log = wt_parselog_new();
     d->run.no_provenance = options->no_provenance;
     d->run.trials = options->trials;
+    d->run.precision = options->precision;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     d->cost = wt_cost_new(!options->no_provenance, options->threads);

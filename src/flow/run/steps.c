@@ -453,7 +453,7 @@ wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
     return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
 }
 
-/* ---- what if, error budget, coverage ----------------------------------------------------------
+/* ---- what if, error budget, coverage, error against run time ----------------------------------
  */
 
 /* What a stage takes into account beside friction: the layer, then what is known of it. */
@@ -508,4 +508,15 @@ wt_status flow_step_coverage(flow_run *run, wt_error *err)
                                  .trials = run->trials};
     return status == WT_OK ? wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err)
                            : status;
+}
+
+wt_status flow_step_precision(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK
+               ? wt_case_precision_make(&sliding, parts.layer, parts.known, &run->precision,
+                                        &run->job, &run->table[FLOW_WORK_PRECISION], err)
+               : status;
 }

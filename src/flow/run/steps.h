@@ -20,7 +20,8 @@ typedef struct flow_run {
     double modulus_ratio_df;  /* 0 = its error is normal */
     double calibration_share; /* of its variance */
     bool no_provenance;
-    size_t trials; /* of the coverage */
+    size_t trials;             /* of the coverage */
+    wt_accuracy_job precision; /* of the error against run time */
 } flow_run;
 
 void flow_run_clear(flow_run *run);

@@ -66,7 +66,7 @@ static double contact_radius(const wt_tip *tip, double depth)
 }
 
 /* False where it is not measured about one of the places. */
-static bool find_range(const spot_field *f, spot *s)
+static bool find_range(const wt_height_map *f, spot *s)
 {
     s->low = s->high = s->plane.rms;
     for (int j = -WITHIN; j <= WITHIN; j++)
@@ -83,7 +83,7 @@ static bool find_range(const spot_field *f, spot *s)
     return true;
 }
 
-static wt_status find_median(const spot_field *f, spot *s, wt_error *err)
+static wt_status find_median(const wt_height_map *f, spot *s, wt_error *err)
 {
     const spot_places p = spot_places_lay(f, s->contact);
     double *rms = malloc((p.nx * p.ny + 1) * sizeof *rms);
@@ -109,7 +109,7 @@ static double limit_of(const wt_spot_job *job, const spot *s)
 }
 
 /* "cannot say" goes on with what would tell. */
-static void judge_roughness(const wt_spot_job *job, const spot_field *f, bool covered, spot *s)
+static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
 {
     const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;
     char pixel[32], contact[32], need[32], within[32];
@@ -158,8 +158,8 @@ static void judge_roughness(const wt_spot_job *job, const spot_field *f, bool co
             low, high, limit);
 }
 
-static wt_status find_roughness(const wt_spot_job *job, const wt_image *image, const spot_field *f,
-                                spot *s, wt_error *err)
+static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
+                                const wt_height_map *f, spot *s, wt_error *err)
 {
     const double step = 1e-3, depth = job->depth;
     s->contact = contact_radius(&job->tip, depth);
@@ -233,7 +233,7 @@ wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *w
     if (job == NULL || path == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no image of a spot");
     wt_image image = {.values = NULL};
-    spot_field field = {.z = NULL};
+    wt_height_map field = {.z = NULL};
     spot s = {0};
     imprint left = spot_no_imprint();
     wt_spot_tables made = {0};
@@ -243,7 +243,7 @@ wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *w
     if (status == WT_OK)
         status = spot_image_read(job, path, "before", work, &image, err);
     if (status == WT_OK) {
-        field = spot_field_of(&image);
+        field = wt_height_map_of(&image);
         status = find_roughness(job, &image, &field, &s, err);
     }
     if (status == WT_OK && job->after != NULL)

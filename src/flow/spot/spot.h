@@ -30,9 +30,8 @@ typedef struct spot_places {
     size_t nx, ny;
     double radius;
 } spot_places;
-spot_places spot_places_lay(const spot_field *field, double radius);
+spot_places spot_places_lay(const wt_height_map *field, double radius);
 
-spot_field spot_field_of(const wt_image *image);
 /* The image of heights of a file that the job names; the others are cleared. */
 wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,
                           const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
@@ -42,7 +41,7 @@ imprint spot_no_imprint(void);
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
                             const wt_job *work, imprint *to, wt_error *err) WT_NODISCARD;
 /* Table spot_map: the heights about the spot, and what `difference`, unless NULL, adds to them. */
-wt_status spot_map_make(const spot_field *before, const spot *s, const double *difference,
+wt_status spot_map_make(const wt_height_map *before, const spot *s, const double *difference,
                         wt_table **table, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -27,8 +27,9 @@ static wt_interval less_untouched(double value, const double *others, size_t n)
 }
 
 /* The dents of untouched places; depth and volume have room for all of them. */
-static wt_status measure_others(const spot_field *difference, const spot *s, const spot_places *p,
-                                double *depth, double *volume, size_t *n, wt_error *err)
+static wt_status measure_others(const wt_height_map *difference, const spot *s,
+                                const spot_places *p, double *depth, double *volume, size_t *n,
+                                wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t k = 0; k < p->nx * p->ny && status == WT_OK; k++) {
@@ -47,7 +48,7 @@ static wt_status measure_others(const spot_field *difference, const spot *s, con
 }
 
 /* Where within the error of the position the change is deepest. */
-static wt_status find_deepest(const spot_field *difference, const spot *s, imprint *to,
+static wt_status find_deepest(const wt_height_map *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
     enum { MOST = 24 }; /* steps to each side, a bound of time */
@@ -70,7 +71,7 @@ static wt_status find_deepest(const spot_field *difference, const spot *s, impri
     return status;
 }
 
-static wt_status measure_dent(const spot_field *difference, const spot *s, imprint *to,
+static wt_status measure_dent(const wt_height_map *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
     if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
@@ -174,7 +175,7 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
 /* Pixels of other sizes are mended; images that have little in common are not. */
 static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *path, wt_error *err)
 {
-    const spot_field f = spot_field_of(a), g = spot_field_of(b);
+    const wt_height_map f = wt_height_map_of(a), g = wt_height_map_of(b);
     const double ratios[] = {f.dx / g.dx, f.dy / g.dy, a->width / b->width, a->height / b->height};
     bool good = true;
     for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++)
@@ -204,8 +205,8 @@ static double strain_of(const double g[2][2])
 }
 
 /* `after` has the pixels of `before`. */
-static wt_status compare_images(const spot_field *before, const spot_field *after, const spot *s,
-                                imprint *to, wt_error *err)
+static wt_status compare_images(const wt_height_map *before, const wt_height_map *after,
+                                const spot *s, imprint *to, wt_error *err)
 {
     const wt_status status = spot_align(before, after, s->x, s->y, 3 * s->contact, &to->shift, err);
     if (status != WT_OK || !to->shift.found)
@@ -214,7 +215,7 @@ static wt_status compare_images(const spot_field *before, const spot_field *afte
     if (to->difference == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     spot_difference(before, after, &to->shift, to->difference);
-    spot_field changed = *before;
+    wt_height_map changed = *before;
     changed.z = to->difference;
     to->strain = strain_of((const double(*)[2])to->shift.gradient);
     return measure_dent(&changed, s, to, err);
@@ -237,13 +238,13 @@ wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, cons
                             const wt_job *work, imprint *to, wt_error *err)
 {
     wt_image after = {.values = NULL};
-    spot_field again = {.z = NULL};
+    wt_height_map again = {.z = NULL};
     *to = spot_no_imprint();
     wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
     if (status == WT_OK)
         status = check_sizes(before, &after, job->after, err);
     if (status == WT_OK) {
-        const spot_field was = spot_field_of(before), is = spot_field_of(&after);
+        const wt_height_map was = wt_height_map_of(before), is = wt_height_map_of(&after);
         const bool same = fabs(is.dx / was.dx - 1) < 1e-6 && fabs(is.dy / was.dy - 1) < 1e-6;
         if (!same)
             status = spot_resample(&is, was.dx, was.dy, &again, err);

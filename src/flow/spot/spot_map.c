@@ -26,7 +26,7 @@ static shown shown_pixels(double place, double reach, double pixel, size_t n)
     return (shown){first, last, (last - first) / MOST + 1};
 }
 
-static double less_plane(const spot_field *f, const spot_plane *p, size_t i, size_t j, double u,
+static double less_plane(const wt_height_map *f, const spot_plane *p, size_t i, size_t j, double u,
                          double v)
 {
     return f->z[j * f->nx + i] - (p->height + p->slope_x * u + p->slope_y * v);
@@ -34,13 +34,13 @@ static double less_plane(const spot_field *f, const spot_plane *p, size_t i, siz
 
 TABLE_ROW(spot_map, SPOT_MAP, double x, y, before, after, change;)
 
-wt_status spot_map_make(const spot_field *before, const spot *s, const double *difference,
+wt_status spot_map_make(const wt_height_map *before, const spot *s, const double *difference,
                         wt_table **table, wt_error *err)
 {
     const double reach = AROUND * s->contact, nan = (double)NAN;
     const shown x = shown_pixels(s->x, reach, before->dx, before->nx),
                 y = shown_pixels(s->y, reach, before->dy, before->ny);
-    spot_field changed = *before;
+    wt_height_map changed = *before;
     spot_plane planes[2] = {spot_plane_fit(before, s->x, s->y, reach), {nan, nan, nan, nan, 0, 0}};
     if (difference != NULL) {
         changed.z = difference;

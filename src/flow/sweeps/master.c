@@ -228,9 +228,9 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-/* So many that a standard error from them is known to 5 %. Their seed is not that of a job, so that
- * what is stored is what a job has that goes from the isotherms on. */
-enum { DRAWS = 200, DRAWS_SEED = 1 };
+/* Their seed is not that of a job, so that what is stored is what a job has that goes from the
+ * isotherms on. */
+enum { DRAWS_SEED = 1 };
 
 /* To seven digits, far below the scatter of the draws: short where it is written. */
 static double to_seven_digits(double x)
@@ -282,7 +282,7 @@ static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
                   to_seven_digits(prony->modulus[k]));
 }
 
-static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_error *err)
+static wt_status draw_tables(const wt_master *m, size_t n, wt_master_tables *tables, wt_error *err)
 {
     double *log_b = malloc((m->n_shifts + 1) * sizeof *log_b);
     if (log_b == NULL)
@@ -290,7 +290,7 @@ static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_er
     table_writer material = table_begin(&material_draws_schema, err),
                  series = table_begin(&series_draws_schema, err);
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < DRAWS; i++) {
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
         wt_prony prony = {0};
         wt_shift_law law;
         status = wt_master_draw(m, DRAWS_SEED, i, &prony, &law, log_b, err);
@@ -406,8 +406,8 @@ static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_e
 }
 
 /* All but the master curve. */
-static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
-                             wt_error *err)
+static wt_status make_tables(const wt_master *m, size_t n_draws, const wt_job *work,
+                             wt_master_tables *t, wt_error *err)
 {
     t->n_isotherms = m->n_shifts;
     wt_status status = shift_table(m, &t->shift_factors, err);
@@ -415,12 +415,13 @@ static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_t
         return status;
     if (status == WT_OK)
         status = prony_table(m, &t->prony, err);
-    return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0 ? draw_tables(m, t, err)
-                                                                     : status;
+    return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0
+               ? draw_tables(m, n_draws, t, err)
+               : status;
 }
 
 wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
-                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          double poisson_ratio, size_t n_draws, const wt_job *work, wt_master *fit,
                           wt_rubber *rubber, wt_error *err)
 {
     wt_master_tables t = {0};
@@ -428,7 +429,7 @@ wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *option
     own.series_only = true;
     wt_status status = wt_master_fit(sweep, &own, NULL, fit, err);
     if (status == WT_OK)
-        status = make_tables(fit, work, &t, err);
+        status = make_tables(fit, n_draws, work, &t, err);
     const wt_rubber_tables of = {.prony = t.prony,
                                  .shift_factors = t.shift_factors,
                                  .material_draws = t.material_draws,
@@ -450,8 +451,8 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     wt_master_options options = rubber->fit;
     wt_master fit = {0};
     options.vertical = vertical;
-    const wt_status status = flow_rubber_fit(&rubber->sweep, &options, rubber->poisson_ratio, &work,
-                                             &fit, refitted, err);
+    const wt_status status = flow_rubber_fit(&rubber->sweep, &options, rubber->poisson_ratio, 0,
+                                             &work, &fit, refitted, err);
     if (status == WT_OK) {
         refitted->is_transverse = rubber->is_transverse;
         refitted->transverse = rubber->transverse;
@@ -512,7 +513,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = fit_sweeps(job, work, &sweep, &master, err);
     if (status == WT_OK)
-        status = make_tables(&master, work, &t, err);
+        status = make_tables(&master, FLOW_STORED_DRAWS, work, &t, err);
     if (status == WT_OK)
         status = say_sample(&sweep, t.shift_factors, err);
     if (status == WT_OK)

@@ -12,10 +12,12 @@ wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const
 /* Of a number that is known by its decimal logarithm. */
 wt_interval flow_power_of_ten(wt_interval log);
 
-/* Isotherms fitted, and the rubber that comes of it, with draws unless they are left out. Both
- * cleared by the caller, also on failure. */
+/* As many draws as a result has: a standard error from them is known to 5 %. */
+enum { FLOW_STORED_DRAWS = 200 };
+/* Isotherms fitted, and the rubber that comes of it, with so many draws unless they are left out.
+ * Both cleared by the caller, also on failure. */
 wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
-                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          double poisson_ratio, size_t n_draws, const wt_job *work, wt_master *fit,
                           wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 
 #endif

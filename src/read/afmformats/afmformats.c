@@ -102,6 +102,7 @@ static wt_status print_curve(hid_t group, const char *name, size_t number, size_
     } else {
         curve_text_begin(out, &curve);
         status = print_rows(out, &curve, segments, n, name, err);
+        curve_text_end(out);
     }
     for (size_t i = 0; i < COLUMNS; i++)
         free(values[i]);

@@ -182,6 +182,7 @@ typedef struct text_description {
     size_t n_steps;
     line_pattern *ends;
     size_t n_ends;
+    bool end_required; /* a table without one of them was cut off */
     other_test *others;
     size_t n_others;
     unit_alias *aliases;

@@ -219,8 +219,10 @@ static void read_table(description_parser *p, const xmlNode *table)
         step->title_next = parse_one_of(p, c, "title", titles, 2, 0) == 1;
         parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
     }
-    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "end")) != NULL;)
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "end")) != NULL;) {
         parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
+        d->end_required = parse_true(p, c, "required") || d->end_required;
+    }
     for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "other")) != NULL;) {
         other_test *other = &d->others[d->n_others++];
         parse_pattern(p, c, "regex", &other->pattern, 0);

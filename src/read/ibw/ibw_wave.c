@@ -119,10 +119,87 @@ static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
     return set_sizes(f, grid->n_columns * grid->n_rows, layers, err);
 }
 
+static wt_status fail_missing(wt_error *err, const char *message, const char *expected)
+{
+    (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_expected(err, "%s", expected);
+    wt_error_advice(err, "copy the file again from the instrument");
+    return WT_E_CORRUPT;
+}
+
+/* Letters, then nothing but zeros. */
+static bool is_label(const unsigned char *label, size_t size)
+{
+    size_t n = 0;
+    while (n < size && label[n] >= ' ' && label[n] < 0x7f)
+        n++;
+    while (n < size && label[n] == 0)
+        n++;
+    return n == size;
+}
+
+/* The number behind a key such as "RetractStart3:" of the footer; SIZE_MAX if it is not there. */
+static size_t footer_number(const char *footer, const char *key)
+{
+    const char *const found = strstr(footer, key);
+    return found != NULL ? (size_t)strtoul(found + strlen(key), NULL, 10) : SIZE_MAX;
+}
+
+/* Behind the wave Asylum writes small pictures of its channels and a footer that says where they
+ * stand and ends with its own length, " 0292 Force". */
+static wt_status check_footer(const ibw_file *f, size_t length, size_t end, wt_error *err)
+{
+    enum { TAIL = 11, FOOTER_MOST = 4096 };
+    char footer[FOOTER_MOST + 1], key[32];
+    size_t last = 0;
+    if (length < end + TAIL || memcmp(f->bytes + length - 6, " Force", 6) != 0)
+        return WT_OK;
+    memcpy(footer, f->bytes + length - TAIL, TAIL);
+    footer[5] = '\0';
+    const size_t size = (size_t)strtoul(footer, NULL, 10);
+    if (size <= TAIL || size > FOOTER_MOST || size > length)
+        return WT_OK;
+    memcpy(footer, f->bytes + length - size, size);
+    footer[size] = '\0';
+    for (int i = 1; i < 10; i++) {
+        (void)snprintf(key, sizeof key, "RetractStart%d:", i);
+        const size_t at = footer_number(footer, key);
+        last = at != SIZE_MAX && at > last ? at : last;
+    }
+    const size_t first = footer_number(footer, "ExtendStart1:"),
+                 n = footer_number(footer, "RetractLength:");
+    if (first == SIZE_MAX || last == 0 || n > length)
+        return WT_OK;
+    if (first == end && last + n == length - size)
+        return WT_OK;
+    (void)fail_missing(err, "bytes are missing inside, or there are too many",
+                       "what stands behind the wave where the footer of the file says");
+    wt_error_found(err, "its end at byte %zu, not at %zu", length - size, last + n);
+    return WT_E_CORRUPT;
+}
+
+/* The first label is that of the dimension. */
+static wt_status read_labels(ibw_file *f, const unsigned char *labels, size_t size, wt_error *err)
+{
+    enum { LABEL = 32 };
+    for (size_t i = 0; i < f->n_channels; i++) {
+        ibw_channel *c = &f->channels[i];
+        const size_t at = (i + 1) * LABEL;
+        *c = (ibw_channel){.number = i};
+        if (at + LABEL > size)
+            continue;
+        if (!is_label(labels + at, LABEL))
+            return fail_missing(err, "a label of a channel is no name: bytes are missing before it",
+                                "letters and zeros");
+        memcpy(c->name, labels + at, LABEL);
+    }
+    return WT_OK;
+}
+
 /* Where the parts behind the samples are, in their order. The channels are a dimension. */
 static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_error *err)
 {
-    enum { SIZES = 4, LABELS = 36, LABEL = 32, N_BEFORE = 7 };
+    enum { SIZES = 4, LABELS = 36, DIMENSIONS_MAX = 4, N_BEFORE = 7 };
     const size_t samples = f->n * f->n_channels * sample_width(f->type);
     const size_t wave = number_at(f, SIZES), note = number_at(f, SIZES + 8);
     /* Formula, note, unit of the data, units of the four dimensions, then the labels of each. */
@@ -139,24 +216,20 @@ static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_err
     }
     for (size_t i = 0; i < dimension; i++)
         end += number_at(f, LABELS + 4 * i);
-    if (end + labels > length) {
+    uint64_t last = end + labels + number_at(f, LABELS + 4 * DIMENSIONS_MAX);
+    for (size_t i = dimension + 1; i < DIMENSIONS_MAX; i++)
+        last += number_at(f, LABELS + 4 * i);
+    if (last > length) {
         wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
-        wt_error_expected(err, "%llu bytes", (unsigned long long)(end + labels));
+        wt_error_expected(err, "%llu bytes", (unsigned long long)last);
         wt_error_found(err, "%zu bytes", length);
         wt_error_advice(err, "copy the file again from the instrument");
         return WT_E_CORRUPT;
     }
     f->note_length = note;
     f->data = HEADER_5 + WAVE_5;
-    /* The first label is that of the dimension. */
-    for (size_t i = 0; i < f->n_channels; i++) {
-        ibw_channel *c = &f->channels[i];
-        const size_t at = (i + 1) * LABEL;
-        *c = (ibw_channel){.number = i};
-        if (at + LABEL <= labels)
-            memcpy(c->name, f->bytes + end + at, LABEL);
-    }
-    return WT_OK;
+    const wt_status status = read_labels(f, f->bytes + end, labels, err);
+    return status == WT_OK ? check_footer(f, length, (size_t)last, err) : status;
 }
 
 static wt_status open_wave(wt_input *input, ibw_file *file, size_t *length, wt_error *err)

@@ -270,6 +270,8 @@ static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *
         }
         s->from += n;
     }
+    if (begun)
+        curve_text_end(out);
     return WT_OK;
 }
 

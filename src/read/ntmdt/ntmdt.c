@@ -90,6 +90,18 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
     return WT_OK;
 }
 
+/* The measured file ends a hundred-thousandth of a step above 0; half a step more than one is none
+ * of its ends. */
+static void warn_of_end(const ramp *r, const char *name, wt_parselog *log)
+{
+    const double last = r->values[r->n - 1], step = last - r->values[r->n - 2];
+    if (-last > 1.5 * step)
+        wt_parselog_add(log, WT_WARNING, name, NULL,
+                        "the ramp ends at %.4g nm, and not at 0: the file was cut off, and rows "
+                        "are missing",
+                        1e9 * last);
+}
+
 static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
                          wt_input **text, wt_error *err)
 {
@@ -116,11 +128,13 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
         curve_text_rows(out, &curve, WT_SEGMENT_APPROACH, idle, r.n - idle, true);
         curve.columns[1].values = r.values + 2 * r.capacity;
         curve_text_rows(out, &curve, WT_SEGMENT_RETRACT, idle, r.n - idle, false);
+        curve_text_end(out);
         if (fclose(out) != 0)
             status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
         wt_parselog_add(log, WT_WARNING, wt_input_name(input), NULL,
                         "the file does not say the unit of the deflection signal: its numbers are "
                         "taken as volts, and the sensitivity must be that of one such unit");
+        warn_of_end(&r, wt_input_name(input), log);
         if (idle > 0)
             wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
                             "%zu rows that repeat the first sample are left out", idle);

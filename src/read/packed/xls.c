@@ -1,196 +1,566 @@
-/* Old Excel files (BIFF) through FreeXL. That library opens a file by its name and trusts what it
- * finds, so it works behind the door, on the bytes as they were read.
+/* Old Excel files: the records of BIFF5 and BIFF8 ([MS-XLS]; OpenOffice's documentation of the
+ * Excel file format for BIFF5) in a compound file. Instruments write them in ways that Excel does
+ * not, as BIFF5 under the name of the stream of BIFF8. Values are taken as they are stored;
+ * formulas have the value that was saved with them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/array.h"
 #include "base/clocale.h"
-#include "base/door.h"
+#include "read/bytes/bytes.h"
+#include "read/packed/compound.h"
 #include "read/packed/packed.h"
 
 #include <errno.h>
-#include <freexl.h>
+#include <iconv.h>
 #include <limits.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #define MIB ((size_t)1 << 20)
 
 bool xls_is(const unsigned char *bytes, size_t length)
 {
-    static const unsigned char signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
-    return length >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
+    return compound_is(bytes, length);
 }
 
-/* ---- behind the door ------------------------------------------------------------------------- */
+enum {
+    R_FORMULA = 0x0006,
+    R_EOF = 0x000A,
+    R_FILEPASS = 0x002F,
+    R_CONTINUE = 0x003C,
+    R_CODEPAGE = 0x0042,
+    R_BOUNDSHEET = 0x0085,
+    R_MULRK = 0x00BD,
+    R_RSTRING = 0x00D6,
+    R_SST = 0x00FC,
+    R_LABELSST = 0x00FD,
+    R_NUMBER = 0x0203,
+    R_LABEL = 0x0204,
+    R_BOOLERR = 0x0205,
+    R_STRING = 0x0207,
+    R_RK = 0x027E,
+    R_BOF = 0x0809,
+    BIFF5 = 0x0500,
+    BIFF8 = 0x0600,
+    CODEPAGE_USUAL = 1252
+};
 
-/* What is said of a sheet: SHEET name, then a CELL row, column, text for each, ended by zeros. */
-enum { SHEET = 'S', CELL = 'C' };
+/* A text: some bytes of the pool. */
+typedef struct pooled {
+    size_t at, length;
+} pooled;
 
-static void print_cell(FILE *out, unsigned row, unsigned column, const FreeXL_CellValue *cell)
+typedef struct xls_cell {
+    size_t row, column, order; /* order: of the records */
+    bool is_text;
+    double number;
+    pooled text;
+} xls_cell;
+
+typedef struct xls_book {
+    unsigned char *stream;
+    size_t length;
+    unsigned version, codepage;
+    iconv_t narrow, wide;
+    char *pool; /* UTF-8 */
+    size_t pool_length, pool_room;
+    pooled *shared; /* [n_shared] */
+    size_t n_shared;
+    size_t pool_shared; /* of its length */
+    xls_cell *cells;    /* of the sheet that is read */
+    size_t n_cells;
+    size_t used; /* bytes of the stream that sheets were read from */
+} xls_book;
+
+static wt_status no_memory(wt_error *err)
 {
-    char number[40] = "";
-    const char *text = number;
-    switch (cell->type) {
-    case FREEXL_CELL_INT:
-        (void)snprintf(number, sizeof number, "%d", cell->value.int_value);
-        break;
-    case FREEXL_CELL_DOUBLE:
-        (void)snprintf(number, sizeof number, "%.15g", cell->value.double_value);
-        if (strtod(number, NULL) < cell->value.double_value ||
-            strtod(number, NULL) > cell->value.double_value)
-            (void)snprintf(number, sizeof number, "%.17g", cell->value.double_value);
-        break;
-    case FREEXL_CELL_TEXT:
-    case FREEXL_CELL_SST_TEXT:
-    case FREEXL_CELL_DATE:
-    case FREEXL_CELL_DATETIME:
-    case FREEXL_CELL_TIME:
-        text = cell->value.text_value != NULL ? cell->value.text_value : "";
-        break;
-    default:
-        break;
+    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
+}
+
+static wt_status damaged(const char *what, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", what);
+    wt_error_advice(err, "copy the file again; or save it as .xlsx, CSV or text");
+    return WT_E_CORRUPT;
+}
+
+/* ---- records --------------------------------------------------------------------------------- */
+
+/* A record, and what of it was not read yet; reading goes on in the CONTINUE records behind it. */
+typedef struct record {
+    const unsigned char *stream;
+    size_t stream_length;
+    unsigned id;
+    size_t at, end; /* of the stream */
+} record;
+
+/* False: no whole record stands there. */
+static bool record_at(const xls_book *book, size_t at, record *r)
+{
+    *r = (record){.stream = book->stream, .stream_length = book->length};
+    if (at > book->length || book->length - at < 4)
+        return false;
+    r->id = le16(book->stream + at);
+    r->at = at + 4;
+    r->end = r->at + le16(book->stream + at + 2);
+    return r->end <= book->length;
+}
+
+static size_t left_in(const record *r)
+{
+    return r->end - r->at;
+}
+
+/* To the next CONTINUE record; false: there is none. */
+static bool go_on(record *r)
+{
+    if (r->stream_length - r->end < 4 || le16(r->stream + r->end) != R_CONTINUE)
+        return false;
+    const size_t n = le16(r->stream + r->end + 2);
+    if (n > r->stream_length - r->end - 4)
+        return false;
+    r->at = r->end + 4;
+    r->end = r->at + n;
+    return true;
+}
+
+static bool skip(record *r, size_t n)
+{
+    while (n > left_in(r)) {
+        n -= left_in(r);
+        if (!go_on(r))
+            return false;
     }
-    if (*text != '\0')
-        (void)fprintf(out, "%c%u %u %s%c", CELL, row, column, text, '\0');
+    r->at += n;
+    return true;
 }
 
-static wt_status print_sheet(const void *book, unsigned short i, FILE *out, wt_error *err)
+/* A number of up to 4 bytes, which is never parted. */
+static bool take(record *r, size_t width, uint32_t *value)
 {
-    unsigned rows = 0;
-    unsigned short columns = 0;
-    const char *name = NULL;
-    FreeXL_CellValue cell;
-    if (freexl_get_worksheet_name(book, i, &name) != FREEXL_OK ||
-        freexl_select_active_worksheet(book, i) != FREEXL_OK ||
-        freexl_worksheet_dimensions(book, &rows, &columns) != FREEXL_OK)
-        return wt_fail(err, WT_E_CORRUPT, "a sheet of the spreadsheet cannot be read");
-    (void)fprintf(out, "%c%s%c", SHEET, name != NULL ? name : "", '\0');
-    for (unsigned r = 0; r < rows; r++)
-        for (unsigned short c = 0; c < columns; c++)
-            if (freexl_get_cell_value(book, r, c, &cell) == FREEXL_OK)
-                print_cell(out, r, c, &cell);
+    if (left_in(r) == 0 && !go_on(r))
+        return false;
+    if (left_in(r) < width)
+        return false;
+    *value = 0;
+    for (size_t i = 0; i < width; i++)
+        *value |= (uint32_t)r->stream[r->at + i] << (8 * i);
+    r->at += width;
+    return true;
+}
+
+/* ---- texts ----------------------------------------------------------------------------------- */
+
+/* A byte grows to 4 at most in any encoding. */
+static bool pool_room(xls_book *book, size_t n)
+{
+    if (book->pool_room - book->pool_length >= n)
+        return true;
+    const size_t room = 2 * (book->pool_room + n);
+    char *pool = realloc(book->pool, room);
+    if (pool == NULL)
+        return false;
+    book->pool = pool;
+    book->pool_room = room;
+    return true;
+}
+
+/* What is no text in the encoding becomes U+FFFD. */
+static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *bytes, size_t n)
+{
+    static const char replacement[] = "\xef\xbf\xbd";
+    char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
+    size_t left = n;
+    if (!pool_room(book, 4 * n + 4))
+        return false;
+    (void)iconv(converter, NULL, NULL, NULL, NULL);
+    while (left > 0) {
+        char *out = book->pool + book->pool_length;
+        size_t room = book->pool_room - book->pool_length;
+        const bool done = iconv(converter, &in, &left, &out, &room) != (size_t)-1;
+        book->pool_length = book->pool_room - room;
+        if (done)
+            break;
+        if (errno == E2BIG || room < 4)
+            return false;
+        memcpy(book->pool + book->pool_length, replacement, 3);
+        book->pool_length += 3;
+        const size_t unit = converter == book->wide && left >= 2 ? 2 : 1;
+        in += unit;
+        left -= unit;
+    }
+    return true;
+}
+
+/* So many characters; each record of BIFF8 says anew how wide they are. WT_E_CORRUPT without a
+ * message: they are not there. */
+static wt_status take_text(xls_book *book, record *r, size_t n, bool wide, pooled *text,
+                           wt_error *err)
+{
+    *text = (pooled){.at = book->pool_length};
+    while (n > 0) {
+        const size_t width = wide ? 2 : 1, fit = left_in(r) / width, now = fit < n ? fit : n;
+        if (now > 0 &&
+            !pool_add(book, wide ? book->wide : book->narrow, r->stream + r->at, now * width))
+            return no_memory(err);
+        r->at += now * width;
+        n -= now;
+        uint32_t flags = 0;
+        if (n > 0 && (left_in(r) > 0 || !go_on(r)))
+            return WT_E_CORRUPT;
+        if (n > 0 && book->version == BIFF8) {
+            if (!take(r, 1, &flags))
+                return WT_E_CORRUPT;
+            wide = (flags & 1) != 0;
+        }
+    }
+    text->length = book->pool_length - text->at;
     return WT_OK;
 }
 
-static wt_status print_book(const door_call *door, FILE *out, wt_error *err)
+/* A text as cells and names of sheets have it: its length (of `width` bytes), flags in BIFF8. */
+static wt_status take_counted(xls_book *book, record *r, size_t width, pooled *text, wt_error *err)
 {
-    (void)door;
-    char path[32];
-    const void *book = NULL;
-    unsigned n = 0, locked = 0;
-    (void)snprintf(path, sizeof path, "/proc/self/fd/%d", (int)DOOR_FILE);
-    const int how = freexl_open(path, &book);
-    if (how != FREEXL_OK || freexl_get_info(book, FREEXL_BIFF_SHEET_COUNT, &n) != FREEXL_OK ||
-        n == 0) {
-        wt_fail(err, WT_E_FORMAT, "no spreadsheet that can be read");
-        wt_error_found(err, "an old Excel or Word file that is damaged, or of another program");
-        wt_error_advice(err, "save it as .xlsx, CSV or text");
-        return WT_E_FORMAT;
-    }
-    if (freexl_get_info(book, FREEXL_BIFF_PASSWORD, &locked) == FREEXL_OK &&
-        locked == FREEXL_BIFF_OBFUSCATED) {
-        wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet is protected by a password");
-        wt_error_advice(err, "save it without one");
-        return WT_E_UNSUPPORTED;
-    }
-    wt_status status = WT_OK;
-    const locale_t previous = clocale_enter();
-    for (unsigned i = 0; i < n && i < USHRT_MAX && status == WT_OK; i++)
-        status = print_sheet(book, (unsigned short)i, out, err);
-    clocale_leave(previous);
-    return status;
+    uint32_t n = 0, flags = 0;
+    wt_status status = take(r, width, &n) ? WT_OK : WT_E_CORRUPT;
+    if (status == WT_OK && book->version == BIFF8 && !take(r, 1, &flags))
+        status = WT_E_CORRUPT;
+    if (status == WT_OK)
+        status = take_text(book, r, n, (flags & 1) != 0, text, err);
+    return status == WT_E_CORRUPT ? damaged("a text of the spreadsheet is cut off", err) : status;
 }
 
-/* ---- in front of it -------------------------------------------------------------------------- */
-
-/* One cell of the answer: row and column may be anything. */
-static wt_status take_cell(sheet_text *text, const char *record, const char *name, wt_error *err)
+/* The shared strings of BIFF8, with their runs of fonts and their pronunciation, which are no part
+ * of the text. */
+static wt_status take_shared(xls_book *book, record *r, wt_error *err)
 {
-    char *end = NULL;
-    const size_t row = strtoul(record, &end, 10);
-    const size_t column = *end == ' ' ? strtoul(end, &end, 10) : SIZE_MAX;
-    const bool rises = row > text->row || (row == text->row && column >= text->column);
-    if (*end != ' ' || !rises || row > UINT_MAX || column > USHRT_MAX)
-        return wt_fail(err, WT_E_CORRUPT, "the cells of the spreadsheet are in no order");
-    return sheet_put(text, row, column, end + 1, strlen(end + 1)) ? WT_OK
-                                                                  : sheet_refuse(text, name, err);
-}
-
-static wt_status take_answer(const char *answer, size_t length, size_t most, workbook *book,
-                             wt_error *err)
-{
-    const char *name = NULL;
-    sheet_text text = {.most = workbook_room(book, most)};
-    wt_status status = WT_OK;
-    for (size_t at = 0; status == WT_OK && at < length; at += strlen(answer + at) + 1) {
-        const bool whole = memchr(answer + at, '\0', length - at) != NULL;
-        const char *record = answer + at;
-        if (!whole || (*record != SHEET && (*record != CELL || name == NULL))) {
-            status = wt_fail(err, WT_E_CORRUPT, "the spreadsheet library answers nonsense");
-        } else if (*record == CELL) {
-            status = take_cell(&text, record + 1, name, err);
-        } else {
-            if (name != NULL)
-                status = workbook_add(book, name, false, &text, err);
-            text = status == WT_OK ? (sheet_text){.most = workbook_room(book, most)} : text;
-            name = record + 1;
-        }
+    uint32_t total = 0, n = 0;
+    wt_status status = take(r, 4, &total) && take(r, 4, &n) ? WT_OK : WT_E_CORRUPT;
+    for (uint32_t i = 0; i < n && status == WT_OK; i++) {
+        uint32_t length = 0, flags = 0, runs = 0, aside = 0;
+        pooled text;
+        if (!take(r, 2, &length) || !take(r, 1, &flags) ||
+            ((flags & 8) != 0 && !take(r, 2, &runs)) || ((flags & 4) != 0 && !take(r, 4, &aside)))
+            status = WT_E_CORRUPT;
+        if (status == WT_OK)
+            status = take_text(book, r, length, (flags & 1) != 0, &text, err);
+        if (status == WT_OK && !skip(r, 4 * (size_t)runs + aside))
+            status = WT_E_CORRUPT;
+        pooled *shared =
+            status == WT_OK ? array_grow(book->shared, book->n_shared, sizeof text) : NULL;
+        if (status == WT_OK && shared == NULL)
+            status = no_memory(err);
         if (status != WT_OK)
             break;
+        book->shared = shared;
+        book->shared[book->n_shared++] = text;
     }
-    if (status == WT_OK && name != NULL)
-        status = workbook_add(book, name, false, &text, err);
-    free(text.bytes);
+    return status == WT_E_CORRUPT ? damaged("the texts of the spreadsheet are cut off", err)
+                                  : status;
+}
+
+/* ---- cells ----------------------------------------------------------------------------------- */
+
+static wt_status add_cell(xls_book *book, xls_cell cell, wt_error *err)
+{
+    xls_cell *cells = array_grow(book->cells, book->n_cells, sizeof *cells);
+    if (cells == NULL)
+        return no_memory(err);
+    cell.order = book->n_cells;
+    book->cells = cells;
+    book->cells[book->n_cells++] = cell;
+    return WT_OK;
+}
+
+/* A number in 30 bits: an integer or the upper bits of a double, perhaps a hundred times it. */
+static double packed_number(uint32_t rk)
+{
+    const double value = (rk & 2) != 0 ? (double)(signed32(rk & ~(uint32_t)3) / 4)
+                                       : float64((uint64_t)(rk & ~(uint32_t)3) << 32);
+    return (rk & 1) != 0 ? value / 100.0 : value;
+}
+
+static wt_status add_packed(xls_book *book, xls_cell cell, const unsigned char *at, size_t n,
+                            wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n && status == WT_OK; i++) {
+        cell.number = packed_number(le32(at + 6 * i + 2));
+        status = add_cell(book, cell, err);
+        cell.column++;
+    }
     return status;
 }
 
-/* A file without a name that holds the bytes; -1 and errno if there is none. */
-static int file_of(const unsigned char *bytes, size_t length)
+/* What was computed; *text: a STRING record behind it has it. */
+static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char *result, bool *text,
+                             wt_error *err)
 {
-    const int fd = memfd_create("weartrack-xls", MFD_CLOEXEC);
-    size_t done = 0;
-    while (fd >= 0 && done < length) {
-        const ssize_t n = write(fd, bytes + done, length - done);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0) {
-            const int number = errno;
-            (void)close(fd);
-            errno = number;
-            return -1;
-        }
-        done += (size_t)n;
-    }
-    return fd;
+    enum { OF_TEXT = 0, OF_TRUTH = 1 };
+    const bool is_number = le16(result + 6) != 0xFFFF;
+    *text = !is_number && result[0] == OF_TEXT;
+    if (!is_number && result[0] != OF_TRUTH)
+        return WT_OK; /* an error, or nothing */
+    cell.number = is_number ? float64(le64(result)) : result[2];
+    return add_cell(book, cell, err);
 }
 
-wt_status xls_read(wt_input *input, workbook *book, wt_error *err)
+/* The fewest bytes of a record of a cell, without row, column and format; 0: of no cell. */
+static size_t cell_bytes(unsigned id)
 {
-    const unsigned char *bytes = NULL;
-    char *answer = NULL;
-    size_t length = 0, n = 0;
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
-    if (status != WT_OK)
+    switch (id) {
+    case R_NUMBER:
+    case R_FORMULA:
+        return 8;
+    case R_RK:
+    case R_LABELSST:
+        return 4;
+    case R_LABEL:
+    case R_RSTRING:
+    case R_BOOLERR:
+    case R_MULRK:
+        return 2;
+    default:
+        return 0;
+    }
+}
+
+/* *formula: the cell whose text comes in a STRING record; its row is SIZE_MAX if there is none. */
+static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_error *err)
+{
+    const unsigned char *at = r->stream + r->at;
+    const size_t need = cell_bytes(r->id);
+    if (need > 0 && left_in(r) < 6 + need)
+        return damaged("a cell of the spreadsheet is cut off", err);
+    xls_cell cell = {.row = 0};
+    wt_status status = WT_OK;
+    bool text = false;
+    if (need > 0)
+        cell = (xls_cell){.row = le16(at), .column = le16(at + 2)};
+    switch (r->id) {
+    case R_NUMBER:
+        cell.number = float64(le64(at + 6));
+        return add_cell(book, cell, err);
+    case R_RK:
+        return add_packed(book, cell, at + 4, 1, err);
+    case R_MULRK:
+        return add_packed(book, cell, at + 4, (left_in(r) - 6) / 6, err);
+    case R_BOOLERR:
+        cell.number = at[6];
+        return at[7] == 0 ? add_cell(book, cell, err) : WT_OK;
+    case R_FORMULA:
+        status = add_formula(book, cell, at + 6, &text, err);
+        *formula = cell;
+        formula->row = text ? cell.row : SIZE_MAX;
         return status;
-    const door_limits limits = door_limits_of(length);
-    const door_call door = {.what = "XLS",
-                            .reading = print_book,
-                            .bytes = bytes,
-                            .size = length,
-                            .file = file_of(bytes, length),
-                            .opens_again = true};
-    if (door.file < 0)
-        return wt_fail(err, errno == ENOMEM ? WT_E_MEMORY : WT_E_IO,
-                       "no file in memory for the spreadsheet: %s", strerror(errno));
-    status = door_read(&door, &limits, &answer, &n, err);
-    (void)close(door.file);
+    case R_LABELSST:
+        if (le32(at + 6) >= book->n_shared)
+            return damaged("a cell names a text that is not there", err);
+        cell.text = book->shared[le32(at + 6)];
+        cell.is_text = true;
+        return add_cell(book, cell, err);
+    case R_LABEL:
+    case R_RSTRING:
+        r->at += 6;
+        break;
+    case R_STRING:
+        if (formula->row == SIZE_MAX)
+            return WT_OK;
+        cell = *formula;
+        formula->row = SIZE_MAX;
+        break;
+    default:
+        return WT_OK;
+    }
+    cell.is_text = true;
+    status = take_counted(book, r, 2, &cell.text, err);
+    return status == WT_OK ? add_cell(book, cell, err) : status;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const xls_cell *x = a, *y = b;
+    if (x->row != y->row)
+        return x->row < y->row ? -1 : 1;
+    if (x->column != y->column)
+        return x->column < y->column ? -1 : 1;
+    return x->order < y->order ? -1 : x->order > y->order;
+}
+
+static bool put_cell(const xls_book *book, const xls_cell *cell, sheet_text *text)
+{
+    char number[40];
+    if (cell->is_text)
+        return cell->text.length == 0 || sheet_put(text, cell->row, cell->column,
+                                                   book->pool + cell->text.at, cell->text.length);
+    int n = clocale_print(number, sizeof number, "%.15g", cell->number);
+    if (strtod(number, NULL) < cell->number || strtod(number, NULL) > cell->number)
+        n = clocale_print(number, sizeof number, "%.17g", cell->number);
+    return sheet_put(text, cell->row, cell->column, number, (size_t)n);
+}
+
+/* Cells stand in rows, but not every program writes them so; of two in one place the later is
+ * what Excel shows. */
+static wt_status put_cells(xls_book *book, const char *name, sheet_text *text, wt_error *err)
+{
+    bool room = true;
+    if (book->n_cells > 1)
+        qsort(book->cells, book->n_cells, sizeof *book->cells, by_place);
+    const locale_t previous = clocale_enter();
+    for (size_t i = 0; i < book->n_cells && room; i++) {
+        const xls_cell *cell = &book->cells[i], *next = cell + 1;
+        const bool again =
+            i + 1 < book->n_cells && next->row == cell->row && next->column == cell->column;
+        room = again || put_cell(book, cell, text);
+    }
+    clocale_leave(previous);
+    return room ? WT_OK : sheet_refuse(text, name, err);
+}
+
+/* ---- sheets ---------------------------------------------------------------------------------- */
+
+/* The cells of the sheet that begins there; charts in it are sheets of their own. */
+static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
+{
+    record r;
+    size_t depth = 0;
+    xls_cell formula = {.row = SIZE_MAX};
+    wt_status status = WT_OK;
+    free(book->cells);
+    book->cells = NULL;
+    book->n_cells = 0;
+    book->pool_length = book->pool_shared;
+    do {
+        if (!record_at(book, at, &r) || (depth == 0 && r.id != R_BOF))
+            return damaged("a sheet of the spreadsheet is cut off", err);
+        /* Many sheets in one place would be more than the file holds. */
+        book->used += r.end - at;
+        if (book->used > book->length)
+            return damaged("sheets of the spreadsheet overlap", err);
+        at = r.end;
+        depth += r.id == R_BOF;
+        if (depth == 1)
+            status = take_cell(book, &r, &formula, err);
+        depth -= r.id == R_EOF;
+    } while (depth > 0 && status == WT_OK);
+    return status;
+}
+
+/* Of a BOUNDSHEET record. Only worksheets have cells. */
+static wt_status add_sheet(xls_book *book, record *r, size_t most, workbook *made, wt_error *err)
+{
+    uint32_t place = 0, hidden = 0, kind = 0;
+    pooled name;
+    if (!take(r, 4, &place) || !take(r, 1, &hidden) || !take(r, 1, &kind))
+        return damaged("a sheet of the spreadsheet has no place in it", err);
+    wt_status status = take_counted(book, r, 1, &name, err);
+    if (status != WT_OK || kind != 0)
+        return status;
+    char *copy = strndup(name.length > 0 ? book->pool + name.at : "", name.length);
+    sheet_text text = {.most = workbook_room(made, most)};
+    status = copy != NULL ? read_cells(book, place, err) : no_memory(err);
     if (status == WT_OK)
-        status = take_answer(answer, n, 16 * MIB + 8 * length, book, err);
-    free(answer);
+        status = put_cells(book, copy, &text, err);
+    if (status == WT_OK)
+        status = workbook_add(made, copy, (hidden & 3) != 0, &text, err);
+    free(text.bytes);
+    free(copy);
+    return status;
+}
+
+/* Narrow texts are of the code page in BIFF5, the first 256 of Unicode in BIFF8. One that the
+ * system does not know is taken as the usual one: names and units are of ASCII in all of them. */
+static wt_status open_converters(xls_book *book, wt_error *err)
+{
+    char name[24] = "ISO-8859-1";
+    if (book->version == BIFF5)
+        (void)snprintf(name, sizeof name, "CP%u", book->codepage);
+    if (book->narrow == (iconv_t)-1)
+        book->narrow = iconv_open("UTF-8", name);
+    if (book->narrow == (iconv_t)-1 && errno == EINVAL)
+        book->narrow = iconv_open("UTF-8", "ISO-8859-1");
+    if (book->wide == (iconv_t)-1)
+        book->wide = iconv_open("UTF-8", "UTF-16LE");
+    return book->narrow != (iconv_t)-1 && book->wide != (iconv_t)-1 ? WT_OK : no_memory(err);
+}
+
+/* The records of the book: first what the texts are written in and those that sheets share (sheet
+ * NULL), then the sheets. */
+static wt_status read_globals(xls_book *book, size_t most, workbook *made, wt_error *err)
+{
+    record r;
+    size_t at = 0;
+    wt_status status = WT_OK;
+    for (r.id = 0; r.id != R_EOF && status == WT_OK; at = r.end) {
+        if (!record_at(book, at, &r))
+            return damaged("the spreadsheet is cut off", err);
+        if (r.id == R_FILEPASS) {
+            wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet is protected by a password");
+            wt_error_advice(err, "save it without one");
+            return WT_E_UNSUPPORTED;
+        }
+        if (r.id == R_CODEPAGE && left_in(&r) >= 2)
+            book->codepage = le16(r.stream + r.at);
+        if (r.id == R_SST && made == NULL)
+            status = open_converters(book, err);
+        if (r.id == R_SST && made == NULL && status == WT_OK)
+            status = take_shared(book, &r, err);
+        if (r.id == R_BOUNDSHEET && made != NULL)
+            status = add_sheet(book, &r, most, made, err);
+    }
+    if (made == NULL)
+        book->pool_shared = book->pool_length;
+    return status == WT_OK ? open_converters(book, err) : status;
+}
+
+static wt_status unknown_book(const char *found, wt_error *err)
+{
+    wt_fail(err, WT_E_FORMAT, "no spreadsheet that can be read");
+    wt_error_found(err, "%s", found);
+    wt_error_advice(err, "save it as .xlsx, CSV or text");
+    return WT_E_FORMAT;
+}
+
+static wt_status read_book(xls_book *book, size_t most, workbook *made, wt_error *err)
+{
+    record r;
+    if (!record_at(book, 0, &r) || r.id != R_BOF || left_in(&r) < 4)
+        return unknown_book("a stream that is no Excel file", err);
+    book->version = le16(r.stream + r.at);
+    if (book->version != BIFF5 && book->version != BIFF8)
+        return unknown_book("an Excel file from before 1993", err);
+    wt_status status = read_globals(book, most, NULL, err);
+    return status == WT_OK ? read_globals(book, most, made, err) : status;
+}
+
+static void close_converter(iconv_t converter)
+{
+    if (converter != (iconv_t)-1)
+        (void)iconv_close(converter);
+}
+
+wt_status xls_read(wt_input *input, workbook *made, wt_error *err)
+{
+    /* A file for both has the newer one under the first name. */
+    static const char *const names[] = {"Workbook", "Book"};
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    xls_book book = {.codepage = CODEPAGE_USUAL, .narrow = (iconv_t)-1, .wide = (iconv_t)-1};
+    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status =
+            compound_stream(bytes, length, names, COUNT_OF(names), &book.stream, &book.length, err);
+    if (status == WT_E_NOT_FOUND)
+        status = unknown_book("an old Office file without a spreadsheet", err);
+    if (status == WT_OK)
+        status = read_book(&book, 16 * MIB + 8 * length, made, err);
+    close_converter(book.narrow);
+    close_converter(book.wide);
+    free(book.cells);
+    free(book.shared);
+    free(book.pool);
+    free(book.stream);
     if (status != WT_OK)
-        workbook_clear(book);
+        workbook_clear(made);
     return status;
 }

@@ -26,7 +26,11 @@ enum {
     SLOT = 96,      /* bytes of a channel in the header: */
     SLOT_UNIT = 64, /* behind the name */
     SLOT_GAIN = 80, /* behind the unit */
-    COUNTS = 768,   /* channels, averages, samples, points */
+    TAG_STRIPS = 273,
+    TAG_STRIP_SIZES = 279,
+    STRIPS = 1024,
+    LONG_TYPE = 4, /* 32 bits */
+    COUNTS = 768,  /* channels, averages, samples, points */
     HEADER = COUNTS + 20,
     ENTRY = 12 /* of a tag in the directory */
 };
@@ -72,8 +76,49 @@ static void take_entry(const unsigned char *entry, size_t at, size_t length, par
 
 /* The tags of Park in the directory of the file. */
 typedef struct park_tags {
-    park_tag magic, header, samples, picture, picture_header;
+    park_tag magic, header, samples, picture, picture_header, strips, strip_sizes;
+    size_t end; /* of what the tags and the strips of the small picture say is there */
 } park_tags;
+
+/* A list of numbers of 32 bits, one for each strip; others are not written. */
+static wt_status take_strips(input_window *w, const park_tag *tag, uint32_t list[STRIPS],
+                             wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    const size_t n = tag->n / 4 < STRIPS ? tag->n / 4 : STRIPS;
+    const wt_status status =
+        n > 0 && tag->there ? window_bytes(w, tag->from, 4 * n, &bytes, err) : WT_OK;
+    for (size_t i = 0; i < STRIPS; i++)
+        list[i] = bytes != NULL && i < n ? le32(bytes + 4 * i) : 0;
+    return status;
+}
+
+/* The strips of the small picture are the last in the file. */
+static wt_status find_end(input_window *w, park_tags *tags, wt_error *err)
+{
+    uint32_t from[STRIPS], sizes[STRIPS];
+    wt_status status = take_strips(w, &tags->strips, from, err);
+    if (status == WT_OK)
+        status = take_strips(w, &tags->strip_sizes, sizes, err);
+    for (size_t i = 0; status == WT_OK && i < STRIPS; i++)
+        if (from[i] > 0 && (size_t)from[i] + sizes[i] > tags->end)
+            tags->end = (size_t)from[i] + sizes[i];
+    return status;
+}
+
+/* Whether everything is there that the directory says. */
+static wt_status check_end(const input_window *w, const park_tags *tags, wt_error *err)
+{
+    if (tags->end <= w->size)
+        return WT_OK;
+    (void)wt_fail(err, WT_E_CORRUPT,
+                  "bytes are missing at the end or inside, where all behind "
+                  "them is shifted");
+    wt_error_expected(err, "%zu bytes, as the directory of the file says", tags->end);
+    wt_error_found(err, "%zu", w->size);
+    wt_error_advice(err, "copy the file again from the instrument");
+    return WT_E_CORRUPT;
+}
 
 static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
 {
@@ -102,8 +147,17 @@ static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
             take_entry(entry, place, w->size, &tags->picture);
         else if (le16(entry) == TAG_PICTURE_HEADER)
             take_entry(entry, place, w->size, &tags->picture_header);
+        else if (le16(entry) == TAG_STRIPS && le16(entry + 2) == LONG_TYPE)
+            take_entry(entry, place, w->size, &tags->strips);
+        else if (le16(entry) == TAG_STRIP_SIZES && le16(entry + 2) == LONG_TYPE)
+            take_entry(entry, place, w->size, &tags->strip_sizes);
     }
-    return status;
+    const park_tag *const all[] = {&tags->header,         &tags->samples, &tags->picture,
+                                   &tags->picture_header, &tags->strips,  &tags->strip_sizes};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i]->from + all[i]->n > tags->end)
+            tags->end = all[i]->from + all[i]->n;
+    return status == WT_OK ? find_end(w, tags, err) : status;
 }
 
 /* Picture of Park whose directory is there. */
@@ -192,6 +246,9 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
     if (!is_park(&tags))
         return fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
                              "a TIFF file of Park Systems");
+    status = check_end(&f->window, &tags, err);
+    if (status != WT_OK)
+        return status;
     if (!tags.header.there)
         return fail_expected(err, WT_E_EMPTY, "the picture holds no force curve",
                              "the tag 50438 of spectroscopy");
@@ -433,6 +490,8 @@ static wt_status park_images(const file_reader *self, wt_input *input,
     if (status == WT_OK && !is_park(&tags))
         status = fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
                                "a TIFF file of Park Systems");
+    if (status == WT_OK)
+        status = check_end(&window, &tags, err);
     if (status == WT_OK && !(tags.picture.there && tags.picture_header.there))
         status = fail_expected(err, WT_E_EMPTY, "the file holds no picture of measured values",
                                "the tags 50434 and 50435");

@@ -23,7 +23,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
 /* Results (a master curve, moduli) have columns of the same names and are no measurements. */
 static bool is_measured(const char *name)
 {
-    static const char *const names[] = {"force_curve/", "sweep", "roughness"};
+    static const char *const names[] = {"force_curve/", "sweep", "roughness", "power_spectrum"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strncmp(name, names[i], strlen(names[i])) == 0)
             return true;

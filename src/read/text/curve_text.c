@@ -51,3 +51,8 @@ void curve_text_rows(FILE *out, const curve_text *curve, wt_segment_kind kind, s
         fputc('\n', out);
     }
 }
+
+void curve_text_end(FILE *out)
+{
+    fputs("##\n", out);
+}

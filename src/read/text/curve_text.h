@@ -30,5 +30,6 @@ void curve_text_names(FILE *out, const curve_text *curve);
 /* Rows [from, from + n) of the columns; backwards, the last of them first. */
 void curve_text_rows(FILE *out, const curve_text *curve, wt_segment_kind kind, size_t from,
                      size_t n, bool backwards);
+void curve_text_end(FILE *out);
 
 #endif

@@ -11,6 +11,9 @@
 
 /* ---- lines -------------------------------------------------------------------------------- */
 
+/* What is behind the last line. */
+typedef enum line_end { END_WHOLE, END_HALF, END_NONE } line_end;
+
 /* A file as UTF-8 lines. */
 typedef struct text_lines {
     char *text;
@@ -19,6 +22,7 @@ typedef struct text_lines {
     const char *encoding; /* words: "UTF-16LE with byte order mark" */
     size_t n_replaced;    /* byte sequences that are no characters, now U+FFFD */
     bool odd_byte;        /* half a character of UTF-16 at the end was dropped */
+    line_end end;         /* of the last one; CR alone is half of one if others have LF behind it */
 } text_lines;
 
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
@@ -44,14 +48,16 @@ typedef struct text_feed {
     size_t room;
     struct feed_piece *first, *last;
     size_t n;          /* lines so far, those that were dropped among them */
-    const char *words; /* encoding, bytes replaced, odd byte: as of text_lines */
+    const char *words; /* encoding, bytes replaced: as of text_lines */
     size_t n_replaced;
-    bool odd_byte;
+    line_end end; /* of the last line so far */
 } text_feed;
 
 /* Line i, counted from 0, which must not have been dropped; WT_END behind the last. It stays until
  * it is dropped. */
 wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err);
+/* What is behind line i, the last one asked for. */
+line_end feed_line_end(const text_feed *feed, size_t i);
 /* The lines before line i are no longer needed. */
 void feed_drop(text_feed *feed, size_t i);
 void feed_free(text_feed *feed);

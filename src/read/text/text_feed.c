@@ -37,7 +37,7 @@ static wt_status add_bytes(text_feed *feed, const unsigned char *bytes, size_t n
         feed->words = piece->lines.encoding;
     feed->at += n;
     feed->n_replaced += piece->lines.n_replaced;
-    feed->odd_byte = piece->lines.odd_byte;
+    feed->end = piece->lines.end;
     piece->first = feed->n;
     feed->n += piece->lines.n;
     if (feed->last != NULL)
@@ -104,6 +104,11 @@ wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err)
         piece = piece->next;
     *line = piece->lines.lines[i - piece->first];
     return WT_OK;
+}
+
+line_end feed_line_end(const text_feed *feed, size_t i)
+{
+    return i + 1 == feed->n && feed->at == feed->size ? feed->end : END_WHOLE;
 }
 
 static void drop_first(text_feed *feed)

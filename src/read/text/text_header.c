@@ -128,6 +128,8 @@ void scan_finish_step(text_scanner *s)
 static void begin_step(text_scanner *s, const step_marker *step, const regmatch_t *title)
 {
     scan_finish_step(s);
+    cut_check_end(s);
+    s->unclosed = s->d->end_required;
     s->state = SCAN_HEADER;
     s->step_line = s->i + 1;
     s->step_has_table = false;
@@ -152,6 +154,7 @@ bool scan_marks(text_scanner *s)
     for (size_t i = 0; i < d->n_ends; i++)
         if (pattern_match(&d->ends[i], s->line, NULL, 0)) {
             s->state = SCAN_HEADER;
+            s->unclosed = false;
             return true;
         }
     for (size_t i = 0; i < d->n_markers; i++)

@@ -128,10 +128,16 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
     return NULL;
 }
 
+/* The mark that DOS puts behind a text is no line. */
+static bool only_end_mark(const char *text, size_t length)
+{
+    return length == 0 || (length == 1 && text[0] == '\x1a');
+}
+
 /* CR LF, LF and CR end a line; the byte there becomes zero. */
 static bool find_lines(text_lines *lines, size_t length)
 {
-    size_t n = 1;
+    size_t n = 1, pairs = 0;
     for (size_t i = 0; i < length; i++)
         n += lines->text[i] == '\n' || lines->text[i] == '\r';
     lines->lines = calloc(n, sizeof *lines->lines);
@@ -144,11 +150,16 @@ static bool find_lines(text_lines *lines, size_t length)
             continue;
         lines->text[i] = '\0';
         lines->lines[lines->n++] = (text_span){lines->text + start, i - start};
-        if (c == '\r' && i + 1 < length && lines->text[i + 1] == '\n')
-            i++;
+        const bool pair = c == '\r' && i + 1 < length && lines->text[i + 1] == '\n';
+        pairs += pair;
+        if (c == '\r' && !pair && pairs > 0 && i + 1 == length)
+            lines->end = END_HALF;
+        i += pair;
         start = i + 1;
     }
     lines->text[length] = '\0';
+    if (!only_end_mark(lines->text + start, length - start))
+        lines->end = END_NONE;
     if (start < length)
         lines->lines[lines->n++] = (text_span){lines->text + start, length - start};
     return true;
@@ -171,6 +182,8 @@ static wt_status decode(const encoding_choice *c, const unsigned char *bytes, si
         lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
     }
+    if (made.odd_byte && made.end == END_WHOLE)
+        made.end = END_HALF;
     *lines = made;
     return WT_OK;
 }

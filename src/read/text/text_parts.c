@@ -43,9 +43,6 @@ static void drop_empty_tables(text_file *file)
 static void log_text(const text_file *file, wt_parselog *log)
 {
     const text_feed *feed = file->feed;
-    if (feed->odd_byte)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL,
-                        "half a character at the end of the file was dropped");
     if (feed->n_replaced > 0)
         wt_parselog_add(log, WT_WARNING, file->name, NULL,
                         "%zu byte sequences are no characters of %s", feed->n_replaced,

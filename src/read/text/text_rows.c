@@ -163,12 +163,7 @@ void scan_bad_row(text_scanner *s, size_t bad)
 void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
-    size_t last = 0;
-    for (size_t c = 0; c < t->n_columns; c++)
-        last = t->columns[c].cell > last ? t->columns[c].cell : last;
-    if (s->row.n <= last)
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
-                        "row with fewer cells than columns; the missing ones are empty");
+    cut_watch(s);
     follow_groups(s);
     if (!s->snapshot) {
         t->header = s->header;

@@ -51,6 +51,8 @@ static void new_table(text_scanner *s)
     s->sample_is_told = false;
     s->snapshot = false;
     s->blank = false;
+    s->last = (last_cells){0};
+    s->unclosed = s->d->end_required;
 }
 
 static bool split_cells(text_scanner *s, text_cells *cells, text_span line,
@@ -270,7 +272,11 @@ static void table_line(text_scanner *s)
         return;
     }
     const row_quality row = scan_read_row(s, &bad);
-    if (row == ROW_GOOD) {
+    const line_end end = feed_line_end(s->file->feed, s->i);
+    if (end == END_NONE && (row != ROW_GOOD || !cut_is_whole(s))) {
+        s->cut = CUT_ROW_DROPPED;
+    } else if (row == ROW_GOOD) {
+        s->cut = end == END_NONE ? CUT_ROW_KEPT : CUT_NO_ROW;
         scan_add_row(s);
     } else if (!match_names(s) && s->status == WT_OK) {
         if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
@@ -305,6 +311,7 @@ void scan_walk(text_scanner *s)
 {
     for (; line_at(s, s->i, &s->line); s->i++) {
         text_span rest = s->line;
+        s->last_is_short = s->last_is_short && s->line.length == 0;
         s->comment = line_uncomment(s->d, &rest);
         if (s->state == SCAN_UNITS) {
             units_line(s);
@@ -324,6 +331,8 @@ void scan_walk(text_scanner *s)
         }
     }
     s->ended = true;
+    if (s->status == WT_OK)
+        cut_finish(s);
     if (s->status == WT_OK)
         scan_finish_step(s);
     if (s->status == WT_OK)

@@ -13,6 +13,19 @@ typedef enum scan_state {
     SCAN_ROWS
 } scan_state;
 
+/* How the last cells of the rows of a table are written. */
+typedef struct last_cells {
+    size_t n;                        /* rows with one that is not empty */
+    size_t cells_min;                /* of a row */
+    size_t short_rows;               /* without a cell for every column that is read */
+    bool empty;                      /* one is */
+    size_t shortest, longest;        /* [bytes] */
+    size_t digits_min, exponent_min; /* digits without those of the exponent, and those */
+    bool points, exponents;          /* one has them */
+} last_cells;
+
+typedef enum cut_row { CUT_NO_ROW, CUT_ROW_KEPT, CUT_ROW_DROPPED } cut_row;
+
 typedef struct text_scanner {
     text_file *file;
     const text_description *d;
@@ -49,11 +62,25 @@ typedef struct text_scanner {
     size_t n_said, n_rows; /* rows that the header says, 0: nothing, and that came since */
     size_t sample;         /* of the header, or NO_SAMPLE */
     bool sample_is_told;   /* since the last table */
+    last_cells last;       /* of the table */
+    bool last_is_short;    /* the line before was a row, the first without all cells */
+    cut_row cut;           /* what was done with a last line without its line end */
+    bool unclosed;         /* a step or table has not come to the line that must end it */
 } text_scanner;
 
 /* From line s->i to the end, or, if it halts, behind a line with which a step begins after a table.
  */
 void scan_walk(text_scanner *s);
+
+/* Takes down how the row that was read is written. */
+void cut_watch(text_scanner *s);
+/* Whether the row, on a last line without a line end, is as whole as those before it. */
+bool cut_is_whole(const text_scanner *s);
+/* A table or a step ends here, or should have. */
+void cut_check_end(text_scanner *s);
+/* What speaks for a file that was cut off, when all lines are read: takes an incomplete row back.
+ */
+void cut_finish(text_scanner *s);
 
 static inline void scan_no_memory(text_scanner *s)
 {

@@ -1,0 +1,30 @@
+/* weartrack psd: the power spectrum of a measured surface.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_psd(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "psd",
+        .arguments = "[OPTION]... FILE...",
+        .what = "Power spectrum C(q) of a surface from height maps and profiles of it, as "
+                "friction and layer take it: with errors, the reliable range, "
+                "a self-affine law and the roughness numbers of every scan. Scans of several sizes "
+                "are stitched, several places averaged. Folders and patterns are allowed.",
+        .common = "output formats files-from provenance cost",
+        .notes = "The tables power_spectrum, surfaces and scan_spectra (with --scans) follow one "
+                 "another.",
+        .n_files = CMD_SOME};
+    wt_topography_job job = wt_topography_job_defaults();
+    wt_file_set set = {.read = wt_read_defaults()};
+    cmd_part parts[] = {{wt_topography_job_params(), &job, NULL, 0},
+                        {wt_read_params(), &set.read, "format", 0}};
+    cmd_session s = cmd_session_defaults();
+    wt_topography_tables made = {0};
+    wt_table **const tables[] = {&made.power_spectrum, &made.surfaces, &made.scan_spectra};
+    job.sets = &set;
+    job.n_sets = 1;
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
+        cmd_finish(&s, wt_topography_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+    return cmd_session_free(&s);
+}

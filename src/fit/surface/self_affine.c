@@ -1,0 +1,176 @@
+/* The self-affine law with a roll-off behind a spectrum: for a roll-off that is given it is linear
+ * in ln C. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/surface/surface.h"
+
+#include "base/gsl_quiet.h"
+#include "base/normal.h"
+#include "fit/students_t.h"
+#include "model/cholesky.h"
+#include "model/root.h"
+#include "model/roughness.h"
+
+#include <float.h>
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
+
+typedef struct law_fit {
+    double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
+    size_t n;
+    double c, power; /* of the last roll-off that was tried: ln C0, -2 (1 + H) */
+} law_fit;
+
+/* Least squares for a roll-off at x = r; returns chi-squared. */
+static double chi_squared(law_fit *f, double r)
+{
+    double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, chi = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        const double x = fmax(0, f->x[i] - r), w = f->weight[i];
+        s += w;
+        sx += w * x;
+        sy += w * f->y[i];
+        sxx += w * x * x;
+        sxy += w * x * f->y[i];
+    }
+    const double d = s * sxx - sx * sx;
+    f->power = (s * sxy - sx * sy) / d;
+    f->c = (sy - f->power * sx) / s;
+    for (size_t i = 0; i < f->n; i++) {
+        const double e = f->y[i] - f->c - f->power * fmax(0, f->x[i] - r);
+        chi += f->weight[i] * e * e;
+    }
+    return chi;
+}
+
+static double less_chi_squared(double r, void *user)
+{
+    return -chi_squared(user, r);
+}
+
+/* The best roll-off: a kink at each point, so between each two of them on its own. Two points at
+ * least lie above it, or the slope is not known. */
+static double find_roll_off(law_fit *f, double *best)
+{
+    enum { SECTIONS = 40 }; /* to 1e-8 of the distance of two points */
+    double at = f->x[0];
+    *best = chi_squared(f, at);
+    for (size_t i = 0; i + 3 < f->n; i++) {
+        const double r = root_maximum(less_chi_squared, f, f->x[i], f->x[i + 1], SECTIONS);
+        const double chi = chi_squared(f, r);
+        if (chi < *best) {
+            *best = chi;
+            at = r;
+        }
+    }
+    return at;
+}
+
+/* (J^T W J)^-1 times the misfit. */
+static bool find_covariance(const law_fit *f, double r, bool rolls_off, double misfit,
+                            double to[CONSTANTS][CONSTANTS])
+{
+    const size_t of[] = {LN_C0, HURST, LN_ROLL_OFF}, n = rolls_off ? 3 : 2;
+    double normal[CONSTANTS][CONSTANTS] = {{0}};
+    for (size_t i = 0; i < f->n; i++) {
+        const double x = f->x[i] - r, above = x > 0 ? 1 : 0;
+        const double slope[] = {1, -2 * above * x, -above * f->power};
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = 0; b < n; b++)
+                normal[a][b] += f->weight[i] * slope[a] * slope[b];
+    }
+    for (size_t c = 0; c < n; c++) {
+        double m[CONSTANTS][CONSTANTS], e[CONSTANTS] = {0};
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = 0; b < n; b++)
+                m[a][b] = normal[a][b];
+        e[c] = misfit;
+        if (!cholesky_solve(&m[0][0], CONSTANTS, n, (double)(n * n) * DBL_EPSILON, e))
+            return false;
+        for (size_t a = 0; a < n; a++)
+            to[of[a]][of[c]] = e[a];
+    }
+    return true;
+}
+
+static wt_interval of_logarithm(double ln, double variance, double t)
+{
+    const double reach = t * sqrt(variance);
+    wt_interval i = {exp(ln), 0, exp(ln - reach), exp(ln + reach)};
+    i.standard_error = i.value * reach / NORMAL_95;
+    return i;
+}
+
+static void fill_law(const law_fit *f, double r, const wt_surface_spectrum *s, double freedom,
+                     wt_self_affine *to)
+{
+    gsl_quiet();
+    const double t = students_t_quantile(freedom);
+    double place = s->place_error > 0 ? s->place_error : 0;
+    place *= place > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
+    to->covariance[LN_C0][LN_C0] += place * place;
+    to->c0 = of_logarithm(f->c, to->covariance[LN_C0][LN_C0], t);
+    to->roll_off = of_logarithm(r, to->covariance[LN_ROLL_OFF][LN_ROLL_OFF], t);
+    const double h = -f->power / 2 - 1, reach = t * sqrt(to->covariance[HURST][HURST]);
+    to->hurst = (wt_interval){h, reach / NORMAL_95, h - reach, h + reach};
+}
+
+wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
+{
+    wt_self_affine law = {.found = false};
+    law_fit f = {.x = malloc(3 * (spectrum->n + 1) * sizeof *f.x)};
+    if (f.x == NULL)
+        return law;
+    f.y = f.x + spectrum->n;
+    f.weight = f.y + spectrum->n;
+    for (size_t k = 0; k < spectrum->n; k++) {
+        const wt_spectrum_bin *b = &spectrum->bins[k];
+        if (!b->reliable)
+            continue;
+        f.x[f.n] = log(b->wavenumber);
+        f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
+        f.weight[f.n++] = 1 / surface_log_variance(b->freedom);
+    }
+    if (f.n > CONSTANTS + 1) {
+        double best;
+        const double none = chi_squared(&f, f.x[0]), r = find_roll_off(&f, &best);
+        const double freedom = (double)(f.n - CONSTANTS), misfit = fmax(1, best / freedom);
+        /* 95 % of chi-squared with one degree of freedom: a roll-off that the scatter could make is
+         * none. */
+        law.rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
+        const double at = law.rolls_off ? r : f.x[0];
+        law.n = f.n;
+        law.misfit = chi_squared(&f, at) / (law.rolls_off ? freedom : freedom + 1);
+        law.found = f.power < 0 &&
+                    find_covariance(&f, at, law.rolls_off, fmax(1, law.misfit), law.covariance);
+        if (law.found)
+            fill_law(&f, at, spectrum, law.rolls_off ? freedom : freedom + 1, &law);
+    }
+    free(f.x);
+    return law;
+}
+
+/* ---- where the slope ends -------------------------------------------------------------------- */
+
+typedef struct slope_root {
+    const wt_roughness *roughness;
+    double square;
+} slope_root;
+
+static double slope_above(double ln_q, void *user)
+{
+    const slope_root *const s = user;
+    return 2 * M_PI * roughness_moment(s->roughness, 3, exp(ln_q)) - s->square;
+}
+
+double wt_roughness_slope_end(const wt_roughness *roughness, double slope)
+{
+    slope_root s = {roughness, slope * slope};
+    double end = (double)NAN;
+    const double low = log(roughness->q0), high = log(roughness->q1);
+    if (!(slope > 0) || !(slope_above(high, &s) >= 0) ||
+        root_find(slope_above, &s, low, high, 0, &end, NULL) != WT_OK)
+        return (double)NAN;
+    return exp(end);
+}

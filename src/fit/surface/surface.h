@@ -1,0 +1,65 @@
+/* Inside the fit room: the steps from heights to a power spectrum, and from spectra to one.
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_FIT_SURFACE_SURFACE_H
+#define WEARTRACK_FIT_SURFACE_SURFACE_H
+
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_integration.h>
+
+/* ---- heights: surface_form.c, surface_fill.c --------------------------------------------------
+ */
+
+/* 1; x, y; x^2, x y, y^2, with x and y from -1 to 1 over the points. */
+enum { FORM_TERMS = 6 };
+/* Takes the polynomial of that degree off, which is fitted to the finite heights by least squares;
+ * of a profile that in x alone. `coefficients` of the terms above, 0 where there is none.
+ * WT_E_EMPTY with fewer heights than terms. */
+wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
+                              double coefficients[FORM_TERMS], wt_error *err) WT_NODISCARD;
+/* Fills missing heights by the membrane over their neighbours: the five-point Laplace equation,
+ * without a slope across the edges. */
+wt_status surface_fill(double *z, size_t nx, size_t ny, wt_error *err) WT_NODISCARD;
+
+/* ---- spectra: surface_transform.c -------------------------------------------------------------
+ */
+
+/* Bins are ten to a decade; bin k holds the modes of 10^((k - 1/2)/10) <= q / reference
+ * < 10^((k + 1/2)/10). Modes outside [low, high] are left out. */
+typedef struct surface_bins {
+    double reference, low, high; /* [rad/m] */
+} surface_bins;
+/* C(q) of the heights, C1(q) of their rows if `lines`; the arrays of `to` are made. */
+wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                            const surface_bins *bins, wt_surface_spectrum *to,
+                            wt_error *err) WT_NODISCARD;
+/* By how much the modes of a window are correlated: mean(w^4) / mean(w^2)^2 over one direction,
+ * from many points. */
+double surface_correlation(wt_surface_window window);
+/* Values of C1 of one row at the modes 1 .. n/2, of all rows in the mean; for the tests. */
+wt_status surface_lines(const wt_height_map *map, wt_surface_window window, double *density,
+                        wt_error *err) WT_NODISCARD;
+
+/* ---- the scatter of a mean of exponential variables: surface_scatter.c -------------------------
+ */
+
+/* ln of a mean with so many degrees of freedom: what it is off ln of the truth in the mean, and its
+ * variance; the freedom of a variance. */
+double surface_log_bias(double freedom);
+double surface_log_variance(double freedom);
+double surface_freedom_of(double variance);
+/* The interval of the truth behind a mean. */
+wt_interval surface_interval(double mean, double freedom);
+
+/* ---- C of C1: surface_invert.c ------------------------------------------------------------------
+ */
+
+/* C(q) = -(1/pi) int_q^inf C1'(k) / sqrt(k^2 - q^2) dk of log-log linear C1 between n >= 2 knots,
+ * above which its last slope goes on (`goes_on`) or it is 0. NaN below the first knot, and if the
+ * last slope is not steeper than -1 where it goes on. */
+double surface_invert(const double *q, const double *c1, size_t n, bool goes_on, double at,
+                      const gsl_integration_glfixed_table *rule);
+enum { INVERSION_POINTS = 10 }; /* of the rule; surface_invert.c has the reason */
+
+#endif

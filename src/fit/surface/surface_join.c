@@ -1,0 +1,213 @@
+/* Spectra of several scans to one: scans of several sizes are stitched, several places averaged.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/surface/surface.h"
+
+#include "base/normal.h"
+#include "fit/students_t.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* What the scans have in a bin of the same edges. */
+typedef struct joining {
+    const wt_surface_spectrum *const *spectra;
+    size_t n;
+    int first, last;
+    double *offset; /* [n] ln C of a scan above the mean of them */
+    double *weight; /* [n] of that */
+} joining;
+
+static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (s->bins[k].index == index)
+            return s->bins[k].reliable ? &s->bins[k] : NULL;
+    return NULL;
+}
+
+static double log_density(const wt_spectrum_bin *b)
+{
+    return log(b->density) - surface_log_bias(b->freedom);
+}
+
+/* ---- from place to place --------------------------------------------------------------------- */
+
+/* The mean of a bin with the offsets taken off; how many scans have it. */
+static size_t mean_without(const joining *j, int index, double *mean)
+{
+    double sum = 0, weights = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        if (b == NULL)
+            continue;
+        sum += b->freedom * (log_density(b) - j->offset[i]);
+        weights += b->freedom;
+        n++;
+    }
+    *mean = sum / weights;
+    return n;
+}
+
+/* One step towards offsets and means of bins that agree; the largest change of an offset. */
+static double refine_offsets(joining *j, double *sum)
+{
+    double middle = 0, change = 0;
+    size_t known = 0;
+    for (size_t i = 0; i < j->n; i++)
+        sum[i] = j->weight[i] = 0;
+    for (int index = j->first; index <= j->last; index++) {
+        double mean;
+        if (mean_without(j, index, &mean) < 2)
+            continue;
+        for (size_t i = 0; i < j->n; i++) {
+            const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+            if (b == NULL)
+                continue;
+            sum[i] += (log_density(b) - mean) / surface_log_variance(b->freedom);
+            j->weight[i] += 1 / surface_log_variance(b->freedom);
+        }
+    }
+    for (size_t i = 0; i < j->n; i++)
+        if (j->weight[i] > 0) {
+            middle += sum[i] / j->weight[i];
+            known++;
+        }
+    for (size_t i = 0; i < j->n; i++)
+        if (j->weight[i] > 0) {
+            const double next = sum[i] / j->weight[i] - middle / (double)known;
+            change = fmax(change, fabs(next - j->offset[i]));
+            j->offset[i] = next;
+        }
+    return change;
+}
+
+/* Of the scans that share bins with others: the variance of their offsets less what the scatter of
+ * the modes gives them. */
+static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
+{
+    enum { STEPS = 200 };        /* each shrinks the change, of two scans at once */
+    const double settled = 1e-6; /* of ln C, far below its scatter */
+    double squares = 0, noise = 0;
+    size_t n = 0;
+    for (int step = 0; step < STEPS && refine_offsets(j, scratch) > settled; step++)
+        ;
+    for (size_t i = 0; i < j->n; i++)
+        if (j->weight[i] > 0) {
+            squares += j->offset[i] * j->offset[i];
+            noise += 1 / j->weight[i];
+            n++;
+        }
+    to->place_scatter = to->place_error = to->place_freedom = (double)NAN;
+    if (n < 2)
+        return;
+    to->place_scatter = sqrt(fmax(0, squares / (double)(n - 1) - noise / (double)n));
+    to->place_error = to->place_scatter / sqrt((double)n);
+    to->place_freedom = (double)(n - 1);
+}
+
+/* ---- bins ------------------------------------------------------------------------------------ */
+
+/* Means of ln q and ln C by the numbers of modes. A mean of logarithms is too low by more where a
+ * scan has few modes: what it lacks against the mean of all modes is added. */
+static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
+{
+    double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, cosine = 0,
+           sine = 0, deviation = 0;
+    *to = (wt_spectrum_bin){.index = index, .reliable = true};
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        if (b == NULL)
+            continue;
+        const double w = (double)b->n;
+        n += w;
+        freedom += b->freedom;
+        ln_q += w * log(b->wavenumber);
+        ln_c += w * log(b->density);
+        q += w * b->mean_wavenumber;
+        bias += w * surface_log_bias(b->freedom);
+        variance += w * w * surface_log_variance(b->freedom);
+        cosine += w * b->cosine;
+        sine += w * b->sine;
+        to->n += b->n;
+        to->scans += b->scans;
+        deviation += w * (b->deviation / b->density) * (b->deviation / b->density);
+        to->width = fmax(to->width, b->width);
+    }
+    if (n == 0)
+        return false;
+    const bool one = to->scans == 1;
+    to->wavenumber = exp(ln_q / n);
+    to->mean_wavenumber = q / n;
+    to->density = exp(ln_c / n + (one ? 0 : surface_log_bias(freedom) - bias / n));
+    to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
+    to->deviation = to->density * sqrt(deviation / n);
+    to->cosine = cosine / n;
+    to->sine = sine / n;
+    return true;
+}
+
+static void find_span(joining *j, wt_surface_spectrum *to)
+{
+    j->first = INT_MAX;
+    j->last = INT_MIN;
+    to->from = (double)INFINITY;
+    to->to = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_surface_spectrum *s = j->spectra[i];
+        to->from = fmin(to->from, s->from);
+        if (s->to > to->to) {
+            to->to = s->to;
+            to->ends_by = s->ends_by;
+        }
+        for (size_t k = 0; k < s->n; k++)
+            if (s->bins[k].reliable) {
+                j->first = s->bins[k].index < j->first ? s->bins[k].index : j->first;
+                j->last = s->bins[k].index > j->last ? s->bins[k].index : j->last;
+            }
+    }
+}
+
+wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
+                          wt_surface_spectrum *joined, wt_error *err)
+{
+    if (spectra == NULL || n == 0 || joined == NULL)
+        return wt_fail(err, WT_E_ARG, "no spectra");
+    joining j = {.spectra = spectra, .n = n};
+    wt_surface_spectrum made = {.kind = spectra[0]->kind};
+    find_span(&j, &made);
+    if (j.first > j.last) {
+        wt_fail(err, WT_E_EMPTY, "no wavenumbers are reliable");
+        wt_error_advice(err, "measure with more points, over a larger area, or with a sharper tip");
+        return WT_E_EMPTY;
+    }
+    made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
+    j.offset = calloc(3 * n, sizeof *j.offset);
+    wt_status status = WT_OK;
+    if (made.bins == NULL || j.offset == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    if (status == WT_OK) {
+        j.weight = j.offset + n;
+        find_places(&j, &made, j.offset + 2 * n);
+        for (int index = j.first; index <= j.last; index++)
+            made.n += join_bin(&j, index, &made.bins[made.n]) ? 1 : 0;
+        *joined = made;
+    } else {
+        free(made.bins);
+    }
+    free(j.offset);
+    return status;
+}
+
+wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
+{
+    const wt_spectrum_bin *b = &spectrum->bins[bin];
+    double freedom = b->freedom;
+    if (spectrum->place_error > 0) {
+        const double place =
+            spectrum->place_error * students_t_quantile(spectrum->place_freedom) / NORMAL_95;
+        freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
+    }
+    return surface_interval(b->density, freedom);
+}

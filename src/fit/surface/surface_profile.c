@@ -1,0 +1,69 @@
+/* The spectrum of a surface from that of its profiles, with its scatter.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/surface/surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The relative variance of C at a knot: what the scatter of every knot of C1 does to it. */
+static double variance_at(const wt_surface_spectrum *p, const double *q, double *c1, size_t at,
+                          double c, const gsl_integration_glfixed_table *rule)
+{
+    const double step = 1e-4; /* of ln C1: the inversion is smooth in it */
+    double sum = 0;
+    for (size_t k = 0; k < p->n; k++) {
+        const double was = c1[k];
+        c1[k] = was * exp(step);
+        const double high = surface_invert(q, c1, p->n, true, q[at], rule);
+        c1[k] = was * exp(-step);
+        const double low = surface_invert(q, c1, p->n, true, q[at], rule);
+        c1[k] = was;
+        const double slope = (high - low) / (2 * step * c);
+        sum += slope * slope * surface_log_variance(p->bins[k].freedom);
+    }
+    return sum;
+}
+
+wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
+                            wt_error *err)
+{
+    if (profile == NULL || surface == NULL || profile->kind != WT_SPECTRUM_1D || profile->n < 2)
+        return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
+    wt_surface_spectrum made = *profile;
+    double *q = malloc(2 * profile->n * sizeof *q);
+    made.kind = WT_SPECTRUM_2D;
+    made.n = 0;
+    made.bins = malloc(profile->n * sizeof *made.bins);
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    wt_status status = q != NULL && made.bins != NULL && rule != NULL
+                           ? WT_OK
+                           : wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    double *c1 = q != NULL ? q + profile->n : NULL;
+    for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
+        q[k] = profile->bins[k].wavenumber;
+        c1[k] = profile->bins[k].density;
+    }
+    if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule))) {
+        status = wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
+        wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
+        wt_error_advice(err, "noise makes it flat: measure with less, or more points_per_wave");
+    }
+    for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
+        const double c = surface_invert(q, c1, profile->n, true, q[k], rule);
+        if (!(c > 0))
+            continue;
+        wt_spectrum_bin *b = &made.bins[made.n++];
+        *b = profile->bins[k];
+        b->density = c;
+        b->deviation = b->cosine = b->sine = (double)NAN;
+        b->freedom = surface_freedom_of(variance_at(profile, q, c1, k, c, rule));
+    }
+    free(q);
+    gsl_integration_glfixed_table_free(rule);
+    if (status == WT_OK)
+        *surface = made;
+    else
+        free(made.bins);
+    return status;
+}

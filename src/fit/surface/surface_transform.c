@@ -1,0 +1,260 @@
+/* Heights to a power spectrum by bins: window, discrete Fourier transform, means over modes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/surface/surface.h"
+
+#include <fftw3.h>
+#include <float.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+enum { PER_DECADE = 10 }; /* a law is straight over a bin, and its first ones hold some modes */
+
+/* ---- windows --------------------------------------------------------------------------------- */
+
+static double window_at(wt_surface_window window, size_t i, size_t n)
+{
+    const double t = (2 * (double)i + 1 - (double)n) / (double)n;
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 0.5 * (1 - cos(2 * M_PI * (double)i / (double)n));
+    case WT_WINDOW_WELCH:
+        return 1 - t * t;
+    case WT_WINDOW_NONE:
+        break;
+    }
+    return 1;
+}
+
+double surface_correlation(wt_surface_window window)
+{
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 35.0 / 18;
+    case WT_WINDOW_WELCH:
+        return 10.0 / 7;
+    case WT_WINDOW_NONE:
+        break;
+    }
+    return 1;
+}
+
+/* The window over one direction [n], and the mean of its square. */
+static double *make_window(wt_surface_window window, size_t n, double *mean_square)
+{
+    double *w = malloc(n * sizeof *w), sum = 0;
+    for (size_t i = 0; w != NULL && i < n; i++) {
+        w[i] = window_at(window, i, n);
+        sum += w[i] * w[i];
+    }
+    *mean_square = sum / (double)n;
+    return w;
+}
+
+/* ---- transforms ------------------------------------------------------------------------------ */
+
+/* Rows of nx heights and room for nx / 2 + 1 complex numbers each. */
+typedef struct transform {
+    double *row; /* [ny * stride] */
+    size_t nx, ny, stride;
+    double density; /* times |amplitude|^2 */
+} transform;
+
+static pthread_mutex_t planning = PTHREAD_MUTEX_INITIALIZER; /* FFTW plans by one at a time */
+
+/* Over rows and columns, or over each row. */
+static wt_status run(const transform *t, bool lines, wt_error *err)
+{
+    fftw_complex *out = (fftw_complex *)t->row;
+    const int nx = (int)t->nx, ny = (int)t->ny, stride = (int)t->stride;
+    pthread_mutex_lock(&planning);
+    fftw_plan plan = lines ? fftw_plan_many_dft_r2c(1, &nx, ny, t->row, NULL, 1, stride, out, NULL,
+                                                    1, stride / 2, FFTW_ESTIMATE)
+                           : fftw_plan_dft_r2c_2d(ny, nx, t->row, out, FFTW_ESTIMATE);
+    pthread_mutex_unlock(&planning);
+    if (plan == NULL)
+        return wt_fail(err, WT_E_INTERNAL, "no Fourier transform of %zu x %zu heights", t->nx,
+                       t->ny);
+    fftw_execute(plan);
+    pthread_mutex_lock(&planning);
+    fftw_destroy_plan(plan);
+    pthread_mutex_unlock(&planning);
+    return WT_OK;
+}
+
+/* C = (dx dy)^2 |DFT(w h)|^2 / ((2 pi)^2 Lx Ly <w^2>), C1 = dx^2 |DFT(w h)|^2 / (2 pi L <w^2>). */
+static wt_status make_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                                transform *t, wt_error *err)
+{
+    double square_x = 1, square_y = 1;
+    double *wx = make_window(window, map->nx, &square_x);
+    double *wy = make_window(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
+    *t = (transform){.nx = map->nx, .ny = map->ny, .stride = 2 * (map->nx / 2 + 1)};
+    /* Not by fftw_malloc, which ends the process where memory runs out. */
+    t->row = malloc(t->ny * t->stride * sizeof *t->row);
+    wt_status status = WT_OK;
+    if (wx == NULL || wy == NULL || t->row == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a transform of %zu x %zu heights",
+                         map->nx, map->ny);
+    for (size_t j = 0; status == WT_OK && j < t->ny; j++)
+        for (size_t i = 0; i < t->nx; i++)
+            t->row[j * t->stride + i] = wx[i] * wy[j] * map->z[j * t->nx + i];
+    if (status == WT_OK)
+        status = run(t, lines, err);
+    t->density = map->dx / (2 * M_PI * (double)map->nx * square_x);
+    if (!lines)
+        t->density *= map->dy / (2 * M_PI * (double)map->ny * square_y);
+    free(wx);
+    free(wy);
+    if (status != WT_OK) {
+        free(t->row);
+        t->row = NULL;
+    }
+    return status;
+}
+
+static double density_at(const transform *t, size_t i, size_t j)
+{
+    const double *a = t->row + j * t->stride + 2 * i;
+    return t->density * (a[0] * a[0] + a[1] * a[1]);
+}
+
+/* ---- bins ------------------------------------------------------------------------------------ */
+
+typedef struct mode_sums {
+    double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
+    double first, cosine, sine, c_cosine, c_sine;
+} mode_sums;
+
+typedef struct binning {
+    const surface_bins *of;
+    int first; /* number of the first bin */
+    size_t n;
+    mode_sums *sums;
+} binning;
+
+static int bin_of(const surface_bins *of, double q)
+{
+    return (int)floor(PER_DECADE * log10(q / of->reference) + 0.5);
+}
+
+static wt_status make_bins(const surface_bins *of, binning *b, wt_error *err)
+{
+    *b = (binning){.of = of, .first = bin_of(of, of->low)};
+    b->n = of->high >= of->low ? (size_t)(bin_of(of, of->high) - b->first) + 1 : 0;
+    b->sums = calloc(b->n + 1, sizeof *b->sums);
+    return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
+}
+
+/* A mode that stands for `times` of the full plane. */
+static void add_mode(const binning *b, double qx, double qy, double c, double times)
+{
+    const double q = hypot(qx, qy);
+    /* Modes of a lattice lie on the limits, up to rounding. */
+    if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
+        return;
+    const int k = bin_of(b->of, q) - b->first;
+    if (k < 0 || (size_t)k >= b->n)
+        return;
+    mode_sums *s = &b->sums[k];
+    /* from the lower edge on, so that little cancels */
+    const double ln_q = log(q / b->of->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
+    const double cosine = (qx * qx - qy * qy) / (q * q), sine = 2 * qx * qy / (q * q);
+    if (s->n == 0)
+        s->first = c;
+    s->n += times;
+    s->q += times * q;
+    s->ln_q += times * ln_q;
+    s->ln_q2 += times * ln_q * ln_q;
+    s->c += times * (c - s->first);
+    s->square += times * (c - s->first) * (c - s->first);
+    s->cosine += times * cosine;
+    s->sine += times * sine;
+    s->c_cosine += times * c * cosine;
+    s->c_sine += times * c * sine;
+}
+
+static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double reference,
+                                  double correlation)
+{
+    const double edge = reference * pow(10, (index - 0.5) / PER_DECADE);
+    const double c = s->first + s->c / s->n;
+    const double squares = s->square - s->c * s->c / s->n;
+    return (wt_spectrum_bin){.index = index,
+                             .wavenumber = edge * exp(s->ln_q / s->n),
+                             .width = sqrt(fmax(0, s->ln_q2 - s->ln_q * s->ln_q / s->n) / s->n),
+                             .mean_wavenumber = s->q / s->n,
+                             .density = c,
+                             .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
+                             .n = (size_t)s->n,
+                             .freedom = s->n / correlation,
+                             .cosine = 2 * (s->c_cosine - c * s->cosine) / (s->n * c),
+                             .sine = 2 * (s->c_sine - c * s->sine) / (s->n * c)};
+}
+
+/* Of an even number of points the mode n/2 stands for itself alone, as that of 0 does. */
+static double times_of(size_t i, size_t n)
+{
+    return i == 0 || 2 * i == n ? 1 : 2;
+}
+
+static void bin_plane(const transform *t, const wt_height_map *map, const binning *b)
+{
+    const double step_x = 2 * M_PI / ((double)t->nx * map->dx),
+                 step_y = 2 * M_PI / ((double)t->ny * map->dy);
+    for (size_t j = 0; j < t->ny; j++) {
+        const double qy = step_y * (2 * j < t->ny ? (double)j : (double)j - (double)t->ny);
+        for (size_t i = j == 0 ? 1 : 0; i <= t->nx / 2; i++)
+            add_mode(b, step_x * (double)i, qy, density_at(t, i, j), times_of(i, t->nx));
+    }
+}
+
+/* Each mode stands for itself and the one at -q. */
+static void bin_lines(const transform *t, const wt_height_map *map, const binning *b)
+{
+    const double step = 2 * M_PI / ((double)t->nx * map->dx);
+    for (size_t j = 0; j < t->ny; j++)
+        for (size_t i = 1; i <= t->nx / 2; i++)
+            add_mode(b, step * (double)i, 0, density_at(t, i, j), times_of(i, t->nx));
+}
+
+wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                            const surface_bins *bins, wt_surface_spectrum *to, wt_error *err)
+{
+    transform t = {.row = NULL};
+    binning b = {.n = 0};
+    const double one = surface_correlation(window), correlation = lines ? one : one * one;
+    wt_status status = make_bins(bins, &b, err);
+    if (status == WT_OK)
+        status = make_transform(map, window, lines, &t, err);
+    to->kind = lines ? WT_SPECTRUM_1D : WT_SPECTRUM_2D;
+    to->n = 0;
+    to->bins = status == WT_OK ? calloc(b.n + 1, sizeof *to->bins) : NULL;
+    if (status == WT_OK && to->bins == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for bins");
+    if (status == WT_OK) {
+        (lines ? bin_lines : bin_plane)(&t, map, &b);
+        for (size_t k = 0; k < b.n; k++)
+            if (b.sums[k].n > 1)
+                to->bins[to->n++] =
+                    finish_bin(&b.sums[k], b.first + (int)k, bins->reference, correlation);
+    }
+    free(t.row);
+    free(b.sums);
+    return status;
+}
+
+wt_status surface_lines(const wt_height_map *map, wt_surface_window window, double *density,
+                        wt_error *err)
+{
+    transform t = {.row = NULL};
+    const wt_status status = make_transform(map, window, true, &t, err);
+    for (size_t i = 1; status == WT_OK && i <= t.nx / 2; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < t.ny; j++)
+            sum += density_at(&t, i, j);
+        density[i - 1] = sum / (double)t.ny;
+    }
+    free(t.row);
+    return status;
+}

@@ -1,0 +1,48 @@
+/* What the parts of the job of measured surfaces share. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SURFACE_SURFACE_H
+#define WEARTRACK_FLOW_SURFACE_SURFACE_H
+
+#include "flow/work/inputs.h"
+
+/* One height map or profile; heights are let go once its spectrum is known. */
+typedef struct surface_scan {
+    const char *name; /* of the file; borrowed */
+    char image[64];
+    wt_height_map map; /* z NULL */
+    wt_surface_heights heights;
+    double missing_share;
+    wt_surface_spectrum spectrum;
+    wt_surface_anisotropy directions;
+} surface_scan;
+
+/* The knots of the spectrum that is told: those that were measured, and beyond them the law. */
+typedef struct surface_knots {
+    size_t n, n_measured; /* the last of these may be `cut` */
+    bool cut;
+    double *wavenumber, *density; /* [n] */
+} surface_knots;
+void surface_knots_clear(surface_knots *knots);
+
+/* What the spectrum is as a whole. */
+typedef struct surface_whole {
+    wt_surface_spectrum spectrum;
+    wt_self_affine law;
+    wt_surface_anisotropy directions;
+    surface_knots knots;
+    double steep; /* where the rms slope reaches that of practice; NaN */
+    bool steep_by_law;
+    wt_estimate rms_height, rms_slope; /* of the knots */
+    double extrapolated_share;         /* of the squared slope */
+} surface_whole;
+/* Of the reliable bins, to the end that the job asks for. */
+wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
+                           wt_error *err) WT_NODISCARD;
+/* rms slope at which rubber stops following a surface, by practice. */
+extern const double surface_steep;
+
+wt_status surface_tables_make(const wt_topography_job *job, const surface_scan *scans, size_t n,
+                              const surface_whole *whole, wt_topography_tables *tables,
+                              wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,194 @@
+/* The tables of measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/surface/surface.h"
+
+#include "base/clocale.h"
+#include "base/normal.h"
+#include "data/tables/rows.h"
+
+#include <math.h>
+
+TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
+          double self_affine, modes, scans; const char *source;)
+TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
+           const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
+           wt_estimate steep; const char *steep_by; wt_estimate extrapolated_share, place_scatter,
+                                                    place_error, anisotropy, anisotropy_direction;
+           const char *directions, *includes, *lacks, *option; size_t n_scans;)
+TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
+TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
+TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)
+
+static wt_estimate number(double value, double standard_error)
+{
+    return (wt_estimate){value, standard_error, 0, NULL};
+}
+
+static wt_estimate of_interval(wt_interval i, bool known)
+{
+    return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
+}
+
+/* ---- the spectrum ---------------------------------------------------------------------------- */
+
+static double law_at(const wt_self_affine *law, double q)
+{
+    const double x = q / law->roll_off.value;
+    if (!law->found)
+        return (double)NAN;
+    return law->c0.value * (x > 1 ? pow(x, -2 * (1 + law->hurst.value)) : 1);
+}
+
+static void add_rows(table_writer *t, const surface_whole *w)
+{
+    const double nan = (double)NAN;
+    const surface_knots *k = &w->knots;
+    for (size_t i = 0; i < k->n; i++) {
+        const bool law = i >= k->n_measured, cut = k->cut && i + 1 == k->n_measured,
+                   bin = !law && !cut;
+        const double c = k->density[i], q = k->wavenumber[i];
+        const wt_interval none = {c, nan, nan, nan};
+        TABLE_ADD(power_spectrum, t, q, bin ? wt_surface_density(&w->spectrum, i) : none,
+                  law_at(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  bin ? (double)w->spectrum.bins[i].scans : nan,
+                  bin   ? "measured"
+                  : cut ? "cut"
+                        : "law");
+    }
+}
+
+static void print_law(const surface_whole *w, char *to, size_t size)
+{
+    const wt_self_affine *l = &w->law;
+    if (!l->found)
+        clocale_print(to, size, "none: %s",
+                      l->n > 0 ? "the spectrum does not fall" : "too few wavenumbers are reliable");
+    else
+        clocale_print(
+            to, size, "%s; misfit %.2g (chi-squared over degrees of freedom, of %zu bins%s)",
+            l->rolls_off ? "with a roll-off"
+                         : "no roll-off in the reliable range: the surface has longer waves",
+            l->misfit, l->n, l->misfit > 2 ? ": the law describes the spectrum badly" : "");
+}
+
+static void print_directions(const surface_whole *w, char *to, size_t size)
+{
+    const wt_surface_anisotropy *a = &w->directions;
+    if (isnan(a->amplitude))
+        clocale_print(to, size, "cannot say: profiles; a height map would tell");
+    else if (a->chance < 0.01)
+        clocale_print(to, size,
+                      "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
+                      "as much by scatter: %.1g)",
+                      a->amplitude, a->direction * 180 / M_PI, a->chance);
+    else
+        clocale_print(to, size,
+                      "alike: C changes by %.2g of its mean, as scatter does (chance %.2g)",
+                      a->amplitude, a->chance);
+}
+
+/* What is typed where a law is asked for, from the first bin to the end of the spectrum. */
+static void print_option(const surface_whole *w, char *to, size_t size)
+{
+    const surface_knots *k = &w->knots;
+    to[0] = '\0';
+    if (w->law.found)
+        clocale_print(to, size,
+                      "--roughness self-affine:q0=%.6grad/m,qr=%.6grad/m,q1=%.6grad/m,hurst=%.4g,"
+                      "c0=%.6gm^4",
+                      k->wavenumber[0], w->law.roll_off.value, k->wavenumber[k->n - 1],
+                      w->law.hurst.value, w->law.c0.value);
+}
+
+static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
+                               wt_error *err)
+{
+    char law[256], directions[256], option[256];
+    const wt_surface_spectrum *s = &w->spectrum;
+    const bool places = !isnan(s->place_scatter), area = !isnan(w->directions.amplitude);
+    const double nan = (double)NAN;
+    table_writer t = table_begin(&power_spectrum_schema, err);
+    add_rows(&t, w);
+    print_law(w, law, sizeof law);
+    print_directions(w, directions, sizeof directions);
+    print_option(w, option, sizeof option);
+    TABLE_SET(
+        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+        .hurst = of_interval(w->law.hurst, w->law.found),
+        .c0 = of_interval(w->law.c0, w->law.found),
+        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
+        .reliable_from = number(s->bins[0].wavenumber, 0),
+        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+        .steep = number(w->steep, 0),
+        .steep_by = isnan(w->steep)   ? "not reached"
+                    : w->steep_by_law ? "law"
+                                      : "measured",
+        .extrapolated_share =
+            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+        .place_scatter = number(s->place_scatter, 0), .place_error = number(s->place_error, 0),
+        .anisotropy = number(w->directions.amplitude, 0),
+        .anisotropy_direction = number(area ? w->directions.direction : nan, 0),
+        .directions = directions,
+        .includes = places ? "modes of each bin, scatter from place to place" : "modes of each bin",
+        .lacks = places ? "calibration of the scanner, noise of the instrument"
+                        : "places of the surface, calibration of the scanner, noise of the "
+                          "instrument",
+        .option = option, .n_scans = n_scans);
+    return table_end(&t, table);
+}
+
+/* ---- the scans ------------------------------------------------------------------------------- */
+
+static wt_status make_surfaces(const wt_topography_job *job, const surface_scan *scans, size_t n,
+                               wt_table **table, wt_error *err)
+{
+    static const char *const forms[] = {"mean", "plane", "quadratic"};
+    static const char *const windows[] = {"hann", "welch", "none"};
+    table_writer t = table_begin(&surfaces_schema, err);
+    for (size_t i = 0; i < n; i++)
+        surfaces_add_row(&t, &scans[i]);
+    TABLE_SET(surfaces, &t, forms[job->options.form], windows[job->options.window]);
+    return table_end(&t, table);
+}
+
+static wt_status make_scans(const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&scan_spectra_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const wt_surface_spectrum *s = &scans[i].spectrum;
+        for (size_t k = 0; k < s->n; k++) {
+            TABLE_ADD(scan_spectra, &t, s->bins[k], s->bins[k].deviation / s->bins[k].density);
+            scan_spectra_put_text(&t, SCAN_SPECTRA_FILE, scans[i].name);
+            scan_spectra_put(&t,
+                             s->kind == WT_SPECTRUM_2D ? SCAN_SPECTRA_SURFACE : SCAN_SPECTRA_LINE,
+                             s->bins[k].density);
+        }
+    }
+    return table_end(&t, table);
+}
+
+void wt_topography_tables_clear(wt_topography_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->power_spectrum);
+    wt_table_free(tables->surfaces);
+    wt_table_free(tables->scan_spectra);
+    *tables = (wt_topography_tables){NULL, NULL, NULL};
+}
+
+wt_status surface_tables_make(const wt_topography_job *job, const surface_scan *scans, size_t n,
+                              const surface_whole *whole, wt_topography_tables *tables,
+                              wt_error *err)
+{
+    wt_topography_tables made = {NULL, NULL, NULL};
+    wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK)
+        status = make_surfaces(job, scans, n, &made.surfaces, err);
+    if (status == WT_OK && job->scans)
+        status = make_scans(scans, n, &made.scan_spectra, err);
+    if (status == WT_OK)
+        *tables = made;
+    else
+        wt_topography_tables_clear(&made);
+    return status;
+}

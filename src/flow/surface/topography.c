@@ -1,0 +1,207 @@
+/* The job of measured surfaces: height maps and profiles to one power spectrum.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/param.h"
+#include "flow/surface/surface.h"
+#include "flow/work/cost.h"
+#include "flow/work/heights.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* An anisotropy that could be scatter is none, and less than this changes friction by less than the
+ * scatter of a spectrum does. A heuristic. */
+static const double least_chance = 0.01, least_anisotropy = 0.1;
+/* A share of filled heights that is worth a word. A heuristic: above it C may be off by as much. */
+static const double some_missing = 0.01;
+
+wt_topography_job wt_topography_job_defaults(void)
+{
+    return (wt_topography_job){
+        .options = wt_surface_options_defaults(), .end = (double)NAN, .end_slope = (double)NAN};
+}
+
+static const wt_param rows[] = {
+    {PARAM_CHOICE_OF("form", wt_topography_job, options.form, "mean|plane|quadratic"),
+     .flags = PARAM_NO_CASE,
+     .help = "form of a scan that is taken off by least squares; of a profile the same of one "
+             "variable"},
+    {PARAM_CHOICE_OF("window", wt_topography_job, options.window, "hann|welch|none"),
+     .flags = PARAM_NO_CASE,
+     .help = "window before the transform; none is for surfaces that go on beyond their edges"},
+    {PARAM("largest-missing", wt_topography_job, options.largest_missing, WT_Q_NONE,
+           FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "share of missing heights up to which they are filled; a scan with more is refused"},
+    {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
+     .value = "N", .flags = PARAM_NO_CASE, .help = "fewest points of a wave that is reliable"},
+    {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
+     .value = "R", .unset = "", .flags = PARAM_NO_CASE,
+     .help =
+         "radius of the tip that scanned, such as 10nm: the reliable range ends where peaks are "
+         "as sharp as half of its curvature"},
+    {PARAM_TEXT_OF("image", wt_topography_job, image), .value = "NAME",
+     .unset = "the first image of heights", .flags = PARAM_NO_CASE,
+     .help = "which image of a file: a part of its name, such as backward"},
+    {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
+     .unset = "the end of the reliable range", .flags = PARAM_NO_CASE,
+     .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range it "
+             "goes on by its self-affine law"},
+    {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .unset = "", .flags = PARAM_NO_CASE,
+     .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
+    {PARAM_FLAG_OF("scans", wt_topography_job, scans), .flags = PARAM_NO_CASE,
+     .help = "the table scan_spectra, too: every scan by itself, unreliable wavenumbers included"},
+};
+PARAM_TABLE(wt_topography_job_params, wt_topography_job, rows, wt_topography_job_defaults, NO_PARTS)
+
+/* ---- scans ----------------------------------------------------------------------------------- */
+
+static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, flow_file *file,
+                              surface_scan *to, wt_error *err)
+{
+    wt_image image = {.values = NULL};
+    wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
+    if (status != WT_OK)
+        return status;
+    *to = (surface_scan){.name = file->name, .map = wt_height_map_of(&image)};
+    snprintf(to->image, sizeof to->image, "%s", image.name);
+    status = wt_surface_analyse(&to->map, &job->options, &to->heights, &to->spectrum, err);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    wt_image_clear(&image);
+    to->map.z = NULL;
+    if (status != WT_OK)
+        return status;
+    to->missing_share = (double)to->heights.missing / (double)to->heights.n;
+    to->directions = wt_surface_directions(&to->spectrum);
+    if (to->missing_share > some_missing)
+        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                        "%.2g %% of the heights are missing; they are filled smoothly, so that "
+                        "short waves are too low there",
+                        100 * to->missing_share);
+    return WT_OK;
+}
+
+static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
+                               const flow_files *files, surface_scan *scans, size_t *n,
+                               wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t n_failed = 0;
+    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
+        wt_error failure = WT_ERROR_INIT;
+        status = measure_scan(job, work, &files->file[i], &scans[*n], &failure);
+        if (status == WT_OK) {
+            (*n)++;
+        } else if (flow_leave_out(work, &files->file[i], &failure)) {
+            status = WT_OK;
+        } else {
+            n_failed++;
+            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+        }
+    }
+    if (status == WT_OK && *n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no file has heights of a surface");
+        flow_tell_files(files, n_failed, err);
+    }
+    return status;
+}
+
+/* ---- one spectrum of them -------------------------------------------------------------------- */
+
+/* The profiles among the scans, as one spectrum of the surface. */
+static wt_status invert_profiles(const wt_surface_spectrum *const *profiles, size_t n,
+                                 const wt_job *work, wt_surface_spectrum *to, wt_error *err)
+{
+    wt_surface_spectrum one = {.n = 0};
+    wt_status status = wt_surface_join(profiles, n, &one, err);
+    if (status == WT_OK)
+        status = wt_surface_invert(&one, to, err);
+    wt_surface_spectrum_clear(&one);
+    if (status == WT_OK)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the spectrum of profiles is told for a surface that is the same in all "
+                        "directions; a height map would tell");
+    return status;
+}
+
+static wt_status join_scans(const surface_scan *scans, size_t n, const wt_job *work,
+                            wt_surface_spectrum *to, wt_error *err)
+{
+    const wt_surface_spectrum **of = malloc(2 * (n + 1) * sizeof *of);
+    if (of == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_surface_spectrum **profiles = of + n + 1;
+    wt_surface_spectrum inverted = {.n = 0};
+    size_t n_areas = 0, n_profiles = 0;
+    for (size_t i = 0; i < n; i++)
+        if (scans[i].spectrum.kind == WT_SPECTRUM_2D)
+            of[n_areas++] = &scans[i].spectrum;
+        else
+            profiles[n_profiles++] = &scans[i].spectrum;
+    wt_status status = WT_OK;
+    if (n_profiles > 0)
+        status = invert_profiles(profiles, n_profiles, work, &inverted, err);
+    if (status == WT_OK && n_areas > 0) {
+        if (n_profiles > 0)
+            of[n_areas++] = &inverted;
+        status = wt_surface_join(of, n_areas, to, err);
+        wt_surface_spectrum_clear(&inverted);
+    } else if (status == WT_OK) {
+        *to = inverted;
+    }
+    free(of);
+    return status;
+}
+
+static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
+{
+    if (n == 1)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "one scan: how much places of the surface differ is not known, and no "
+                        "error holds it; scan several places");
+    if (w->directions.amplitude > least_anisotropy && w->directions.chance < least_chance)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the surface is not the same in all directions: the density changes by "
+                        "%.0f %% about its mean, which is told; friction depends on the direction "
+                        "of sliding",
+                        100 * w->directions.amplitude);
+}
+
+wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
+                             wt_topography_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of a surface");
+    flow_files files = {NULL, 0, NULL};
+    surface_whole whole = {.steep = (double)NAN};
+    surface_scan *scans = NULL;
+    size_t n = 0;
+    wt_status status = param_check(wt_topography_job_params(), job, err);
+    if (status == WT_OK && !isnan(job->end) && !isnan(job->end_slope))
+        status = wt_fail(err, WT_E_ARG, "end and end-slope: the spectrum has one end");
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    if (status == WT_OK && (scans = calloc(files.n + 1, sizeof *scans)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = measure_scans(job, work, &files, scans, &n, err);
+    if (status == WT_OK)
+        status = join_scans(scans, n, work, &whole.spectrum, err);
+    if (status == WT_OK) {
+        whole.law = wt_self_affine_fit(&whole.spectrum);
+        whole.directions = wt_surface_directions(&whole.spectrum);
+        say_whole(&whole, n, work);
+        status = surface_end_find(job, work, &whole, err);
+    }
+    if (status == WT_OK)
+        status = surface_tables_make(job, scans, n, &whole, tables, err);
+    cost_say(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
+    for (size_t i = 0; i < n; i++)
+        wt_surface_spectrum_clear(&scans[i].spectrum);
+    free(scans);
+    surface_knots_clear(&whole.knots);
+    wt_surface_spectrum_clear(&whole.spectrum);
+    flow_files_clear(&files);
+    return status;
+}

@@ -1,0 +1,353 @@
+/* The doors of a fuzz target (base/door.h), in the place of src/base/door.c: one process for many
+ * files, because a new one of a program with a sanitizer and a large corpus takes 10 ms, and a file
+ * of HDF5 is read several times: the last answers are kept. What it is told lies in memory that
+ * both share.
+ *
+ * It ends with every fault, or after READINGS files, for libraries keep what they open. A signal is
+ * a fault of the library: no more than its file fails, as behind the real door. What the sanitizer
+ * finds there, in the code of weartrack, ends the target. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/door.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <hdf5.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* PATIENCE [us] of processor time: a sound seed takes a thousand, and in a damaged heap HDF5
+ * looks for ever. */
+enum { PATIENCE = 50000, LONGEST_WAIT = 15000 /* ms */ };
+enum { READINGS = 500, FOUND = 1, CANNOT = 2 }; /* FOUND: the status of a sanitizer */
+#define MOST_FILE ((size_t)4 << 20)
+#define MOST_ANSWER ((size_t)160 << 20)
+
+/* Errors that the sanitizer finds within other libraries are theirs, and what a file has them ask
+ * for they may be refused. */
+const char *__asan_default_suppressions(void); // NOLINT(bugprone-reserved-identifier)
+const char *__asan_default_suppressions(void)  // NOLINT(bugprone-reserved-identifier)
+{
+    return "interceptor_via_lib:libhdf5\ninterceptor_via_lib:libfreexl\n";
+}
+
+const char *__asan_default_options(void); // NOLINT(bugprone-reserved-identifier)
+const char *__asan_default_options(void)  // NOLINT(bugprone-reserved-identifier)
+{
+    return "allocator_may_return_null=1:max_allocation_size_mb=1800:quarantine_size_mb=16:"
+           "malloc_context_size=8";
+}
+
+typedef struct shared {
+    door_call door;
+    door_limits limits;
+    const void *with; /* what door.with points to; all that any reading is given */
+    wt_error said;
+    size_t length; /* of the answer */
+    unsigned char bytes[MOST_FILE];
+    char answer[MOST_ANSWER];
+} shared;
+
+static shared *between;
+static pid_t reader = -1;
+static int ask, hear;
+static unsigned done;
+
+struct door_flow {
+    const char *what;
+    char *bytes;
+    size_t length, at;
+    wt_error said;
+};
+
+/* ---- behind the door ------------------------------------------------------------------------- */
+
+static void close_hdf5(void)
+{
+    hid_t files[16];
+    const ssize_t n = H5Fget_obj_ids(H5F_OBJ_ALL, H5F_OBJ_FILE, 16, files);
+    for (ssize_t i = 0; i < n; i++)
+        (void)H5Fclose(files[i]);
+}
+
+/* The file with its number, as the real door gives it. */
+static bool place_file(void)
+{
+    const int fd = memfd_create("weartrack-fuzz", 0);
+    const bool good =
+        fd >= 0 && write(fd, between->bytes, between->door.size) == (ssize_t)between->door.size;
+    if (fd == DOOR_FILE)
+        return good;
+    const bool placed = good && dup2(fd, DOOR_FILE) == DOOR_FILE;
+    (void)close(fd);
+    return placed;
+}
+
+static void read_one(void)
+{
+    door_call door = between->door;
+    door.bytes = between->bytes;
+    door.with = door.with != NULL ? &between->with : NULL;
+    between->said = (wt_error)WT_ERROR_INIT;
+    const size_t most = between->limits.answer < MOST_ANSWER ? between->limits.answer : MOST_ANSWER;
+    FILE *const answer = fmemopen(between->answer, most, "w");
+    if (answer == NULL || (door.opens_again && !place_file()))
+        _exit(CANNOT);
+    between->said.status = door.reading(&door, answer, &between->said);
+    const long length = fflush(answer) == 0 ? ftell(answer) : -1;
+    if (length < 0) { /* more than it may say */
+        between->said.status = WT_E_CORRUPT;
+        (void)snprintf(between->said.message, sizeof between->said.message, "more than it may");
+    }
+    between->length = length < 0 ? 0 : (size_t)length;
+    (void)fclose(answer);
+    close_hdf5();
+}
+
+static void stay(int from, int to)
+{
+    const struct sigaction usual = {.sa_handler = SIG_DFL};
+    const struct rlimit none = {0, 0};
+    const struct itimerval patient = {.it_value = {0, PATIENCE}}, ever = {.it_value = {0, 0}};
+    char word = 0;
+    for (int i = 1; i < NSIG; i++)
+        (void)sigaction(i, &usual, NULL);
+    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+    (void)setrlimit(RLIMIT_CORE, &none);
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* as who enters HDF5 has it */
+    while (read(from, &word, 1) == 1) {
+        (void)setitimer(ITIMER_PROF, &patient, NULL); /* its signal is the end */
+        read_one();
+        (void)setitimer(ITIMER_PROF, &ever, NULL);
+        if (write(to, &word, 1) != 1)
+            break;
+    }
+    _exit(EXIT_SUCCESS);
+}
+
+/* ---- in front of it -------------------------------------------------------------------------- */
+
+/* Ends the reader; what the sanitizer found in it ends the target. */
+static void finish_reader(void)
+{
+    int state = 0;
+    if (reader < 0)
+        return;
+    (void)close(ask);
+    (void)close(hear);
+    while (waitpid(reader, &state, 0) < 0 && errno == EINTR) {
+    }
+    reader = -1;
+    if (WIFEXITED(state) && WEXITSTATUS(state) == FOUND)
+        abort();
+}
+
+static void start_reader(void)
+{
+    int there[2], back[2];
+    if (between == NULL)
+        between =
+            mmap(NULL, sizeof *between, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (between == MAP_FAILED || pipe2(there, O_CLOEXEC) != 0 || pipe2(back, O_CLOEXEC) != 0)
+        abort();
+    reader = fork();
+    if (reader < 0)
+        abort();
+    if (reader == 0) {
+        (void)close(there[1]);
+        (void)close(back[0]);
+        /* Away from the number of the file. */
+        const int from = fcntl(there[0], F_DUPFD, DOOR_FILE + 1);
+        const int to = fcntl(back[1], F_DUPFD, DOOR_FILE + 1);
+        stay(from, to);
+    }
+    (void)close(there[0]);
+    (void)close(back[1]);
+    ask = there[1];
+    hear = back[0];
+    done = 0;
+}
+
+door_limits door_limits_of(size_t size)
+{
+    return (door_limits){.memory = (size_t)256 << 20,
+                         .answer = ((size_t)16 << 20) + 8 * size,
+                         .cpu_time = 10,
+                         .wall_time = 15};
+}
+
+/* False if it ended or took too long. */
+static bool have_read(void)
+{
+    char word = 'r';
+    struct pollfd ready = {.fd = hear, .events = POLLIN};
+    if (write(ask, &word, 1) == 1 && poll(&ready, 1, LONGEST_WAIT) == 1 &&
+        read(hear, &word, 1) == 1)
+        return true;
+    (void)kill(reader, SIGKILL); /* of one that has ended its status stays */
+    return false;
+}
+
+static bool give(const door_call *door, const door_limits *limits)
+{
+    between->door = *door;
+    between->limits = *limits;
+    between->with = door->with != NULL ? *(const void *const *)door->with : NULL;
+    return door->bytes != NULL
+               ? memcpy(between->bytes, door->bytes, door->size) != NULL
+               : pread(door->file, between->bytes, door->size, 0) == (ssize_t)door->size;
+}
+
+/* What the last files gave, for one is read for each thing that is asked of it. */
+typedef struct answered {
+    const void *reading, *with;
+    unsigned char *bytes;
+    size_t size;
+    char *answer;
+    size_t length;
+    wt_error said;
+} answered;
+static answered last[4];
+
+static const answered *find_answer(const void *reading)
+{
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++)
+        if (last[i].bytes != NULL && last[i].reading == reading && last[i].with == between->with &&
+            last[i].size == between->door.size &&
+            memcmp(last[i].bytes, between->bytes, last[i].size) == 0)
+            return &last[i];
+    return NULL;
+}
+
+static void *copy_of(const void *bytes, size_t size)
+{
+    void *const copy = malloc(size + 1);
+    if (copy == NULL)
+        abort();
+    return memcpy(copy, bytes, size);
+}
+
+static const answered *keep_answer(const void *reading, bool read_it)
+{
+    static size_t next;
+    answered *const one = &last[next++ % (sizeof last / sizeof *last)];
+    free(one->bytes);
+    free(one->answer);
+    if (!read_it) {
+        between->length = 0;
+        between->said = (wt_error)WT_ERROR_INIT;
+        between->said.status = WT_E_CORRUPT;
+        (void)snprintf(between->said.message, sizeof between->said.message, "the library fails");
+    }
+    *one = (answered){reading,
+                      between->with,
+                      copy_of(between->bytes, between->door.size),
+                      between->door.size,
+                      copy_of(between->answer, between->length),
+                      between->length,
+                      between->said};
+    return one;
+}
+
+wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **begun,
+                     wt_error *err)
+{
+    const void *reading = NULL;
+    memcpy(&reading, &door->reading, sizeof reading);
+    if (door->size > MOST_FILE)
+        return wt_fail(err, WT_E_CORRUPT, "too long");
+    if (between == NULL)
+        start_reader();
+    if (!give(door, limits))
+        return wt_fail(err, WT_E_IO, "cannot be read");
+    const answered *answer = find_answer(reading);
+    if (answer == NULL) {
+        if (done++ >= READINGS)
+            finish_reader();
+        if (reader < 0)
+            start_reader();
+        const bool read_it = have_read();
+        if (!read_it)
+            finish_reader();
+        answer = keep_answer(reading, read_it);
+    }
+    door_flow *const flow = calloc(1, sizeof *flow);
+    if (flow == NULL)
+        abort();
+    *flow = (door_flow){door->what, copy_of(answer->answer, answer->length), answer->length, 0,
+                        answer->said};
+    *begun = flow;
+    return WT_OK;
+}
+
+/* As the error was said, once all is taken. */
+static wt_status end_of(const door_flow *flow, wt_error *err)
+{
+    if (flow->said.status != WT_OK && err != NULL)
+        *err = flow->said;
+    return flow->said.status;
+}
+
+wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
+{
+    if (n > flow->length - flow->at) {
+        const wt_status status = end_of(flow, err);
+        return status != WT_OK ? status : wt_fail(err, WT_E_CORRUPT, "less than it says");
+    }
+    memcpy(to, flow->bytes + flow->at, n);
+    flow->at += n;
+    return WT_OK;
+}
+
+wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
+{
+    const size_t n = flow->length - flow->at;
+    const wt_status status = n > 0 ? sink(user, flow->bytes + flow->at, n, err) : WT_OK;
+    flow->at = flow->length;
+    return status == WT_OK ? end_of(flow, err) : status;
+}
+
+wt_status door_end(door_flow *flow, wt_error *err)
+{
+    const wt_status status = end_of(flow, err);
+    return status == WT_OK && flow->at < flow->length
+               ? wt_fail(err, WT_E_CORRUPT, "more than it says")
+               : status;
+}
+
+void door_close(door_flow *flow)
+{
+    if (flow == NULL)
+        return;
+    free(flow->bytes);
+    free(flow);
+}
+
+wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
+                    wt_error *err)
+{
+    door_flow *flow = NULL;
+    wt_status status = door_begin(door, limits, &flow, err);
+    if (status == WT_OK)
+        status = end_of(flow, err);
+    if (status == WT_OK) {
+        *answer = flow->bytes;
+        *length = flow->length;
+        flow->bytes = NULL;
+    }
+    door_close(flow);
+    return status;
+}
+
+/* No process of these is shut in, as it is said here. */
+const char *wt_door_gaps(void)
+{
+    return "the doors of a fuzz target stand open";
+}

@@ -1,0 +1,84 @@
+/* Random surfaces with a spectrum that is known, made mode by mode: phases by splitmix64, so that
+ * any program can make the same. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef TESTS_MADE_SURFACE_H
+#define TESTS_MADE_SURFACE_H
+
+#include <complex.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+static inline uint64_t made_random(uint64_t seed, uint64_t i)
+{
+    uint64_t z = seed + (i + 1) * UINT64_C(0x9E3779B97F4A7C15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+    return z ^ (z >> 31);
+}
+
+static inline double made_uniform(uint64_t seed, uint64_t i)
+{
+    return (double)(made_random(seed, i) >> 11) * 0x1p-53;
+}
+
+typedef struct made_surface {
+    size_t n;      /* points of a side */
+    double length; /* of it [m] */
+    uint64_t seed;
+    int modes; /* up to here, in all directions */
+    double c0, roll_off, hurst;
+    double stretch;   /* C(phi) = C (1 + stretch cos 2 phi) */
+    bool exponential; /* squared amplitudes scatter, as those of a random surface do */
+} made_surface;
+
+static inline double made_density(const made_surface *s, double q)
+{
+    return s->c0 * (q > s->roll_off ? pow(q / s->roll_off, -2 * (1 + s->hurst)) : 1);
+}
+
+static inline double complex made_amplitude(const made_surface *s, int mx, int my)
+{
+    const double step = 2 * M_PI / s->length, q = step * sqrt((double)(mx * mx + my * my));
+    const uint64_t i = (uint64_t)((mx + 32768) * 65536L + my + 32768);
+    const double phase = 2 * M_PI * made_uniform(s->seed, i);
+    const double c2 = (double)(mx * mx - my * my) / (double)(mx * mx + my * my);
+    double square = 4 * made_density(s, q) * step * step * (1 + s->stretch * c2);
+    if (s->exponential)
+        square *= -log1p(-made_uniform(s->seed + 1, i));
+    return sqrt(square) * CMPLX(cos(phase), sin(phase));
+}
+
+/* h(x_i, y_j) at z[j * n + i]: the sum over the modes of one line of them after the other. */
+static inline double *make_surface(const made_surface *s)
+{
+    const size_t n = s->n;
+    double *z = calloc(n * n, sizeof *z);
+    double complex *turn = malloc(2 * n * sizeof *turn), *row = turn + n;
+    if (z == NULL || turn == NULL)
+        abort();
+    for (size_t k = 0; k < n; k++)
+        turn[k] =
+            CMPLX(cos(2 * M_PI * (double)k / (double)n), sin(2 * M_PI * (double)k / (double)n));
+    for (int my = 0; my <= s->modes; my++) {
+        for (size_t i = 0; i < n; i++)
+            row[i] = 0;
+        for (int mx = my == 0 ? 1 : -s->modes; mx <= s->modes; mx++) {
+            if (mx * mx + my * my > s->modes * s->modes)
+                continue;
+            const double complex a = made_amplitude(s, mx, my);
+            const size_t step = (size_t)((mx % (int)n + (int)n) % (int)n);
+            for (size_t i = 0, at = 0; i < n; i++, at = (at + step) % n)
+                row[i] += a * turn[at];
+        }
+        for (size_t j = 0; j < n; j++) {
+            const double complex t = turn[(size_t)my * j % n];
+            for (size_t i = 0; i < n; i++)
+                z[j * n + i] += creal(row[i]) * creal(t) - cimag(row[i]) * cimag(t);
+        }
+    }
+    free(turn);
+    return z;
+}
+
+#endif

@@ -1,0 +1,481 @@
+/* Heights to power spectra, against numbers of another program for surfaces that are made by a
+ * formula. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "made_surface.h"
+#include "surface_reference.h"
+
+#include "base/array.h"
+#include "fit/surface/surface.h"
+#include "fit/surface/surface_heights.h"
+
+#include <gsl/gsl_sf_psi.h>
+#include <string.h>
+
+#define SIDE 256
+static const double length = 256e-6;
+static double *p, *a, *b; /* [SIDE * SIDE] */
+
+/* A part of a larger surface. */
+static double *cut(const made_surface *s, size_t x, size_t y)
+{
+    double *whole = make_surface(s), *part = malloc(sizeof(double) * SIDE * SIDE);
+    for (size_t j = 0; j < SIDE; j++)
+        memcpy(part + j * SIDE, whole + (y + j) * s->n + x, SIDE * sizeof *part);
+    free(whole);
+    return part;
+}
+
+static int make_all(void **state)
+{
+    (void)state;
+    const double roll_off = 8.3 * 2 * M_PI / length;
+    p = make_surface(&(made_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false});
+    a = cut(&(made_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false}, 37, 61);
+    b = cut(&(made_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false}, 100, 20);
+    return 0;
+}
+
+static int free_all(void **state)
+{
+    (void)state;
+    free(p);
+    free(a);
+    free(b);
+    return 0;
+}
+
+static double *copy_of(const double *z)
+{
+    double *c = malloc(sizeof(double) * SIDE * SIDE);
+    memcpy(c, z, sizeof(double) * SIDE * SIDE);
+    return c;
+}
+
+/* Surface A with the form that is to be found again. */
+static double *tilted(void)
+{
+    double *z = copy_of(a);
+    for (size_t j = 0; j < SIDE; j++)
+        for (size_t i = 0; i < SIDE; i++) {
+            const double x = (2 * (double)i + 1 - SIDE) / SIDE,
+                         y = (2 * (double)j + 1 - SIDE) / SIDE;
+            z[j * SIDE + i] +=
+                2e-6 + 5e-6 * x - 3e-6 * y + 4e-6 * x * x - 1e-6 * x * y + 2.5e-6 * y * y;
+        }
+    return z;
+}
+
+static wt_height_map map_of(const double *z)
+{
+    return (wt_height_map){z, SIDE, SIDE, length / SIDE, length / SIDE};
+}
+
+static double rms_of(const double *z)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++)
+        sum += z[i] * z[i];
+    return sqrt(sum / SIDE / SIDE);
+}
+
+/* The bins of the reference, relative to the largest density where one is nearly nothing. */
+static void compare_bins(const wt_surface_spectrum *s, const reference_bin *bins, size_t n,
+                         double close)
+{
+    assert_int_equal(s->n, n);
+    for (size_t k = 0; k < n; k++) {
+        assert_int_equal(s->bins[k].index, bins[k].k);
+        assert_int_equal(s->bins[k].n, bins[k].n);
+        if (bins[k].mean_q > 0)
+            assert_near(s->bins[k].mean_wavenumber, bins[k].mean_q, 1e-12);
+        assert_near(s->bins[k].wavenumber, bins[k].q, 1e-12);
+        assert_near(s->bins[k].density, bins[k].c, close);
+        assert_near_abs(s->bins[k].deviation, bins[k].deviation,
+                        close * (bins[k].deviation + bins[k].c));
+    }
+}
+
+static void transform_as(const wt_height_map *map, wt_surface_window window, double modes,
+                         wt_surface_spectrum *to)
+{
+    const double step = 2 * M_PI / length;
+    const surface_bins bins = {step, step, modes * step};
+    assert_int_equal(surface_transform(map, window, false, &bins, to, NULL), WT_OK);
+}
+
+static void test_samples(void **state)
+{
+    (void)state;
+    assert_near(p[0], -3.563355327610494e-06, 1e-12);
+    assert_near(p[1], -2.4084345351443616e-06, 1e-12);
+    assert_near(p[37 * SIDE + 100], -3.7868011741861775e-06, 1e-12);
+    assert_near(p[200 * SIDE + 17], -2.0987210411108532e-06, 1e-12);
+    assert_near(a[255], -6.30733759253617e-08, 1e-10);
+    assert_near(a[255 * SIDE + 255], 1.8049981776278184e-06, 1e-12);
+    assert_near(b[0], 1.3159534177204704e-06, 1e-12);
+}
+
+/* The surface goes on beyond its edges, so that with one more row and column forward differences
+ * are there at every point. */
+static void test_heights(void **state)
+{
+    (void)state;
+    enum { MORE = SIDE + 1 };
+    double *z = malloc(sizeof(double) * MORE * MORE);
+    for (size_t j = 0; j < MORE; j++)
+        for (size_t i = 0; i < MORE; i++)
+            z[j * MORE + i] = p[j % SIDE * SIDE + i % SIDE];
+    wt_surface_heights h, wide, tall, round;
+    const double step = length / SIDE;
+    surface_heights_find(&(wt_height_map){p, SIDE, SIDE, step, step}, &h);
+    surface_heights_find(&(wt_height_map){z, MORE, SIDE, step, step}, &wide);
+    surface_heights_find(&(wt_height_map){z, MORE, MORE, step, step}, &round);
+    for (size_t j = 0; j < MORE; j++)
+        memcpy(z + j * SIDE, p + j % SIDE * SIDE, SIDE * sizeof *z);
+    surface_heights_find(&(wt_height_map){z, SIDE, MORE, step, step}, &tall);
+    assert_near(h.rms, 2.95185095003904e-06, 1e-12);
+    assert_near(h.mean_deviation, 2.358673054648525e-06, 1e-12);
+    assert_near(h.peak_to_valley, 2.411885845894341e-05, 1e-12);
+    assert_near(h.skewness, 0.0022201574754441194, 1e-9);
+    assert_near(h.kurtosis, 2.989096382381619, 1e-12);
+    assert_near(wide.slope_x, 0.8497890537411459, 1e-12);
+    assert_near(round.area_excess, 0.5092413363824015, 1e-12);
+    assert_near(hypot(wide.slope_x, tall.slope_y), 1.2017832049569275, 1e-12);
+    assert_int_equal(h.missing, 0);
+    free(z);
+}
+
+static void test_periodic(void **state)
+{
+    (void)state;
+    wt_surface_spectrum s = {.n = 0};
+    const wt_height_map map = map_of(p);
+    transform_as(&map, WT_WINDOW_NONE, 120, &s);
+    compare_bins(&s, bins_p, COUNT_OF(bins_p), 1e-10);
+    wt_surface_spectrum_clear(&s);
+}
+
+static void test_forms_and_windows(void **state)
+{
+    (void)state;
+    const struct {
+        unsigned degree;
+        wt_surface_window window;
+        const double *form;
+        const reference_bin *bins;
+        size_t n;
+    } cases[] = {
+        {0, WT_WINDOW_HANN, form_a_deg0_hann, bins_a_deg0_hann, COUNT_OF(bins_a_deg0_hann)},
+        {0, WT_WINDOW_WELCH, form_a_deg0_welch, bins_a_deg0_welch, COUNT_OF(bins_a_deg0_welch)},
+        {1, WT_WINDOW_NONE, form_a_deg1_none, bins_a_deg1_none, COUNT_OF(bins_a_deg1_none)},
+        {1, WT_WINDOW_WELCH, form_a_deg1_welch, bins_a_deg1_welch, COUNT_OF(bins_a_deg1_welch)},
+        {2, WT_WINDOW_NONE, form_a_deg2_none, bins_a_deg2_none, COUNT_OF(bins_a_deg2_none)},
+        {2, WT_WINDOW_HANN, form_a_deg2_hann, bins_a_deg2_hann, COUNT_OF(bins_a_deg2_hann)},
+    };
+    for (size_t c = 0; c < COUNT_OF(cases); c++) {
+        double *z = tilted(), form[FORM_TERMS];
+        wt_surface_spectrum s = {.n = 0};
+        const wt_height_map map = map_of(z);
+        assert_int_equal(surface_form_remove(z, SIDE, SIDE, cases[c].degree, form, NULL), WT_OK);
+        for (size_t t = 0; t < FORM_TERMS; t++)
+            assert_near_abs(form[t], cases[c].form[t], 1e-17);
+        assert_near(rms_of(z), cases[c].form[FORM_TERMS], 1e-11);
+        transform_as(&map, cases[c].window, 128, &s);
+        compare_bins(&s, cases[c].bins, cases[c].n, 1e-9);
+        wt_surface_spectrum_clear(&s);
+        free(z);
+    }
+}
+
+static void test_missing(void **state)
+{
+    (void)state;
+    double *z = tilted(), *whole = tilted(), form[FORM_TERMS], error = 0, square = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < SIDE; i++)
+        for (size_t j = 0; j < SIDE; j++)
+            if (made_uniform(999, i * SIDE + j) < 0.05) {
+                z[j * SIDE + i] = (double)NAN;
+                n++;
+            }
+    assert_int_equal(n, 3324);
+    assert_int_equal(surface_form_remove(z, SIDE, SIDE, 2, form, NULL), WT_OK);
+    for (size_t t = 0; t < FORM_TERMS; t++)
+        assert_near(form[t], form_missing[t], 1e-10);
+    double *with_holes = copy_of(z);
+    for (size_t k = 0; k < (size_t)SIDE * SIDE; k++)
+        square += isfinite(z[k]) ? z[k] * z[k] : 0;
+    assert_near(sqrt(square / (SIDE * SIDE - 3324)), 2.8953880842509926e-06, 1e-11);
+    assert_int_equal(surface_fill(z, SIDE, SIDE, NULL), WT_OK);
+    assert_near(rms_of(z), 2.8909863553779885e-06, 1e-10);
+    for (size_t k = 0; k < (size_t)SIDE * SIDE; k++) {
+        const size_t i = k % SIDE, j = k / SIDE;
+        const double x = (2 * (double)i + 1 - SIDE) / SIDE, y = (2 * (double)j + 1 - SIDE) / SIDE;
+        const double less = whole[k] - (form[0] + form[1] * x + form[2] * y + form[3] * x * x +
+                                        form[4] * x * y + form[5] * y * y);
+        error += isfinite(with_holes[k]) ? 0 : (z[k] - less) * (z[k] - less);
+    }
+    assert_near(sqrt(error / 3324), 3.639027185418552e-07, 1e-9);
+    wt_surface_spectrum s = {.n = 0};
+    const wt_height_map map = map_of(z);
+    transform_as(&map, WT_WINDOW_HANN, 128, &s);
+    compare_bins(&s, bins_missing, COUNT_OF(bins_missing), 1e-8);
+    wt_surface_spectrum_clear(&s);
+    free(z);
+    free(whole);
+    free(with_holes);
+}
+
+static void test_lines(void **state)
+{
+    (void)state;
+    double c1[SIDE / 2], form[FORM_TERMS], *z = tilted();
+    wt_height_map map = map_of(p);
+    assert_int_equal(surface_lines(&map, WT_WINDOW_NONE, c1, NULL), WT_OK);
+    for (size_t i = 0; i < COUNT_OF(lines_p); i++)
+        assert_near(c1[(size_t)lines_p[i][0] - 1], lines_p[i][2], 1e-10);
+    assert_int_equal(surface_form_remove(z, SIDE, SIDE, 2, form, NULL), WT_OK);
+    map = map_of(z);
+    assert_int_equal(surface_lines(&map, WT_WINDOW_HANN, c1, NULL), WT_OK);
+    for (size_t i = 0; i < COUNT_OF(lines_a_map); i++)
+        assert_near(c1[lines_a_map[i].k - 1], lines_a_map[i].c1, 1e-9);
+    free(z);
+}
+
+static void test_inversion(void **state)
+{
+    (void)state;
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    const double q[] = {1e3, 3e3, 1e4, 1e5, 1e6}, c1[] = {2e-15, 1.9e-15, 6e-16, 2e-18, 4e-21};
+    const struct {
+        double q, zero, slope;
+    } cases[] = {{1200, 1.3526800470418556e-19, 1.3526800435997046e-19},
+                 {20000, 3.0656787255548583e-21, 3.0656783812061418e-21},
+                 {100000, 1.1971026996837781e-23, 1.1970679399686158e-23}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        assert_near(surface_invert(q, c1, 5, false, cases[i].q, rule), cases[i].zero, 1e-13);
+        assert_near(surface_invert(q, c1, 5, true, cases[i].q, rule), cases[i].slope, 1e-13);
+    }
+    assert_true(isnan(surface_invert(q, c1, 5, true, 999, rule)));
+    /* A power law goes on for ever: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
+    const double h = 0.8, two[] = {1e3, 2e3}, power[] = {1, pow(2, -1 - 2 * h)};
+    assert_near(surface_invert(two, power, 2, true, 1e3, rule),
+                1e-3 * tgamma(1 + h) / (sqrt(M_PI) * tgamma(0.5 + h)), 1e-12);
+    const double flat[] = {1, pow(2, -0.9)};
+    assert_true(isnan(surface_invert(two, flat, 2, true, 1e3, rule)));
+    gsl_integration_glfixed_table_free(rule);
+}
+
+/* Two scans of different size. What a mean of logarithms is too low by, which the reference leaves
+ * in, is known. */
+static void test_stitch(void **state)
+{
+    (void)state;
+    wt_surface_spectrum s[2] = {{.n = 0}}, joined = {.n = 0};
+    const double lengths[] = {length, 32e-6}, *heights[] = {a, b};
+    for (size_t i = 0; i < 2; i++) {
+        double *z = copy_of(heights[i]), form[FORM_TERMS];
+        const double step = 2 * M_PI / lengths[i];
+        assert_int_equal(surface_form_remove(z, SIDE, SIDE, 1, form, NULL), WT_OK);
+        const wt_height_map map = {z, SIDE, SIDE, lengths[i] / SIDE, lengths[i] / SIDE};
+        const surface_bins bins = {1e4, 2 * step, 85 * step};
+        assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, &s[i], NULL), WT_OK);
+        compare_bins(&s[i], i == 0 ? stitch_a : stitch_b,
+                     i == 0 ? COUNT_OF(stitch_a) : COUNT_OF(stitch_b), 1e-9);
+        for (size_t k = 0; k < s[i].n; k++) {
+            s[i].bins[k].reliable = true;
+            s[i].bins[k].scans = 1;
+        }
+        free(z);
+    }
+    const wt_surface_spectrum *const both[] = {&s[0], &s[1]};
+    assert_int_equal(wt_surface_join(both, 2, &joined, NULL), WT_OK);
+    assert_int_equal(joined.n, COUNT_OF(stitched));
+    for (size_t k = 0; k < joined.n; k++) {
+        double of[2] = {0, 0}, lacks = 0;
+        for (size_t i = 0; i < 2; i++)
+            for (size_t m = 0; m < s[i].n; m++)
+                if (s[i].bins[m].index == stitched[k].k)
+                    of[i] = (double)s[i].bins[m].n;
+        const double n = of[0] + of[1], c = pow(35.0 / 18, 2);
+        for (size_t i = 0; i < 2 && of[0] > 0 && of[1] > 0; i++) {
+            const double x = of[i] / c / 2;
+            lacks += of[i] / n * (gsl_sf_psi(x) - log(x));
+        }
+        if (of[0] > 0 && of[1] > 0)
+            lacks -= gsl_sf_psi(n / c / 2) - log(n / c / 2);
+        assert_int_equal(joined.bins[k].index, stitched[k].k);
+        assert_int_equal(joined.bins[k].n, stitched[k].n);
+        assert_near(joined.bins[k].wavenumber, stitched[k].q, 1e-12);
+        assert_near(joined.bins[k].density * exp(lacks), stitched[k].c, 1e-9);
+    }
+    /* The law behind both; without exponential amplitudes the misfit is far below 1. */
+    const wt_self_affine law = wt_self_affine_fit(&joined);
+    assert_true(law.found);
+    assert_true(law.rolls_off);
+    assert_true(law.hurst.low < 0.8 && law.hurst.high > 0.8);
+    assert_near(law.hurst.value, 0.8, 0.01);
+    assert_near(log(law.roll_off.value), log(8.3 * 2 * M_PI / length), 0.02);
+    for (size_t i = 0; i < 2; i++)
+        wt_surface_spectrum_clear(&s[i]);
+    wt_surface_spectrum_clear(&joined);
+}
+
+static void test_slope_end(void **state)
+{
+    (void)state;
+    const struct {
+        double c0, hurst, q1;
+    } cases[] = {{6e-16, 0.8, 1020165.849850066},
+                 {3e-15, 0.8, 34993.24299599836},
+                 {6e-16, 0.95, 1181328904.463897}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        wt_roughness *r = NULL;
+        assert_int_equal(
+            wt_roughness_self_affine(500, 2000, 1e11, cases[i].hurst, cases[i].c0, &r, NULL),
+            WT_OK);
+        assert_near(wt_roughness_slope_end(r, 1.3), cases[i].q1, 1e-11);
+        assert_true(isnan(wt_roughness_slope_end(r, 1e9)));
+        wt_roughness_free(r);
+    }
+}
+
+/* A part of a random surface, whose squared amplitudes are exponential; bins agree with the truth
+ * within their scatter, and so do directions and the law. */
+static void test_scatter(void **state)
+{
+    (void)state;
+    const double roll_off = 8.3 * 2 * M_PI / length;
+    size_t within = 0, all = 0;
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        const made_surface truth = {512, 512e-6, 100 * seed, 250, 3e-23, roll_off, 0.8, 0, true};
+        double *z = cut(&truth, 37, 61);
+        const wt_height_map map = map_of(z);
+        const wt_surface_options options = wt_surface_options_defaults();
+        wt_surface_spectrum s = {.n = 0};
+        wt_surface_heights h;
+        assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
+        for (size_t k = 0; k < s.n; k++) {
+            if (!s.bins[k].reliable)
+                continue;
+            const wt_interval c = wt_surface_density(&s, k);
+            const double is = made_density(&truth, s.bins[k].wavenumber);
+            within += c.low < is && is < c.high ? 1 : 0;
+            all++;
+        }
+        assert_true(wt_surface_directions(&s).chance > 1e-3);
+        wt_surface_spectrum_clear(&s);
+        free(z);
+    }
+    assert_true(all > 60);
+    assert_true((double)within > 0.88 * (double)all);
+}
+
+static void test_directions(void **state)
+{
+    (void)state;
+    const made_surface truth = {512, 512e-6, 5,   250, 3e-23, 8.3 * 2 * M_PI / length,
+                                0.8, 0.3,    true};
+    double *z = cut(&truth, 37, 61);
+    const wt_height_map map = map_of(z);
+    const wt_surface_options options = wt_surface_options_defaults();
+    wt_surface_spectrum s = {.n = 0};
+    wt_surface_heights h;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
+    const wt_surface_anisotropy found = wt_surface_directions(&s);
+    assert_near_abs(found.amplitude, 0.3, 0.08);
+    assert_near_abs(found.direction, 0, 0.15);
+    assert_true(found.chance < 1e-4);
+    wt_surface_spectrum_clear(&s);
+    free(z);
+}
+
+/* Places that differ by a factor: it is told, and the interval holds it. */
+static void test_places(void **state)
+{
+    (void)state;
+    enum { PLACES = 5 };
+    const double factor[PLACES] = {0.5, 0.8, 1, 1.3, 2.1};
+    wt_surface_spectrum s[PLACES] = {{.n = 0}}, joined = {.n = 0};
+    const wt_surface_spectrum *all[PLACES];
+    const made_surface one = {256, length, 9, 120, 3e-23, 8.3 * 2 * M_PI / length, 0.8, 0, true};
+    for (size_t i = 0; i < PLACES; i++) {
+        made_surface here = one;
+        here.seed += 10 * i;
+        here.c0 *= factor[i];
+        double *z = make_surface(&here);
+        const wt_height_map map = map_of(z);
+        const wt_surface_options options = wt_surface_options_defaults();
+        wt_surface_heights h;
+        assert_int_equal(wt_surface_analyse(&map, &options, &h, &s[i], NULL), WT_OK);
+        all[i] = &s[i];
+        free(z);
+    }
+    assert_int_equal(wt_surface_join(all, 1, &joined, NULL), WT_OK);
+    assert_true(isnan(joined.place_scatter));
+    const wt_interval alone = wt_surface_density(&joined, joined.n - 1);
+    wt_surface_spectrum_clear(&joined);
+    assert_int_equal(wt_surface_join(all, PLACES, &joined, NULL), WT_OK);
+    assert_near(joined.place_scatter, 0.54, 0.15); /* of the logarithms of the factors */
+    assert_near(joined.place_error, joined.place_scatter / sqrt(PLACES), 1e-12);
+    const wt_interval together = wt_surface_density(&joined, joined.n - 1);
+    assert_true(together.high / together.low > 2 * alone.high / alone.low);
+    for (size_t i = 0; i < PLACES; i++)
+        wt_surface_spectrum_clear(&s[i]);
+    wt_surface_spectrum_clear(&joined);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const wt_surface_options options = wt_surface_options_defaults();
+    wt_surface_spectrum s = {.n = 0};
+    wt_surface_heights h;
+    double *z = copy_of(p);
+    wt_height_map map = map_of(z);
+    for (size_t i = 0; i < SIDE * SIDE / 4; i++)
+        z[i] = (double)NAN;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_E_RANGE);
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++)
+        z[i] = 1e-6;
+    map.dx = (double)NAN;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_E_UNIT);
+    map.nx = 15;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_E_EMPTY);
+    free(z);
+}
+
+/* A tip rounds what is sharper than it, and the range ends there. */
+static void test_tip(void **state)
+{
+    (void)state;
+    wt_surface_options options = wt_surface_options_defaults();
+    wt_surface_spectrum s = {.n = 0};
+    wt_surface_heights h;
+    const wt_height_map map = map_of(p);
+    options.tip_radius = 1e-9;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
+    assert_string_equal(s.ends_by, "points");
+    assert_near(s.to, M_PI / 2 / 1e-6, 1e-12);
+    wt_surface_spectrum_clear(&s);
+    options.tip_radius = 3e-6;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
+    assert_string_equal(s.ends_by, "tip");
+    assert_true(s.to < M_PI / 2 / 1e-6);
+    wt_surface_spectrum_clear(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_samples),    cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_periodic),   cmocka_unit_test(test_forms_and_windows),
+        cmocka_unit_test(test_missing),    cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_inversion),  cmocka_unit_test(test_stitch),
+        cmocka_unit_test(test_slope_end),  cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_directions), cmocka_unit_test(test_places),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_tip),
+    };
+    return cmocka_run_group_tests(tests, make_all, free_all);
+}

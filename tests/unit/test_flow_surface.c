@@ -1,0 +1,218 @@
+/* Height maps and profiles in files to one power spectrum: surfaces that are made by a formula,
+ * whose spectrum is known. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "made_surface.h"
+
+#include "base/array.h"
+#include "truth.h"
+#include "weartrack/flow.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#define SURFACE WT_SOURCE_DIR "/fixtures/surface/"
+/* As tests/generate/generate_surface.c has them. */
+static const made_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true};
+
+static wt_formats *formats;
+
+static int begin(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+typedef struct making {
+    wt_topography_job job;
+    wt_topography_tables tables;
+    wt_parselog *log;
+    wt_error err;
+    wt_status status;
+} making;
+
+static void make(making *m, const char *const *files, size_t n)
+{
+    wt_job work = wt_job_defaults();
+    wt_file_set set = {.patterns = files, .n_patterns = n, .read = wt_read_defaults()};
+    m->log = wt_parselog_new();
+    work.formats = formats;
+    work.log = m->log;
+    m->job.sets = &set;
+    m->job.n_sets = 1;
+    m->err = (wt_error)WT_ERROR_INIT;
+    m->status = wt_topography_make(&m->job, &work, &m->tables, &m->err);
+}
+
+static void clear(making *m)
+{
+    wt_topography_tables_clear(&m->tables);
+    wt_parselog_free(m->log);
+}
+
+static bool said(const making *m, const char *words)
+{
+    for (size_t i = 0; i < wt_parselog_count(m->log); i++)
+        if (strstr(wt_parselog_get(m->log, i).text, words) != NULL)
+            return true;
+    return false;
+}
+
+static const char *const all[] = {SURFACE "place-1.gsf", SURFACE "place-2.gsf",
+                                  SURFACE "near-by.gsf"};
+
+static double key(const wt_table *t, const char *name)
+{
+    wt_estimate e = {(double)NAN, 0, 0, NULL};
+    (void)wt_table_estimate(t, name, &e);
+    return e.value;
+}
+
+static double error_of(const wt_table *t, const char *name)
+{
+    wt_estimate e = {(double)NAN, (double)NAN, 0, NULL};
+    (void)wt_table_estimate(t, name, &e);
+    return e.standard_error;
+}
+
+/* Three scans of two sizes: the densities hold the truth, and so do the law and the sums of it over
+ * the range. */
+static void test_whole(void **state)
+{
+    (void)state;
+    making m = {.job = wt_topography_job_defaults()};
+    m.job.scans = true;
+    make(&m, all, COUNT_OF(all));
+    assert_int_equal(m.status, WT_OK);
+    const wt_table *t = m.tables.power_spectrum;
+    const size_t n = wt_table_n_rows(t);
+    size_t within = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double q = cell(t, i, "wavenumber"), c = made_density(&behind, q);
+        within += cell(t, i, "density_low") < c && c < cell(t, i, "density_high") ? 1 : 0;
+        assert_string_equal(cell_text(t, i, "source"), "measured");
+        assert_near(cell(t, i, "self_affine"), c, 0.6);
+    }
+    assert_true(n >= 18);
+    assert_true(within >= n - 2);
+    assert_near_abs(key(t, "hurst"), 0.8, 3 * error_of(t, "hurst"));
+    assert_near(key(t, "reliable_to"), 1.6e7, 0.1);
+    wt_roughness *r = NULL;
+    assert_int_equal(wt_roughness_self_affine(cell(t, 0, "wavenumber"), behind.roll_off,
+                                              cell(t, n - 1, "wavenumber"), behind.hurst, behind.c0,
+                                              &r, NULL),
+                     WT_OK);
+    assert_near_abs(log(key(t, "roll_off") / behind.roll_off), 0,
+                    3 * error_of(t, "roll_off") / behind.roll_off);
+    assert_near_abs(key(t, "rms_height"), wt_roughness_rms_height(r),
+                    3 * error_of(t, "rms_height"));
+    assert_near_abs(key(t, "rms_slope"), wt_roughness_rms_slope(r), 3 * error_of(t, "rms_slope"));
+    assert_true(error_of(t, "rms_slope") < 0.2 * key(t, "rms_slope"));
+    wt_roughness_free(r);
+    assert_false(said(&m, "one scan"));
+    assert_int_equal(wt_table_n_rows(m.tables.surfaces), 3);
+    assert_near(cell(m.tables.surfaces, 2, "step_x"), 20e-6 / 256 * 112 / 111, 1e-2);
+    assert_true(wt_table_n_rows(m.tables.scan_spectra) > 3 * 15);
+    clear(&m);
+}
+
+/* The end: given within the range, beyond it, and by the slope. */
+static void test_ends(void **state)
+{
+    (void)state;
+    making m = {.job = wt_topography_job_defaults()};
+    m.job.end = 3e6;
+    make(&m, all, COUNT_OF(all));
+    const wt_table *t = m.tables.power_spectrum;
+    size_t last = wt_table_n_rows(t) - 1;
+    assert_string_equal(cell_text(t, last, "source"), "cut");
+    assert_near(cell(t, last, "wavenumber"), 3e6, 1e-12);
+    assert_near(cell(t, last, "density"), made_density(&behind, 3e6), 0.9);
+    const double slope = key(t, "rms_slope");
+    clear(&m);
+
+    m.job.end = (double)NAN;
+    m.job.end_slope = slope;
+    make(&m, all, COUNT_OF(all));
+    t = m.tables.power_spectrum;
+    assert_near(cell(t, wt_table_n_rows(t) - 1, "wavenumber"), 3e6, 1e-9);
+    clear(&m);
+
+    m.job.end_slope = 1.3;
+    make(&m, all, COUNT_OF(all));
+    t = m.tables.power_spectrum;
+    last = wt_table_n_rows(t) - 1;
+    assert_string_equal(cell_text(t, last, "source"), "law");
+    assert_near(key(t, "rms_slope"), 1.3, 0.02);
+    assert_near(cell(t, last, "wavenumber"), key(t, "steep_wavenumber"), 1e-9);
+    assert_string_equal(wt_table_key(t, "steep_by"), "law");
+    assert_true(key(t, "extrapolated_share") > 0.3);
+    assert_true(said(&m, "beyond the reliable range"));
+    assert_true(isnan(cell(t, last, "density_low")));
+    clear(&m);
+
+    m.job.end = 1e7;
+    make(&m, all, COUNT_OF(all));
+    assert_int_equal(m.status, WT_E_ARG);
+    clear(&m);
+    m.job.end = 1e5; /* below the first bin */
+    m.job.end_slope = (double)NAN;
+    make(&m, all, COUNT_OF(all));
+    assert_int_equal(m.status, WT_E_RANGE);
+    clear(&m);
+}
+
+/* One scan says what it cannot know. */
+static void test_alone(void **state)
+{
+    (void)state;
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, all, 1);
+    assert_int_equal(m.status, WT_OK);
+    assert_true(said(&m, "one scan: how much places of the surface differ is not known"));
+    assert_true(isnan(key(m.tables.power_spectrum, "place_scatter")));
+    assert_non_null(
+        strstr(wt_table_key(m.tables.power_spectrum, "standard_error_lacks"), "places"));
+    clear(&m);
+}
+
+/* What is no height map, or has none, fails; the others go on. */
+static void test_failures(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/weartrack-surface-XXXXXX";
+    const int fd = mkstemp(path);
+    const char words[] = "Gwyddion Simple Field 1.0\nXRes = 4\nYRes = 4\nXReal = 1\nYReal = 1\n"
+                         "ZUnits = V\n\0\0\0";
+    assert_true(fd >= 0);
+    assert_true(write(fd, words, sizeof words) == (ssize_t)sizeof words);
+    close(fd);
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, (const char *const[]){path}, 1);
+    assert_int_equal(m.status, WT_E_CORRUPT);
+    clear(&m);
+    m.job.image = "backward";
+    make(&m, all, 1);
+    assert_int_equal(m.status, WT_E_NOT_FOUND);
+    assert_non_null(strstr(m.err.message, "no image of heights called backward"));
+    clear(&m);
+    unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_failures),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
