@@ -34,6 +34,11 @@ WT_API wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err) WT_
  * the file has become shorter. */
 WT_API wt_status wt_input_at(wt_input *input, size_t from, void *to, size_t n,
                              wt_error *err) WT_NODISCARD;
+/* A second input of the same file, of which another thread may ask parts meanwhile; NULL (and
+ * WT_OK) of what is or may be kept in memory as a whole. To be closed by the caller, in any order.
+ */
+WT_API wt_status wt_input_beside(const wt_input *input, wt_input **beside,
+                                 wt_error *err) WT_NODISCARD;
 /* At least the first `want` bytes if there are as many; *whole says that this is all. */
 WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;

@@ -41,6 +41,11 @@ static double scatter(const track_scene *s, random_source *random)
     return z / sqrt(3 * square);
 }
 
+static bool is_unsaid_warmer(warmth w)
+{
+    return w == WARMER_UNSAID || w == WARMER_UNSAID_ALONE;
+}
+
 static void draw_offsets(const track_scene *s, random_source *random, double *offset)
 {
     double sensitivity[2], spring[2];
@@ -50,9 +55,9 @@ static void draw_offsets(const track_scene *s, random_source *random, double *of
         spring[zone] = s->lever_error[zone] * random_normal(random);
         offset[zone] = spring[from] + sensitivity_gain[zone] * sensitivity[from];
     }
-    if (s->warmth == WARMER_UNSAID)
+    if (is_unsaid_warmer(s->warmth))
         offset[1] -= s->rate_slope * M_LN10 * wlf_c1 * unsaid / (wlf_c2 + unsaid);
-    else if (s->warmth != NOT_WARMER)
+    else if (s->warmth == WARMER || s->warmth == WARMER_SLOPE_KNOWN)
         offset[1] += (warmer + warmer_error * random_normal(random)) *
                      (warm_slope + warm_slope_error * random_normal(random));
 }
@@ -227,9 +232,10 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
         if (write_rubber(s, rubber) != 0)
             trial_broke(t, "the rubber cannot be written");
         say(&w, "--master", rubber);
-    } else if (s->warmth != NOT_WARMER) {
+    } else if (s->warmth != WARMER_UNSAID_ALONE && s->warmth != NOT_WARMER_UNSAID) {
         say(&w, "--indentation-temperature", "20degC");
-        say(&w, "--track-temperature", "30degC +- 1K");
+        if (s->warmth != NOT_WARMER)
+            say(&w, "--track-temperature", "30degC +- 1K");
     }
     if (s->warmth == WARMER_SLOPE_KNOWN)
         say(&w, "--temperature-slope", "-0.012 +- 0.002");
@@ -322,7 +328,7 @@ static void compare_ratio(const char *path, const track_scene *s, trial *t)
     } else {
         t->draw->verdict = read_verdict(found);
         /* with a ratio for each rate, that of all is none */
-        if (s->ratio_slope == 0 && s->warmth != WARMER_UNSAID)
+        if (s->ratio_slope == 0 && !is_unsaid_warmer(s->warmth))
             trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
         if (s->through_friction)
             compare_friction(s, found, t);

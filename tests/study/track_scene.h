@@ -4,9 +4,16 @@
 
 #include "facts.h"
 
-/* What the command is told of it: the temperatures, the slope of ln E against temperature beside
- * them, or no temperature but the DMA. */
-typedef enum warmth { NOT_WARMER, WARMER, WARMER_SLOPE_KNOWN, WARMER_UNSAID } warmth;
+/* What the command is told of it: one temperature, both, the slope of ln E against temperature
+ * beside them, no temperature but the DMA, or nothing. */
+typedef enum warmth {
+    NOT_WARMER,
+    WARMER,
+    WARMER_SLOPE_KNOWN,
+    WARMER_UNSAID,
+    WARMER_UNSAID_ALONE,
+    NOT_WARMER_UNSAID
+} warmth;
 
 /* ln E = zone (ln(ratio) + ratio_slope ln(rate/0.6 um/s)) + rate_slope ln(rate/0.6 um/s) + spot
  *        + curve + levers. */

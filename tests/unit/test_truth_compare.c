@@ -156,6 +156,14 @@ static wt_rubber rubber_of(double *tau, double *term)
                        .temperature_max = 333.15};
 }
 
+/* As somebody says who knows: without a temperature that is stated it may be what differs. */
+static wt_compare_job at_one_temperature(void)
+{
+    wt_compare_job job = wt_compare_job_defaults();
+    job.temperature.value = WT_ZERO_CELSIUS + 23;
+    return job;
+}
+
 static void compare(double ratio, double temperature)
 {
     static double tau = 1e-3, term = 6e6;
@@ -211,7 +219,7 @@ static void test_comparison(void **state)
     (void)state;
     static const double ratios[] = {RATIO, 1 / RATIO};
     for (int k = 0; k < 2; k++) {
-        compare(ratios[k], (double)NAN);
+        compare(ratios[k], 293.15);
         const wt_table *c = tables.comparison;
         assert_int_equal(wt_table_n_rows(c), 1 + RATES);
         assert_true(isnan(cell(c, 0, "rate_low")) && isnan(cell(c, 0, "rate_high")));
@@ -240,7 +248,7 @@ static void test_comparison(void **state)
     }
 }
 
-static const char *verdict(double ratio, double margin)
+static const char *verdict_of(wt_compare_job job, double ratio)
 {
     wt_job common = wt_job_defaults();
     wt_table_free(bulk_table);
@@ -248,12 +256,17 @@ static const char *verdict(double ratio, double margin)
     wt_compare_tables_clear(&tables);
     bulk_table = indentation("bulk", BULK);
     track_table = indentation("track", ratio * BULK);
-    wt_compare_job job = wt_compare_job_defaults();
     job.bulk = bulk_table;
     job.track = track_table;
-    job.margin = margin;
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
     return wt_table_key(tables.comparison, "differs");
+}
+
+static const char *verdict(double ratio, double margin)
+{
+    wt_compare_job job = at_one_temperature();
+    job.margin = margin;
+    return verdict_of(job, ratio);
 }
 
 /* Half of the interval is 0.085 in ln. */
@@ -272,6 +285,36 @@ static void test_verdict(void **state)
                         "difference and for one above 5 %");
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"),
                            "spots in each group would show a difference of 5 %"));
+}
+
+/* Nobody says a temperature, and there is no DMA: by the slope against the rate and Williams,
+ * Landel and Ferry 70 K above the glass transition, 0.14 per kelvin, 20 K either way. */
+static void test_unsaid_temperature(void **state)
+{
+    (void)state;
+    const double ratio = 0.85;
+    assert_non_null(strstr(verdict(ratio, 0.2), "yes"));
+    const wt_table *c = tables.comparison;
+    const double low = cell(c, 0, "ratio_low"), high = cell(c, 0, "ratio_high"),
+                 error = key_estimate(c, "modulus_ratio").standard_error / ratio;
+    const double slope = 0.14 * key_estimate(c, "rate_slope").value;
+    char warmer[64];
+    snprintf(warmer, sizeof warmer, "a track %.2g K warmer", -log(ratio) / slope);
+    const char *said = verdict_of(wt_compare_job_defaults(), ratio);
+    assert_non_null(strstr(said, "cannot say: the wear track seems softer"));
+    assert_non_null(strstr(said, warmer));
+    c = tables.comparison;
+    assert_non_null(strstr(wt_table_key(c, "settled_by"), "indentation-temperature"));
+    assert_near(cell(c, 0, "ratio"), ratio, 1e-12);
+    assert_near(cell(c, 0, "ratio_low"), low * exp(-20 * slope), 1e-9);
+    assert_near(cell(c, 0, "ratio_high"), high * exp(20 * slope), 1e-9);
+    assert_near(key_estimate(c, "modulus_ratio").standard_error / ratio,
+                hypot(error, 20 * slope * sqrt(2.0 / 3)), 1e-9);
+    assert_non_null(strstr(wt_table_key(c, "interval_includes"), "what else may well make"));
+    /* what 20 K would not do, and what they would have to hide */
+    assert_non_null(strstr(verdict_of(wt_compare_job_defaults(), 0.6), "yes"));
+    assert_non_null(strstr(wt_table_key(tables.comparison, "would_explain"), "K warmer"));
+    assert_non_null(strstr(verdict_of(wt_compare_job_defaults(), 1.02), "no:"));
 }
 
 /* What two spots cannot tell is said where the others are more. */
@@ -523,7 +566,7 @@ static void test_common(void **state)
     compare(RATIO, (double)NAN);
     set_radius(bulk_table, 0.2, -0.3);
     set_radius(track_table, 0.2, -0.5);
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = at_one_temperature();
     assert_non_null(strstr(includes_of(job), "radius of the tip"));
     assert_string_equal(wt_table_key(tables.comparison, "cancels"), "radius of the tip");
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
@@ -561,7 +604,7 @@ static void test_half_angle(void **state)
         assert_int_equal(wt_table_set_estimate(table, "half_angle_error", error, NULL), WT_OK);
         assert_int_equal(wt_table_set_estimate(table, "half_angle_gain", gain, NULL), WT_OK);
     }
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = at_one_temperature();
     job.tip_error = 0.7;
     assert_non_null(strstr(includes_of(job), "half-angle of the tip"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
@@ -583,7 +626,7 @@ static void test_stated_levers(void **state)
     compare(RATIO, (double)NAN);
     set_lever(bulk_table, 0.5, 0.05);
     set_lever(track_table, 2, 0.06);
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = at_one_temperature();
     job.levers = WT_LEVERS_TWO;
     job.lever_error = 0.3;
     assert_non_null(strstr(includes_of(job), "spring constants"));
@@ -623,7 +666,7 @@ static void test_shown(void **state)
     compare(RATIO, (double)NAN);
     set_shown(bulk_table, 0.03, 0.05);
     set_shown(track_table, 0.04, -0.02);
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = at_one_temperature();
     const char *includes = includes_of(job);
     assert_non_null(includes);
     assert_non_null(strstr(includes, "loss of unknown spectrum, bend of the baselines"));
@@ -798,6 +841,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
         cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_unsaid_temperature),
         cmocka_unit_test(test_two_spots),
         cmocka_unit_test(test_none_accepted),
         cmocka_unit_test(test_groups),

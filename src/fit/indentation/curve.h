@@ -242,9 +242,9 @@ typedef struct curve_kind {
                           Muller and Toporov; a capillary), in the place of the root of the work */
     bool memory;       /* the rubber has the spectrum of the options; not with adhesion */
     bool rough;        /* to a thousandth of a standard error, and without errors */
-    bool no_errors;
-    size_t jump;     /* of adhesive contact: the first sample in it; 0: where the tip touches */
-    curve_wave wave; /* where to begin with it */
+    bool no_errors;    /* that is all of it */
+    size_t jump;       /* of adhesive contact: the first sample in it; 0: where the tip touches */
+    curve_wave wave;   /* where to begin with it */
 } curve_kind;
 static inline bool curve_has_wave(const curve_wave *wave)
 {

@@ -240,9 +240,14 @@ WIDE_REGISTERS static double evaluate(curve_law *m, const double p[N], size_t fi
     return curve_dot(residual + first, residual + first, s->n - first);
 }
 
-void curve_model_start(curve_law *m, const double p[N])
+void curve_model_resume(curve_law *m, const double p[N])
 {
     sum_baseline(m, count_baseline(m, p[CURVE_C]));
+}
+
+void curve_model_start(curve_law *m, const double p[N])
+{
+    curve_model_resume(m, p);
     measure(m, p, m->n_baseline);
 }
 

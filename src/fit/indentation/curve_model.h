@@ -27,7 +27,8 @@ typedef struct curve_law {
     double z, zz, f, zf, ff;
 } curve_law;
 
-/* The law of a kind of fit, to be evaluated; and all of its samples at p. */
+/* The law of a kind of fit, to be evaluated; and all of its samples at p, where they were fitted.
+ */
 curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
                        const curve_kind *kind, wt_indent_workspace *workspace);
 void curve_law_evaluate(curve_law *model, const double p[CURVE_N_PARAMETERS],
@@ -37,8 +38,9 @@ typedef struct normal_equations {
     double jj[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS], jr[CURVE_N_PARAMETERS];
 } normal_equations;
 
-/* Begins at parameters p. */
+/* Begins at parameters p; with indentations that a fit of the same samples has left. */
 void curve_model_start(curve_law *model, const double p[CURVE_N_PARAMETERS]);
+void curve_model_resume(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Evaluates at p and returns the sum of squares. */
 double curve_model_cost(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* At the parameters of the latest evaluation. */

@@ -234,7 +234,7 @@ curve_law curve_law_of(const wt_contact_table *table, const curve_samples *sampl
 void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
 {
     wave_step ignored;
-    curve_model_start(m, p);
+    curve_model_resume(m, p);
     (void)cost_at(m, p, wave);
     if (m->wave)
         (void)curve_wave_imitate(m, p, &ignored);

@@ -29,6 +29,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -95,20 +96,25 @@ static double dot(const double *a, const double *b, size_t n)
 
 static void make_kernels(void)
 {
-    double at[NODES][LEGENDRE], all = 0.0;
+    double at[NODES][LEGENDRE], at_distance[NODES], all = 0.0;
     for (int i = 0; i < NODES; i++)
         legendre((i + 0.5) / NODES, at[i]);
     for (int l = 0; l < LENGTHS; l++) {
         const double node = l - 0.5 * (LENGTHS - 1), length = length_median * exp(length_sd * node);
         double a[M][M] = {{0.0}};
-        for (int i = 0; i < NODES; i++)
-            for (int j = 0; j < NODES; j++) {
-                const double apart = (double)(i - j) / NODES / length;
-                const double k = exp(-0.5 * apart * apart) / (NODES * NODES);
+        for (int i = 0; i < NODES; i++) {
+            const double apart = (double)i / NODES / length;
+            at_distance[i] = exp(-0.5 * apart * apart) / (NODES * NODES);
+        }
+        for (int i = 0; i < NODES; i++) {
+            double along[LEGENDRE] = {0.0};
+            for (int j = 0; j < NODES; j++)
                 for (int c = 0; c < LEGENDRE; c++)
-                    for (int d = 0; d <= c; d++)
-                        a[c][d] += k * at[i][c] * at[j][d];
-            }
+                    along[c] += at_distance[abs(i - j)] * at[j][c];
+            for (int c = 0; c < LEGENDRE; c++)
+                for (int d = 0; d <= c; d++)
+                    a[c][d] += at[i][c] * along[d];
+        }
         for (int c = 0; c < LEGENDRE; c++) /* of a variance of 1: rounding */
             a[c][c] += 1e-12;
         (void)cholesky_factor(&a[0][0], M, LEGENDRE, 0.0);

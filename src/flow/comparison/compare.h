@@ -100,7 +100,8 @@ typedef struct compare_unsaid {
     double log_ratio, least; /* what is to be explained, and what of it takes the answer away */
     char would_explain[640]; /* in words: what each cause would have to be */
     char plausible[480];     /* those that may well be so, "" = none */
-    char settled_by[400];    /* and what would show */
+    double lower, higher; /* by how much they may make ln(ratio) differ from that of the rubber */
+    char settled_by[400]; /* and what would show */
 } compare_unsaid;
 wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
                               const compare_row *row, compare_unsaid *unsaid,

@@ -180,7 +180,9 @@ static void warn_rates(const comparison_task *task)
 
 TABLE_ROW_OF(comparison, COMPARISON, compare_row)
 
-static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval)
+/* The interval has room for what the ratio would be without the causes that may well be so. */
+static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval,
+                     const compare_unsaid *unsaid)
 {
     for (size_t i = 0; i < n; i++) {
         compare_row row = rows[i];
@@ -191,6 +193,8 @@ static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool si
         if (!told || !interval || !row.valid)
             c->ratio_low = c->ratio_high = c->t = c->df = c->p = row.holm = c->mann_whitney_p =
                 c->mann_whitney_smallest_p = c->effect_size = (double)NAN;
+        c->ratio_low *= exp(-unsaid->lower);
+        c->ratio_high *= exp(unsaid->higher);
         comparison_add_row(t, &row);
         comparison_put(t, COMPARISON_RATIO_LOW, c->ratio_low);
         comparison_put(t, COMPARISON_RATIO_HIGH, c->ratio_high);
@@ -249,6 +253,8 @@ static void find_ratio(const comparison_task *task, bool twisted, bool interval,
     double error = interval ? c->log_ratio.standard_error : (double)NAN;
     if (twisted)
         error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
+    /* any share of what else may make it is as likely */
+    error = hypot(error, hypot(task->unsaid.lower, task->unsaid.higher) / sqrt(3));
     keys->ratio = (wt_estimate){c->ratio, c->ratio * error, 0, NULL};
     if (interval && isfinite(c->df))
         keys->ratio_df = c->df;
@@ -267,14 +273,17 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
                                             &task->rows[0], task->rows + 1, n_rates);
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
-    add_rows(&t, task->rows, n_rates + 1, v.silent, interval);
+    add_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unsaid);
+    char includes[320];
+    snprintf(includes, sizeof includes, "%s%s", task->known.includes,
+             task->unsaid.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
                             .settled_by = v.settled_by,
                             .would_explain = v.silent ? NULL : task->unsaid.would_explain,
                             .unit = unit_words(p, task->job, c),
                             .rates = rates_words(task),
-                            .includes = interval && !v.silent ? task->known.includes : NULL,
+                            .includes = interval && !v.silent ? includes : NULL,
                             .cantilevers = task->known.two_levers ? "two" : "one",
                             .cancels = v.silent ? NULL : task->known.cancels,
                             .margin = {task->job->margin, 0, 0, NULL},

@@ -24,6 +24,13 @@ static const double worn_radius = 100e-9;
 /* A heuristic: rooms in which people measure lie between 15 and 35 degC, and a scanner warms the
  * sample by some kelvin of that. */
 static const double room_span = 20;
+/* -d ln aT/dT [1/K] by Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701: 17.44, 51.6 K)
+ * 70 K above the glass transition, where rubbers with theirs at -45 degC are at room temperature;
+ * it is 0.22 at 45 K and 0.07 at 120 K. */
+static const double shift_slope = 0.14;
+/* d ln E/d ln rate where the curves do not tell it: of a loss factor of 0.1, that of many compounds
+ * at room temperature, 2/pi times. */
+static const double usual_rate_slope = 0.06;
 /* Of a stated standard error, both ways. */
 static const double two_errors = 2;
 
@@ -60,12 +67,26 @@ static void add_words(char *to, size_t size, const char *words)
     snprintf(to + used, size - used, "%s%s", used > 0 ? "; " : "", words);
 }
 
+/* What a cause may make of ln(ratio) at most: that of the rubber may be as much lower or higher. */
+typedef struct cause_effect {
+    double lower, higher;
+} cause_effect;
+
+/* Of a cause that makes the modulus of a group larger. */
+static cause_effect effect_in(int group, double effect)
+{
+    return group == 1 ? (cause_effect){effect, 0} : (cause_effect){0, effect};
+}
+
 /* A cause that would do it, in words; `plausible` ones are those that keep the answer back. */
-static void add_cause(compare_unsaid *u, bool plausible, const char *words, const char *settled_by)
+static void add_cause(compare_unsaid *u, bool plausible, cause_effect effect, const char *words,
+                      const char *settled_by)
 {
     add_words(u->would_explain, sizeof u->would_explain, words);
     if (!plausible)
         return;
+    u->lower += effect.lower;
+    u->higher += effect.higher;
     add_words(u->plausible, sizeof u->plausible, words);
     add_words(u->settled_by, sizeof u->settled_by, settled_by);
 }
@@ -154,8 +175,11 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
         status = radius_for(&tip, &at, u->least, &least, &ignored, err);
     if (status != WT_OK || isinf(needed))
         return status;
-    const bool plausible =
-        least <= largest_radius(d, job, &tip) && shows_wear(d, job, misfit, chance[worn]);
+    const double largest = largest_radius(d, job, &tip);
+    const bool plausible = least <= largest && shows_wear(d, job, misfit, chance[worn]);
+    wt_worn_tip most = {0};
+    if (plausible)
+        status = wt_worn_tip_fit(&tip, largest, at.depth, at.bending, &most, err);
     char words[240], here[32], there[32];
     wt_format_si(tip.radius, "m", 2, here, sizeof here);
     wt_format_si(needed, "m", 2, there, sizeof there);
@@ -165,10 +189,10 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
         "leave them",
         there, here, compare_group_name[worn], within ? ", which would hide the margin" : "",
         plausible ? "may be as far" : "are not as far");
-    add_cause(u, plausible, words,
+    add_cause(u, plausible, effect_in(worn, most.log_modulus), words,
               "the radius of the tip before and after, with its error (radius=20nm+-10%), or "
               "curves on the bulk again after the track");
-    return WT_OK;
+    return status;
 }
 
 /* More than the 53 binary digits of a double. */
@@ -256,32 +280,57 @@ static wt_status add_pull(const compare_pair *p, bool within, compare_unsaid *u,
                   "measured)",
                   would, compare_group_name[more], within ? ", which would hide the margin" : "",
                   is);
-    add_cause(u, least <= there, words, "curves without the pull, under liquid or after drying");
+    add_cause(u, least <= there, effect_in(more, pull_effect(known, at.depth, at.force, there)),
+              words, "curves without the pull, under liquid or after drying");
     return WT_OK;
 }
 
-/* Where no temperature is stated, by what the DMA says of it. */
+/* Of ln E against temperature where no DMA says it: at a loading time the modulus of a rubber is
+ * that of times longer or shorter by its shift factor, so that the slope is that against ln rate
+ * times that of ln aT; or, where there is next to none, that of the rubber's elasticity, 1/T. */
+static double slope_of_rubbers(const compare_row *row)
+{
+    const wt_estimate *rate = &row->c.rate_slope;
+    const bool known = rate->standard_error < usual_rate_slope;
+    const double fall = shift_slope * (known ? fmax(rate->value, 0) : usual_rate_slope),
+                 rise = 1 / (WT_ZERO_CELSIUS + 25);
+    return fall > rise ? -fall : rise;
+}
+
+/* Where no temperature is stated. */
 static wt_status add_temperature(const compare_pair *p, const wt_compare_job *job,
-                                 const wt_job *work, bool within, compare_unsaid *u, wt_error *err)
+                                 const wt_job *work, const compare_row *row, bool within,
+                                 compare_unsaid *u, wt_error *err)
 {
     const bool stated = !isnan(job->temperature.value) || !isnan(job->track_temperature.value) ||
                         !isnan(job->temperature_slope.value);
-    double slope;
-    if (job->rubber == NULL || stated)
+    const bool by_dma = job->rubber != NULL;
+    double slope = slope_of_rubbers(row);
+    if (stated || (!by_dma && p->by_factor)) /* no temperature is left in factors */
         return WT_OK;
-    const wt_status status = compare_temperature_slope(p, job, work, &slope, err);
+    wt_status status = WT_OK;
+    if (by_dma)
+        status = compare_temperature_slope(p, job, work, &slope, err);
     if (status != WT_OK || !(fabs(slope) > 0))
         return status;
     const double needed = (within ? u->least : u->log_ratio) / slope,
-                 least = u->least / fabs(slope);
-    char words[200];
+                 effect = room_span * fabs(slope);
+    char words[200], by[80] = "by the DMA";
+    if (!by_dma)
+        clocale_print(by, sizeof by, "if the modulus %s by %.2g %% a kelvin",
+                      slope < 0 ? "falls" : "rises", 100 * fabs(slope));
     clocale_print(words, sizeof words,
-                  "a track %.2g K %s than the bulk, by the DMA%s (no "
+                  "a track %.2g K %s than the bulk, %s%s (no "
                   "temperature is stated)",
-                  fabs(needed), needed > 0 ? "warmer" : "colder",
+                  fabs(needed), needed > 0 ? "warmer" : "colder", by,
                   within ? ", which would hide the margin" : "");
-    add_cause(u, least <= room_span, words,
-              "the temperature of the curves (indentation-temperature, track-temperature)");
+    /* What would hide a difference as large as the margin must be as large, and of the other sign:
+     * to expect that takes a slope that is known. */
+    const bool plausible = (by_dma || !within) && u->least <= effect;
+    add_cause(u, plausible, (cause_effect){effect, effect}, words,
+              by_dma ? "the temperature of the curves (indentation-temperature, track-temperature)"
+                     : "the temperature of the curves, one for both if it was "
+                       "(indentation-temperature, track-temperature)");
     return WT_OK;
 }
 
@@ -300,5 +349,5 @@ wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, 
     wt_status status = add_tip(p, job, within, u, err);
     if (status == WT_OK)
         status = add_pull(p, within, u, err);
-    return status == WT_OK ? add_temperature(p, job, work, within, u, err) : status;
+    return status == WT_OK ? add_temperature(p, job, work, row, within, u, err) : status;
 }

@@ -6,7 +6,6 @@
 #include "base/array.h"
 #include "base/digest.h"
 #include "data/tables/rows.h"
-#include "read/bytes/input.h"
 
 #include <search.h>
 #include <stdlib.h>
@@ -269,7 +268,7 @@ wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role
     if (beside != NULL)
         *beside = NULL;
     if (status == WT_OK && work->provenance != NULL && beside != NULL)
-        status = input_beside(input, beside, err);
+        status = wt_input_beside(input, beside, err);
     if (status == WT_OK && (work->provenance != NULL || work->cost != NULL) &&
         (beside == NULL || *beside == NULL))
         status = flow_record(work, input, file, role, err);

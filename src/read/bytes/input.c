@@ -168,7 +168,7 @@ wt_status input_of_file(int file, size_t size, const char *name, wt_input **inpu
     return status;
 }
 
-wt_status input_beside(const wt_input *input, wt_input **beside, wt_error *err)
+wt_status wt_input_beside(const wt_input *input, wt_input **beside, wt_error *err)
 {
     *beside = NULL;
     if (input->whole || input->expected <= SCRATCH_ABOVE)

@@ -13,10 +13,6 @@ wt_status input_own(char *bytes, size_t length, const char *name, wt_input **inp
 wt_status input_of_file(int file, size_t size, const char *name, wt_input **input,
                         wt_error *err) WT_NODISCARD;
 
-/* The same file once more, of which another thread may ask parts (wt_input_at); NULL of what is read
- * as a whole. */
-wt_status input_beside(const wt_input *input, wt_input **beside, wt_error *err) WT_NODISCARD;
-
 /* Where HDF5 finds the bytes (data/hdf5_bytes.h): in the input, which must outlive them, or in its
  * file if that is not yet read as a whole. */
 struct hdf5_bytes;
