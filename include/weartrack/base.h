@@ -369,8 +369,8 @@ WT_API unsigned wt_thread_count(unsigned threads);
 WT_API wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
                                  const wt_progress *progress, const char *what) WT_NODISCARD;
 
-/* HDF5 files are read in processes that can do nothing but read. What this system did not let any of
- * them be kept from, as a sentence; NULL: nothing, or none was made yet. */
+/* HDF5 files are read in processes that can do nothing but read. What this system did not let any
+ * of them be kept from, as a sentence; NULL: nothing, or none was made yet. */
 WT_API const char *wt_door_gaps(void);
 
 /* Wall and processor time of this process, seconds since an arbitrary start. */
