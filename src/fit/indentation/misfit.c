@@ -21,6 +21,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/indentation/curve_fitting.h"
+#include "fit/indentation/misfit_moves.h"
 #include "fit/indentation/residual_blocks.h"
 
 #include "base/normal.h"
@@ -34,11 +35,8 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    LEGENDRE = 10,                          /* carry lengths from 0.175 on to 1 % of the variance */
-    MOVES = CURVE_TIP_MOVES + 1,            /* and a pull */
-    M = LEGENDRE + MOVES + CURVE_TIP_MOVES, /* and how moves of the tip bend */
-    BEND_ROUNDS = 4,
-    MOVE_STEPS = 12, /* to the farthest move, each way */
+    LEGENDRE = MISFIT_FUNCTIONS, /* carry lengths from 0.175 on to 1 % of the variance */
+    M = MISFIT_COLUMNS,
     LENGTHS = 3,
     SIZES = 16, /* most */
     NODES = 64, /* of the depth, for the covariance of the Legendre functions */
@@ -52,13 +50,11 @@ static const double largest_size = 0.3;
  * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
  * that it leaves; a pull by 3 times. */
 static const double most_hidden = 60.0;
-static const double size_ratio = 2.5;    /* of two sizes that are tried: likelihoods are wider */
-static const double no_size = 0.01;      /* of a likelihood: the size is none */
-static const double outside = 0.05;      /* of an interval of 95 % */
-static const double moved_chi2 = 3.84;   /* of a move that is not 0, by its 95 % */
-static const double farthest_move = 3.0; /* of a tip, in its standard errors */
-static const double no_chance = 1e-4;    /* of an interval: what is less likely is not in it */
-static const double error_step = 0.01;   /* of an error: to be said with two digits */
+static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
+static const double no_size = 0.01;    /* of a likelihood: the size is none */
+static const double outside = 0.05;    /* of an interval of 95 % */
+static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
+static const double error_step = 0.01; /* of an error: to be said with two digits */
 
 /* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
  * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
@@ -84,14 +80,6 @@ static void legendre(double x, double to[LEGENDRE])
         before = now;
         now = next;
     }
-}
-
-static double dot(const double *a, const double *b, size_t n)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
 }
 
 static void make_kernels(void)
@@ -129,15 +117,6 @@ static void make_kernels(void)
 }
 
 /* ---- what the data say ----------------------------------------------------------------------- */
-
-/* Whitened and in units of the noise: the discrepancy's columns without what the parameters can
- * imitate. */
-typedef struct data_sums {
-    size_t n_free, which[N]; /* the free parameters */
-    size_t n_tips, n_moves;  /* moves of the tip; with a pull; behind them bends of the former */
-    double imitated[N][M];   /* of the parameters, by a coefficient of 1 */
-    double mm[M][M], my[M];  /* sums of the columns with each other and the residual */
-} data_sums;
 
 typedef struct columns {
     double a[N][BLOCKS_WINDOW], b[M][BLOCKS_WINDOW], y[BLOCKS_WINDOW];
@@ -200,7 +179,7 @@ static double pull_without_law(const curve_fitting *f)
 /* Of one block of the history or window: Legendre functions, in units of the largest force, what a
  * moved tip changes, and a pull. */
 static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
-                         const residual_blocks *b, double force, columns *to, data_sums *d)
+                         const residual_blocks *b, double force, columns *to, misfit_sums *d)
 {
     double raw[M][BLOCKS_HISTORY];
     const double pull = pull_without_law(f);
@@ -277,11 +256,11 @@ static double contact_reach(const curve_law *m, const double p[N], const residua
 }
 
 static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N], const double *e,
-                   const residual_blocks *b, double force, data_sums *to)
+                   const residual_blocks *b, double force, misfit_sums *to)
 {
     columns of;
     double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
-    *to = (data_sums){0};
+    *to = (misfit_sums){0};
     fill_columns(f, m, p, b, force, &of, to);
     const size_t n = b->n, columns_b = LEGENDRE + to->n_moves + to->n_tips;
     for (size_t i = 0; i < N; i++)
@@ -326,8 +305,10 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
     for (size_t k = 0; k < columns_b; k++) {
         for (size_t l = 0; l <= k; l++)
             to->mm[k][l] = to->mm[l][k] =
-                (curve_dot(of.b[k], of.b[l], n) - dot(solved[k], solved[l], q)) / b->innovation;
-        to->my[k] = (curve_dot(of.b[k], of.y, n) - dot(solved[k], along_y, q)) / b->innovation;
+                (curve_dot(of.b[k], of.b[l], n) - misfit_dot(solved[k], solved[l], q)) /
+                b->innovation;
+        to->my[k] =
+            (curve_dot(of.b[k], of.y, n) - misfit_dot(solved[k], along_y, q)) / b->innovation;
     }
     /* back to the parameters */
     for (size_t k = 0; k < columns_b; k++) {
@@ -344,141 +325,6 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
 }
 
 /* ---- sizes and lengths ----------------------------------------------------------------------- */
-
-/* What the parameters would be, and how sure that is. */
-typedef struct candidate {
-    double log_likelihood, chance, shift[N], variance[N];
-} candidate;
-
-/* Adds `share` of column `of` to column `to` of the sums. */
-static void add_column(data_sums *d, size_t to, size_t of, double share)
-{
-    for (size_t k = 0; k < M; k++)
-        d->mm[to][k] += share * d->mm[of][k];
-    for (size_t k = 0; k < M; k++)
-        d->mm[k][to] += share * d->mm[k][of];
-    d->my[to] += share * d->my[of];
-    for (size_t a = 0; a < d->n_free; a++)
-        d->imitated[a][to] += share * d->imitated[a][of];
-}
-
-/* The matrix of the moves, of a deviation of 1 each, in triangular form, and where they would be.
- */
-static bool solve_moves(const data_sums *d, double (*t)[M], double *x)
-{
-    const size_t n = d->n_moves;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            t[i][j] = d->mm[LEGENDRE + i][LEGENDRE + j] + (i == j ? 1.0 : 0.0);
-    if (!cholesky_factor(&t[0][0], M, n, 0.0))
-        return false;
-    cholesky_forward(&t[0][0], M, n, d->my + LEGENDRE, x);
-    return true;
-}
-
-/* Forces are not linear in the sizes of a tip: the moves become those about where the data put
- * them, and the residual what it is there. */
-static bool bend_moves(data_sums *d)
-{
-    const data_sums straight = *d;
-    const size_t n = d->n_moves, bends = LEGENDRE + n;
-    double at[CURVE_TIP_MOVES] = {0.0};
-    for (int round = 0; round < BEND_ROUNDS && d->n_tips > 0; round++) {
-        double t[M][M] = {{0.0}}, x[M];
-        *d = straight;
-        for (size_t i = 0; i < d->n_tips; i++)
-            add_column(d, LEGENDRE + i, bends + i, at[i]);
-        for (size_t i = 0; i < d->n_tips; i++)
-            for (size_t k = 0; k < M; k++)
-                d->my[k] += 0.5 * at[i] * at[i] * d->mm[bends + i][k];
-        if (!solve_moves(d, t, x))
-            return false;
-        for (size_t c = n; c-- > 0;) {
-            for (size_t k = c + 1; k < n; k++)
-                x[c] -= t[k][c] * x[k];
-            x[c] /= t[c][c];
-            /* what three tips say of forces does not reach farther */
-            if (c < d->n_tips)
-                at[c] = fmax(-farthest_move, fmin(farthest_move, x[c]));
-        }
-    }
-    return true;
-}
-
-/* Minus 2 ln of the chance that tip i alone is moved by x, but for a constant. */
-static double cost_of_move(const data_sums *d, size_t i, double x)
-{
-    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
-    const double bend = 0.5 * x * x;
-    return x * x - 2.0 * (x * d->my[c] + bend * d->my[q]) + x * x * d->mm[c][c] +
-           2.0 * x * bend * d->mm[c][q] + bend * bend * d->mm[q][q];
-}
-
-/* What a move of tip i does to the parameters, in the mean of the squares over all that the
- * residual allows: two tips far from each other may leave as little, as where only one of them is
- * deep in its cap. */
-static void spread_of_move(const data_sums *d, size_t i, double spread[N])
-{
-    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
-    double least = (double)INFINITY, all = 0.0;
-    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++)
-        least = fmin(least, cost_of_move(d, i, farthest_move * j / MOVE_STEPS));
-    for (size_t a = 0; a < N; a++)
-        spread[a] = 0.0;
-    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++) {
-        const double x = farthest_move * j / MOVE_STEPS,
-                     chance = exp(-0.5 * (cost_of_move(d, i, x) - least));
-        all += chance;
-        for (size_t a = 0; a < d->n_free; a++)
-            spread[a] += chance * pow(x * d->imitated[a][c] + 0.5 * x * x * d->imitated[a][q], 2);
-    }
-    for (size_t a = 0; a < N; a++)
-        spread[a] /= all;
-}
-
-/* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
- * alone make of the others is the candidate without a discrepancy. Where they fit better than the
- * stated tip all of its deviation counts: which of its sizes is off the residual does not say.
- * tip: of the variances, that of the stated errors of the tip. False if there is no solution. */
-static bool take_out_moves(data_sums *d, candidate *none, double tip[N])
-{
-    const size_t n = d->n_moves;
-    double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M], straight[N][CURVE_TIP_MOVES];
-    double spread[CURVE_TIP_MOVES][N];
-    *none = (candidate){.log_likelihood = 0.0};
-    for (size_t a = 0; a < d->n_free; a++)
-        memcpy(straight[a], d->imitated[a] + LEGENDRE, d->n_tips * sizeof straight[a][0]);
-    for (size_t i = 0; i < d->n_tips; i++)
-        spread_of_move(d, i, spread[i]);
-    if (!bend_moves(d) || !solve_moves(d, t, of_y))
-        return false;
-    const bool fit_better = dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
-    for (size_t k = 0; k < LEGENDRE; k++)
-        cholesky_forward(&t[0][0], M, n, d->mm[k] + LEGENDRE, by[k]);
-    for (size_t k = 0; k < LEGENDRE; k++) {
-        d->my[k] -= dot(by[k], of_y, n);
-        for (size_t l = 0; l < LEGENDRE; l++)
-            d->mm[k][l] -= dot(by[k], by[l], n);
-    }
-    for (size_t a = 0; a < d->n_free; a++) {
-        double y[M];
-        cholesky_forward(&t[0][0], M, n, d->imitated[a] + LEGENDRE, y);
-        none->shift[a] = -dot(y, of_y, n);
-        none->variance[a] = dot(y, y, n);
-        if (fit_better) {
-            none->shift[a] = 0.0;
-            none->variance[a] = fmax(dot(y, y, n), dot(straight[a], straight[a], d->n_tips));
-        }
-        for (size_t k = 0; k < d->n_tips; k++)
-            none->variance[a] =
-                fmax(none->variance[a], spread[k][a] - none->shift[a] * none->shift[a]);
-        const double pull = d->n_moves > d->n_tips ? d->imitated[a][LEGENDRE + d->n_tips] : 0.0;
-        tip[a] = d->n_tips > 0 ? fmax(0.0, none->variance[a] - pull * pull) : 0.0;
-        for (size_t k = 0; k < LEGENDRE; k++)
-            d->imitated[a][k] -= dot(by[k], y, n);
-    }
-    return true;
-}
 
 /* The sums for unit normal numbers behind a discrepancy of size 1 and one of the lengths, turned so
  * that those with each other make a tridiagonal matrix: then a size costs next to nothing. */
@@ -497,8 +343,8 @@ static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGE
 }
 
 /* Of the sums `with` of root' mm root. */
-static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE], const data_sums *d,
-                             length_sums *to)
+static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
+                             const misfit_sums *d, length_sums *to)
 {
     double tau[LEGENDRE - 1], q[LEGENDRE][LEGENDRE], turned[LEGENDRE][LEGENDRE];
     gsl_matrix_view a = gsl_matrix_view_array(&with[0][0], LEGENDRE, LEGENDRE),
@@ -517,7 +363,7 @@ static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
         turn(turned, d->imitated[c], to->imitated[c]);
 }
 
-static length_sums sums_of_length(const data_sums *d, int length)
+static length_sums sums_of_length(const misfit_sums *d, int length)
 {
     double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE], with[LEGENDRE][LEGENDRE] = {{0.0}};
     length_sums to;
@@ -526,21 +372,21 @@ static length_sums sums_of_length(const data_sums *d, int length)
             root[i][k] = kernels.root[length][k][i];
     for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t k = 0; k < LEGENDRE; k++)
-            half[i][k] = dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
+            half[i][k] = misfit_dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
     for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t j = 0; j <= i; j++)
-            with[i][j] = dot(half[i] + j, root[j] + j, LEGENDRE - j);
+            with[i][j] = misfit_dot(half[i] + j, root[j] + j, LEGENDRE - j);
     make_tridiagonal(kernels.root[length], with, d, &to);
     return to;
 }
 
 /* With a discrepancy of size s; returns what it explains of the residual. */
-static double try_size(const data_sums *d, const length_sums *l, double s, const candidate *none,
-                       candidate *c)
+static double try_size(const misfit_sums *d, const length_sums *l, double s,
+                       const misfit_candidate *none, misfit_candidate *c)
 {
     const double square = s * s;
     double factor[LEGENDRE], share[LEGENDRE] = {0.0}, x[LEGENDRE], explained = 0.0, product = 1.0;
-    *c = (candidate){.log_likelihood = -(double)INFINITY};
+    *c = (misfit_candidate){.log_likelihood = -(double)INFINITY};
     for (size_t i = 0; i < LEGENDRE; i++) {
         factor[i] = 1.0 + square * l->with[i];
         x[i] = l->residual[i];
@@ -579,16 +425,16 @@ static double student(double unexplained, double freedom)
 
 typedef struct mixture {
     size_t n;
-    candidate part[1 + LENGTHS * SIZES]; /* the first one is that there is no discrepancy */
+    misfit_candidate part[1 + LENGTHS * SIZES]; /* the first one is that there is no discrepancy */
     double tip[N]; /* of all variances, that of the stated errors of the tip */
 } mixture;
 
-static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *to)
+static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture *to)
 {
-    candidate *const none = &to->part[0];
+    misfit_candidate *const none = &to->part[0];
     double explained[1 + LENGTHS * SIZES] = {0.0}, most = 0.0, best, sum = 0.0;
     length_sums of[LENGTHS];
-    if (!take_out_moves(d, none, to->tip))
+    if (!misfit_take_out_moves(d, none, to->tip))
         return false;
     for (int l = 0; l < LENGTHS; l++)
         of[l] = sums_of_length(d, l);
@@ -597,7 +443,7 @@ static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *t
     for (double s = largest; to->n + LENGTHS <= 1 + LENGTHS * SIZES && matters; s /= size_ratio) {
         matters = false;
         for (int l = 0; l < LENGTHS; l++, to->n++) {
-            candidate *c = &to->part[to->n];
+            misfit_candidate *c = &to->part[to->n];
             explained[to->n] = try_size(d, &of[l], s, none, c);
             most = fmax(most, explained[to->n]); /* that of the largest size */
             matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
@@ -606,7 +452,7 @@ static bool weigh_sizes(data_sums *d, double largest, double freedom, mixture *t
     }
     best = none->log_likelihood = log(holds) + student(most, freedom);
     for (size_t i = 1; i < to->n; i++) {
-        candidate *c = &to->part[i];
+        misfit_candidate *c = &to->part[i];
         c->log_likelihood += student(most - explained[i], freedom) +
                              log((1.0 - holds) * c->chance * LENGTHS / (double)(to->n - 1));
         best = fmax(best, c->log_likelihood);
@@ -625,7 +471,7 @@ static double error_of(const mixture *m, size_t a, double less, double standard_
 {
     double low = standard_error, high = standard_error, sd[1 + LENGTHS * SIZES];
     for (size_t i = 0; i < m->n; i++) {
-        const candidate *c = &m->part[i];
+        const misfit_candidate *c = &m->part[i];
         sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + c->shift[a] * c->shift[a] +
                      standard_error * standard_error);
         if (c->chance > no_chance)
@@ -660,7 +506,7 @@ void curve_add_misfit(curve_fitting *f)
     curve_solution *s = &f->solution;
     curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
     residual_blocks b;
-    data_sums d;
+    misfit_sums d;
     mixture found;
     double *const e = f->workspace->scratch;
     for (size_t i = 0; i < N; i++) /* until it is known */
