@@ -37,6 +37,37 @@ static void restore_stdin(int saved)
     close(saved);
 }
 
+/* Of a large file a second input gives the same parts, also when its name has another one by then
+ * and the first is closed; of a small one there is none. */
+static void file_beside(void **state)
+{
+    (void)state;
+    enum { LARGE = 5 << 20 };
+    const char *const path = "beside.tmp";
+    unsigned char *const bytes = malloc(LARGE), part[1000];
+    assert_non_null(bytes);
+    for (size_t i = 0; i < LARGE; i++)
+        bytes[i] = (unsigned char)(i * i >> 7);
+    for (int large = 0; large < 2; large++) {
+        wt_input *input = NULL, *beside = NULL;
+        const size_t n = large ? LARGE : 1000;
+        FILE *file = fopen(path, "wb");
+        assert_true(file != NULL && fwrite(bytes, 1, n, file) == n && fclose(file) == 0);
+        assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
+        assert_int_equal(wt_input_beside(input, &beside, NULL), WT_OK);
+        assert_int_equal(unlink(path), 0);
+        assert_true((beside != NULL) == large);
+        wt_input_close(input);
+        for (size_t at = 0; beside != NULL && at < n; at += 777777) {
+            const size_t some = n - at < sizeof part ? n - at : sizeof part;
+            assert_int_equal(wt_input_at(beside, at, part, some, NULL), WT_OK);
+            assert_memory_equal(part, bytes + at, some);
+        }
+        wt_input_close(beside);
+    }
+    free(bytes);
+}
+
 static void pipe_file_and_memory(void **state)
 {
     (void)state;
@@ -358,6 +389,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pipe_file_and_memory),
+        cmocka_unit_test(file_beside),
         cmocka_unit_test(a_pipe_that_cannot_be_kept),
         cmocka_unit_test(files_that_cannot_be_read),
         cmocka_unit_test(binary_readers_are_complete),
