@@ -383,6 +383,11 @@ typedef struct wt_peak {
  * points about the largest. A largest point that is one of the outer two on a side is no peak. */
 WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points,
                               wt_peak *peak, wt_error *err) WT_NODISCARD;
+/* Other maxima beside the largest point, rising in x: each in the range between the valleys that
+ * part it, from which the values rise by a tenth at least, and found there like that of
+ * wt_peak_find. At most `most` of them; *n: how many. */
+WT_API wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most,
+                                 wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
 /* The value at a place by such a curve through its neighbours; NaN outside of the points. */
 WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
                                   wt_interval *value, wt_error *err) WT_NODISCARD;

@@ -253,6 +253,69 @@ static void slopes(void **state)
     smooth_free(&s);
 }
 
+/* Two rubbers in a blend, the second one lower: where their sum has its maxima. */
+static double blend(double celsius, double share)
+{
+    return exp(-pow((celsius + 45) / 9, 2)) + share * exp(-pow((celsius - 5) / 12, 2)) + 0.03;
+}
+
+static double true_top(double from, double to, double share)
+{
+    double at = from;
+    for (double t = from; t < to; t += 0.002)
+        at = blend(t, share) > blend(at, share) ? t : at;
+    return at;
+}
+
+static void lower_peaks_are_told(void **unused)
+{
+    (void)unused;
+    uint64_t state = 11;
+    size_t held = 0, found = 0, wrong = 0;
+    for (size_t draw = 0; draw < DRAWS; draw++) {
+        const double share = 0.15 + 0.1 * (double)(draw % 8), step = steps[draw / 8 % 3];
+        double x[MOST], y[MOST];
+        size_t n = 0, n_peaks = 0;
+        wt_peak peaks[4];
+        for (double t = -80 + 0.1 * (double)(draw % 9); t < 60; t += step) {
+            x[n] = t;
+            y[n++] = blend(t, share) * exp(0.01 * dma_normal(&state));
+        }
+        assert_int_equal(wt_peaks_beside(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
+        const double truth = true_top(-10, 20, share);
+        for (size_t i = 0; i < n_peaks; i++)
+            wrong += fabs(peaks[i].at.value - truth) > 5;
+        if (n_peaks != 1)
+            continue;
+        found++;
+        held += peaks[0].at.low <= truth && truth <= peaks[0].at.high;
+    }
+    print_message("lower peaks: %zu of %zu found, %zu of them held, %zu wrong\n", found,
+                  (size_t)DRAWS, held, wrong);
+    assert_true(found > 0.97 * DRAWS);
+    assert_true((double)held > 0.91 * (double)found);
+    assert_true(wrong <= 2);
+}
+
+/* One peak with scatter has no other beside it; nor has a shoulder. */
+static void no_lower_peak(void **unused)
+{
+    (void)unused;
+    uint64_t state = 3;
+    size_t wrong = 0;
+    for (size_t draw = 0; draw < DRAWS; draw++) {
+        double x[MOST], y[MOST];
+        const rubber *r;
+        wt_peak peaks[4];
+        size_t n_peaks = 0;
+        const size_t n = measure(draw, draw % 2 == 0, x, y, &state, &r);
+        assert_int_equal(wt_peaks_beside(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
+        wrong += n_peaks;
+    }
+    print_message("no lower peak: %zu in %zu sweeps\n", wrong, (size_t)DRAWS);
+    assert_true(wrong <= 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(peaks_hold_the_truth),
@@ -260,6 +323,8 @@ int main(void)
                                        cmocka_unit_test(no_peak),
                                        cmocka_unit_test(parabola),
                                        cmocka_unit_test(reference_parabolas),
-                                       cmocka_unit_test(slopes)};
+                                       cmocka_unit_test(slopes),
+                                       cmocka_unit_test(lower_peaks_are_told),
+                                       cmocka_unit_test(no_lower_peak)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

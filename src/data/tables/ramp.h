@@ -44,6 +44,8 @@
                  "the loss modulus", loss)                                                         \
     X(GLASS_TRANSITION_TEMPERATURE_MIN, AS(temperature_min), "coldest point", SI(TEMPERATURE))     \
     X(GLASS_TRANSITION_TEMPERATURE_MAX, AS(temperature_max), "warmest point", SI(TEMPERATURE))     \
+    X(GLASS_TRANSITION_OTHER, AS(other),                                                           \
+      "1: a lower peak beside the largest one, in a row of its own", YES_NO, LABEL("Lower peak"))  \
     X(GLASS_TRANSITION_SOURCE, AS(source), "file and step", TEXT)
 /* Of the frequency nearest to 1 Hz at which there is a peak; the energies of all frequencies. */
 #define GLASS_TRANSITION_KEYS(X)                                                                   \

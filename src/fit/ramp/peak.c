@@ -14,6 +14,9 @@ static const double share = 0.6;
 /* And over at least so many points, three times the constants of a parabola. A largest point that
  * is one of the outer two may be a rise that goes on. */
 enum { LEAST = 9, FROM_END = 2 };
+/* What lies between two maxima is a valley if the values rise from it by so much on both sides:
+ * ten times what a careful sweep scatters, and a shoulder that rises less is no peak. */
+static const double out_of_valley = 1.1;
 /* Values between points come from so many neighbours: chosen, for half of them tell their scatter
  * to 35 %, and twice as many cover twice the bend. */
 enum { NEIGHBOURS = 15 };
@@ -183,6 +186,62 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
     const wt_status status =
         place_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
     free(z);
+    return status;
+}
+
+/* ---- other peaks ----------------------------------------------------------------------------- */
+
+typedef struct peak_list {
+    const double *x, *y;
+    size_t main; /* the largest of all points */
+    wt_peak *peaks;
+    size_t n, most;
+} peak_list;
+
+/* The lowest point on the way from `from` to `to`, if the values rise from it again; else `from`.
+ */
+static size_t find_valley(const double *y, size_t from, size_t to)
+{
+    size_t lowest = from;
+    for (size_t i = from; i != to; i += to > from ? 1 : (size_t)-1) {
+        lowest = y[i] < y[lowest] ? i : lowest;
+        if (lowest != from && y[i] >= out_of_valley * y[lowest])
+            return lowest;
+    }
+    return from;
+}
+
+/* The peaks among the points from `first` to `last`, one past it: that about the largest, unless it
+ * is the main one, and what valleys part from it. */
+static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error *err)
+{
+    const double *y = list->y;
+    if (last - first < LEAST)
+        return WT_OK;
+    size_t top = first;
+    for (size_t i = first; i < last; i++)
+        top = y[i] > y[top] ? i : top;
+    const size_t cold = find_valley(y, top, first), warm = find_valley(y, top, last - 1);
+    wt_status status = cold != top ? add_peaks(list, first, cold + 1, err) : WT_OK;
+    if (status == WT_OK && top != list->main && list->n < list->most) {
+        const size_t from = cold != top ? cold : first, to = warm != top ? warm + 1 : last;
+        wt_peak *peak = &list->peaks[list->n];
+        status = to - from >= LEAST
+                     ? wt_peak_find(list->x + from, y + from, to - from, 0, peak, err)
+                     : WT_OK;
+        list->n += status == WT_OK && to - from >= LEAST && peak->found;
+    }
+    return status == WT_OK && warm != top ? add_peaks(list, warm, last, err) : status;
+}
+
+wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most, wt_peak *peaks,
+                          size_t *n_peaks, wt_error *err)
+{
+    peak_list list = {.x = x, .y = y, .peaks = peaks, .most = most};
+    for (size_t i = 1; i < n; i++)
+        list.main = y[i] > y[list.main] ? i : list.main;
+    const wt_status status = add_peaks(&list, 0, n, err);
+    *n_peaks = status == WT_OK ? list.n : 0;
     return status;
 }
 

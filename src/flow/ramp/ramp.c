@@ -196,7 +196,8 @@ typedef struct shown_peak {
 } shown_peak;
 
 TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss;
-          double angular_frequency, temperature_min, temperature_max; const char *source;)
+          double angular_frequency, temperature_min, temperature_max; const char *source;
+          bool other;)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
@@ -220,6 +221,28 @@ static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, 
     return WT_OK;
 }
 
+/* More transitions than these no rubber has; what is left is scatter. */
+enum { MOST_OTHERS = 8 };
+
+/* Lower peaks of one quantity, a row for each: of which transition of the other quantity it is
+ * nobody says. */
+static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *u, quantity q,
+                            wt_error *err)
+{
+    wt_peak lower[MOST_OTHERS];
+    size_t n = 0;
+    const wt_status status =
+        wt_peaks_beside(u->temperature, u->value[q], u->n, MOST_OTHERS, lower, &n, err);
+    for (size_t i = 0; i < n; i++) {
+        const wt_peak none = {.found = false,
+                              .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
+        TABLE_ADD(glass_transition, t, show_peak(q == FACTOR ? &lower[i] : &none),
+                  show_peak(q == LOSS ? &lower[i] : &none), ramp->angular_frequency,
+                  ramp->temperature[0], ramp->temperature[ramp->n - 1], ramp->source, true);
+    }
+    return status;
+}
+
 static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
                                 const usable *u, peaks *found, wt_error *err)
 {
@@ -230,8 +253,10 @@ static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const w
         return status;
     TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
               ramp->angular_frequency, ramp->temperature[0], ramp->temperature[ramp->n - 1],
-              ramp->source);
-    return WT_OK;
+              ramp->source, false);
+    for (quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
+        status = u->has[q] ? put_others(t, ramp, u, q, err) : WT_OK;
+    return status;
 }
 
 TABLE_ROW(moduli_at, MODULI_AT, double temperature, angular_frequency;
