@@ -242,6 +242,19 @@ static void test_one_spot(void **state)
     (void)after("difference", "from 2 curves on 1 spot, 0 rejected");
 }
 
+static const char *short_line(const char *begins);
+
+/* The ratio of one spot has no error: what is predicted with it says so beside its interval. */
+static void test_one_spot_slides(void **state)
+{
+    (void)state;
+    run(0.5, 0.03,
+        INDENTATION(ONE_FILE("b"), ONE_FILE("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
+    const char *line = short_line("Friction (predicted): ");
+    assert_non_null(strstr(line, "95 % interval"));
+    assert_non_null(strstr(line, "without the error of the modulus ratio"));
+}
+
 static double key(const char *table, const char *name)
 {
     return key_estimate(wt_result_find(result, table), name).value;
@@ -364,6 +377,11 @@ static double hysteresis_in(const wt_table *what_if, size_t row)
     return cell(what_if, row, "hysteresis");
 }
 
+static double area_in(const wt_table *what_if, size_t row)
+{
+    return cell(what_if, row, "area_ratio");
+}
+
 static double with_layer_in(const wt_table *what_if, size_t row)
 {
     return cell(what_if, row, "friction_with_layer");
@@ -400,7 +418,7 @@ static told of_ratio(void)
 static void near_told(const char *text, double found, double expected, bool percent)
 {
     if (!(fabs(found - expected) <= (percent ? 0.51 : 0.0051 * fabs(expected))))
-        fail_msg("%s: %g, expected %g", text, found, expected);
+        fail_msg("%g, expected %g, in %s", found, expected, text);
 }
 
 /* Value, interval and range where a text tells them behind the words. */
@@ -471,6 +489,46 @@ static const char *short_line(const char *begins)
     return NULL;
 }
 
+/* Modulus of bulk or track, its interval that of the budget where there is one. */
+static told of_group(const char *group)
+{
+    const wt_table *groups = wt_result_find(result, "modulus_groups"),
+                   *budget = wt_result_find(result, "modulus_budget");
+    char low[64], high[64];
+    snprintf(low, sizeof low, "low_%s", group);
+    snprintf(high, sizeof high, "high_%s", group);
+    for (size_t i = 0; i < wt_table_n_rows(groups); i++)
+        if (strcmp(cell_text(groups, i, "group"), group) == 0)
+            return (told){cell(groups, i, "geometric_mean"),
+                          budget != NULL ? key_estimate(budget, low).value : cell(groups, i, "low"),
+                          budget != NULL ? key_estimate(budget, high).value
+                                         : cell(groups, i, "high"),
+                          (double)NAN, (double)NAN};
+    fail_msg("no group %s", group);
+    return (told){0};
+}
+
+static void check_groups(const char *sentence)
+{
+    static const char *const group[] = {"bulk", "track"}, *const title[] = {"Bulk: E = ",
+                                                                            "Wear track: E = "};
+    for (int g = 0; g < 2; g++) {
+        const told modulus = of_group(group[g]);
+        const char *of = strstr(sentence, group[g]);
+        char words[64];
+        snprintf(words, sizeof words, "%s: ", group[g]);
+        while (of != NULL && strncmp(of, words, strlen(words)) != 0)
+            of = strstr(of + 1, group[g]);
+        assert_non_null(of);
+        check_told(of, ", E = ", modulus, false);
+        (void)after("difference", title[g]);
+        const wt_table *answer = wt_result_find(result, "answer");
+        for (size_t i = 0; i < wt_table_n_rows(answer); i++)
+            if (strncmp(cell_text(answer, i, "answer"), title[g], strlen(title[g])) == 0)
+                check_told(cell_text(answer, i, "answer"), "E = ", modulus, false);
+    }
+}
+
 /* Softer, stiffer; less, more, or open: as the numbers have it. */
 static void check_signs(const char *sentence)
 {
@@ -522,7 +580,18 @@ static void check_told_alike(void)
     check_told(sentence, "with layer ", with, false);
     check_told(after("friction", "With the layer "), "mu = ", with, false);
     check_row(headlines, "friction_with_layer_at_reference", with, 1);
+    const told area = of_tables("friction", "area_ratio_at_reference", area_in, 1);
+    check_told(sentence, "contact area of the nominal one ", area, false);
+    check_told(after("friction", "Without a layer, "), "contact area of the nominal one ", area,
+               false);
+    const char *line = short_line("Friction (predicted): ");
+    near_told(line, number(strstr(line, "mu = ") + strlen("mu = ")), total.value, false);
+    near_told(line, number(strstr(line, "without it and ") + strlen("without it and ")), with.value,
+              false);
+    check_groups(sentence);
     const char *words = percent.model_low < 0 && percent.model_high > 0 ? open : known;
+    const char *in_full = says("friction", open) ? open : known;
+    check_told(after("friction", in_full) - strlen(in_full), in_full, percent, true);
     check_told(sentence, words, percent, true);
     check_told(short_line("Friction (predicted): "), words, percent, true);
     check_row(headlines, change, percent, 100);
@@ -627,10 +696,11 @@ static void test_other_spectrum(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_one_spot),
-        cmocka_unit_test(test_sliding),      cmocka_unit_test(test_disagreement),
-        cmocka_unit_test(test_told_alike),   cmocka_unit_test(test_caveats),
-        cmocka_unit_test(test_common_rates), cmocka_unit_test(test_other_spectrum),
+        cmocka_unit_test(test_verdicts),        cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_one_spot_slides), cmocka_unit_test(test_sliding),
+        cmocka_unit_test(test_disagreement),    cmocka_unit_test(test_told_alike),
+        cmocka_unit_test(test_caveats),         cmocka_unit_test(test_common_rates),
+        cmocka_unit_test(test_other_spectrum),
     };
     return cmocka_run_group_tests_name("answers of known truth", tests, make_folder, clean);
 }

@@ -33,7 +33,9 @@ static number_words words_with(double value, const char *unit, int digits)
         const size_t length = strlen(words.text);
         if (words.text[length - 1] == '.') /* all digits before it */
             words.text[length - 1] = '\0';
-    } else
+    } else if (value == 0) /* exactly: no digits of it are known or not */
+        snprintf(words.text, sizeof words.text, "0 %s", unit);
+    else
         wt_format_si(value, unit, digits, words.text, sizeof words.text);
     return words;
 }
@@ -117,8 +119,10 @@ static number_words number_of_finding(const finding *f, double value, int digits
 {
     if (!is_change(f) || !isfinite(value))
         return words_with(value, f->number.unit, digits);
+    const double half = 100 * (f->high - f->low) / 2; /* a narrow interval is no number twice */
+    const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
     number_words words;
-    clocale_print(words.text, sizeof words.text, "%+.0f %%", 100 * value);
+    clocale_print(words.text, sizeof words.text, "%+.*f %%", decimals, 100 * value);
     return words;
 }
 
@@ -220,6 +224,14 @@ void tell_ratio(telling *t, const finding_tables *tables)
     tell_rates(t, tables);
 }
 
+/* The ratio of one spot has no error, and an interval without it looks as if it had. */
+static const char *without_ratio(const finding *f)
+{
+    const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
+    return lacks && !isnan(f->low) ? ", without the error of the modulus ratio, which is not known"
+                                   : "";
+}
+
 void tell_thickness(telling *t, const finding_tables *tables)
 {
     const finding thickness = finding_of_thickness(tables);
@@ -231,8 +243,8 @@ void tell_thickness(telling *t, const finding_tables *tables)
         tell(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
              words_of_origin(tables));
     else
-        tell(t, "layer of %s where formation balances wear, %s", words_of_finding(&thickness).text,
-             words_of_origin(tables));
+        tell(t, "layer of %s where formation balances wear, %s%s",
+             words_of_finding(&thickness).text, words_of_origin(tables), without_ratio(&thickness));
 }
 
 void tell_change(telling *t, const finding_tables *tables, bool with_choices)
@@ -245,11 +257,12 @@ void tell_change(telling *t, const finding_tables *tables, bool with_choices)
         tell(t, "no change, for wear leaves no layer%s%s", and, range.text);
         return;
     }
-    tell(t, "%s: %s (%s)%s%s",
+    tell(t, "%s: %s (%s%s)%s%s",
          sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
          : sign == FINDING_LESS ? "less friction with the layer"
                                 : "more friction with the layer",
-         words_of_number(&change).text, words_of_interval(&change).text, and, range.text);
+         words_of_number(&change).text, words_of_interval(&change).text, without_ratio(&change),
+         and, range.text);
 }
 
 /* ---- what several sentences tell ------------------------------------------------------------- */
