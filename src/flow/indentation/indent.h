@@ -20,7 +20,6 @@ typedef struct indent_shifts {
 typedef struct indent_together {
     size_t n;
     indent_shifts bend, loss, loss_error, misfit; /* relative to the modulus */
-    double deepest;                               /* indentation [m] */
     size_t n_misfit;                              /* that show one */
     size_t n_unknown;                  /* that lose what their moduli are not known to hold */
     double deepest;                    /* largest indentation [m] */

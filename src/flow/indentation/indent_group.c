@@ -35,7 +35,6 @@ wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
         memcpy(more[to->n], fit->contact_by, sizeof *more);
     }
     to->n++;
-    to->deepest = fmax(to->deepest, fit->max_indentation);
     if (isnan(fit->misfit[0]))
         return WT_OK;
     double(*misfits)[WT_CURVE_WAVES] = array_grow(to->misfits, to->n_misfits, sizeof *misfits);
