@@ -626,9 +626,11 @@ typedef struct wt_spectrum_bin {
     double deviation;                   /* standard deviation of a mode of a scan */
     size_t n;                           /* modes, of the full plane or of both signs */
     size_t scans;                       /* that they are of */
-    double freedom;      /* degrees of freedom of the mean, as of chi-squared: fewer than n, for a
-                            window ties neighbours together */
-    double cosine, sine; /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi), phi from x */
+    double freedom; /* degrees of freedom of the mean, as of chi-squared: fewer than n, for a window
+                       ties neighbours together */
+    double shared_freedom; /* its part of those of all bins together: modes of two bins are tied,
+                              too */
+    double cosine, sine;   /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi), phi from x */
     bool reliable;
 } wt_spectrum_bin;
 
@@ -660,7 +662,8 @@ WT_API wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_o
 WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
                                  wt_surface_spectrum *joined, wt_error *err) WT_NODISCARD;
 /* C of C1 of a surface that is the same in all directions; the slope at the end goes on. Bins that
- * the scatter makes negative are left out. WT_E_RANGE: the end is too flat for that. */
+ * the scatter makes negative are left out. WT_E_RANGE: the end is too flat for that, or
+ * the profiles are too few: bins that are not known to a factor of two are left out. */
 WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
                                    wt_error *err) WT_NODISCARD;
 /* What lies behind a bin of a spectrum, with the scatter from place to place as far as it is known.

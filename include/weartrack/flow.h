@@ -644,12 +644,13 @@ WT_API wt_status wt_compare_materials(const wt_materials_job *job, const wt_job 
 
 /* ---- roughness ------------------------------------------------------------------------------- */
 
-/* A counter surface with its stated error. */
+/* A counter surface with its error, stated or measured. */
 typedef struct wt_surface {
     bool self_affine;
     double q0, qr, q1, hurst;   /* of the self-affine law; q0, q1 cut a spectrum (NaN = its ends) */
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
+    double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a

@@ -1,7 +1,7 @@
 /* Makes the height maps of fixtures/surface: two places of a random surface with a spectrum that is
- * known, one of it in a smaller window and a profile, as Gwyddion Simple Field.
+ * known, one of it in a smaller window and profiles, as Gwyddion Simple Field.
  * Usage: generate_surface FOLDER. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_surface.h"
+#include "study/made_surface.h"
 
 #include <stdio.h>
 
@@ -39,8 +39,13 @@ int main(int argc, char **argv)
 {
     if (argc != 2)
         return 2;
+    for (size_t i = 0; i < 8; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "profile-%zu.gsf", i + 1);
+        if (write_field(argv[1], name, &wide, 250, 1, 2, 5 + 31 * i) != 0)
+            return 1;
+    }
     return write_field(argv[1], "place-1.gsf", &wide, 112, 112, 5, 9) ||
            write_field(argv[1], "place-2.gsf", &wide, 112, 112, 130, 131) ||
-           write_field(argv[1], "near-by.gsf", &narrow, 112, 112, 40, 60) ||
-           write_field(argv[1], "profile.gsf", &wide, 250, 1, 2, 33);
+           write_field(argv[1], "near-by.gsf", &narrow, 112, 112, 40, 60);
 }

@@ -26,4 +26,8 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_LAYERED_FRICTION] = {"layered_friction", true},
     [Q_DWELL_STORAGE] = {"dwell_storage", true},
     [Q_DWELL_LOSS] = {"dwell_loss", true},
+    [Q_DENSITY] = {"density", true},
+    [Q_HURST] = {"hurst", false},
+    [Q_ROLL_OFF] = {"roll_off", true},
+    [Q_C0] = {"c0", true},
 };

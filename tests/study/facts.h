@@ -33,6 +33,10 @@ typedef enum quantity {
     Q_LAYERED_FRICTION,
     Q_DWELL_STORAGE, /* of one held curve, at a frequency */
     Q_DWELL_LOSS,
+    Q_DENSITY, /* C(q) of a surface, at a wavenumber */
+    Q_HURST,
+    Q_ROLL_OFF,
+    Q_C0,
     Q_COUNT
 } quantity;
 

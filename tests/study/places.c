@@ -37,6 +37,12 @@ const place place_dwell_mean[2] = {
 const place place_layered_friction = {friction, "friction_with_layer_at_reference",
                                       "standard_error", NULL, NULL};
 
+static const char surface[] = "power_spectrum";
+const place place_density = {surface, "density", NULL, "density_low", "density_high"};
+const place place_hurst = {surface, "hurst", "standard_error", NULL, NULL};
+const place place_roll_off = {surface, "roll_off", "standard_error", NULL, NULL};
+const place place_c0 = {surface, "c0", "standard_error", NULL, NULL};
+
 static const double normal95 = 1.959963984540054;
 
 /* Low and high where they stand, else the standard error to both sides. */

@@ -23,7 +23,11 @@ extern const place place_ratio;                         /* over all rates, the f
 extern const place place_dwell[2], place_dwell_mean[2]; /* E' and E'', a row for each frequency */
 extern const place place_layered_friction;              /* at the reference velocity */
 
-#define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
+extern const place place_density; /* of a surface, a row for each bin */
+extern const place place_hurst, place_roll_off, place_c0;
+
+#define PLACE_WAVENUMBER "wavenumber" /* [rad/m], beside the density */
+#define PLACE_CURVE "verdict"         /* in `place_modulus.table`, of a curve: */
 #define PLACE_ACCEPTED "accepted"
 #define PLACE_DOUBTFUL "doubtful"
 #define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */

@@ -2,7 +2,7 @@
  * formula. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "made_surface.h"
+#include "study/made_surface.h"
 #include "surface_reference.h"
 
 #include "base/array.h"
@@ -293,18 +293,18 @@ static void test_stitch(void **state)
     assert_int_equal(wt_surface_join(both, 2, &joined, NULL), WT_OK);
     assert_int_equal(joined.n, COUNT_OF(stitched));
     for (size_t k = 0; k < joined.n; k++) {
-        double of[2] = {0, 0}, lacks = 0;
+        double of[2] = {0, 0}, freedom[2] = {0, 0}, lacks = 0;
         for (size_t i = 0; i < 2; i++)
             for (size_t m = 0; m < s[i].n; m++)
-                if (s[i].bins[m].index == stitched[k].k)
+                if (s[i].bins[m].index == stitched[k].k) {
                     of[i] = (double)s[i].bins[m].n;
-        const double n = of[0] + of[1], c = pow(35.0 / 18, 2);
-        for (size_t i = 0; i < 2 && of[0] > 0 && of[1] > 0; i++) {
-            const double x = of[i] / c / 2;
-            lacks += of[i] / n * (gsl_sf_psi(x) - log(x));
-        }
+                    freedom[i] = s[i].bins[m].freedom;
+                }
+        const double n = of[0] + of[1];
+        for (size_t i = 0; i < 2 && of[0] > 0 && of[1] > 0; i++)
+            lacks += of[i] / n * (gsl_sf_psi(freedom[i] / 2) - log(freedom[i] / 2));
         if (of[0] > 0 && of[1] > 0)
-            lacks -= gsl_sf_psi(n / c / 2) - log(n / c / 2);
+            lacks -= gsl_sf_psi((freedom[0] + freedom[1]) / 2) - log((freedom[0] + freedom[1]) / 2);
         assert_int_equal(joined.bins[k].index, stitched[k].k);
         assert_int_equal(joined.bins[k].n, stitched[k].n);
         assert_near(joined.bins[k].wavenumber, stitched[k].q, 1e-12);

@@ -909,7 +909,7 @@ static void test_surface(void **state)
     static const char *const files[] = {WT_SOURCE_DIR "/fixtures/surface/place-1.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/place-2.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/near-by.gsf"};
-    static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile.gsf"};
+    static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
     see_surfaces(files, COUNT_OF(files));
     see_surfaces(profile, 1);
 }

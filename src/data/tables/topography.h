@@ -12,6 +12,8 @@
     NUMBER_AND_INTERVAL(X, POWER_SPECTRUM_DENSITY, "density",                                      \
                         "two-dimensional power spectrum C(q), with h_rms^2 = 2 pi int q C dq",     \
                         SI(POWER_SPECTRUM_2D), "C(q)", SHOWS(density))                             \
+    X(POWER_SPECTRUM_MODES_ERROR, AS(modes_error),                                                 \
+      "standard error of ln C by the scatter of its modes, each row by itself", NUMBER, SPARSE)    \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \

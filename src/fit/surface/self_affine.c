@@ -130,7 +130,7 @@ wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
             continue;
         f.x[f.n] = log(b->wavenumber);
         f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
-        f.weight[f.n++] = 1 / surface_log_variance(b->freedom);
+        f.weight[f.n++] = 1 / surface_log_variance(b->shared_freedom);
     }
     if (f.n > CONSTANTS + 1) {
         double best;

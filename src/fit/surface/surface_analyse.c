@@ -58,19 +58,40 @@ static double slope_about(const wt_surface_spectrum *s, size_t at)
     return d > 0 ? (n * xy - x * y) / d : 0;
 }
 
-/* The mean of a law over a bin lies above it at the geometric mean of the wavenumbers: of C = q^p
- * by exp(p^2 width^2 / 2). */
-static wt_status take_off_curvature(wt_surface_spectrum *s, wt_error *err)
+/* By how much the neighbours that a Hann window mixes in raise a law C = q^p: to second order, with
+ * the variance of 1/3 mode that its spectrum has along an axis, at m waves in the length of the
+ * map. Where that is half and more the law is no law for so few waves. */
+static double leak_of(const wt_height_map *map, double p, double q)
 {
+    const double m = q * (double)map->nx * map->dx / (2 * M_PI);
+    if (map->ny == 1)
+        return p * (p - 1) / (6 * m * m);
+    const double n = q * (double)map->ny * map->dy / (2 * M_PI);
+    return p * p / 12 * (1 / (m * m) + 1 / (n * n));
+}
+
+/* What the mean over a bin is too large by where the spectrum is steep: a law lies above its value
+ * at the geometric mean of the wavenumbers, C = q^p by exp(p^2 width^2 / 2), and what varies within
+ * the bin has fewer degrees of freedom; and the window mixes in what is larger. */
+static wt_status take_off_slope(const wt_height_map *map, wt_surface_window window,
+                                wt_surface_spectrum *s, wt_error *err)
+{
+    const double most = 0.6; /* at two waves and a slope that rough surfaces have */
     double *slope = malloc((s->n + 1) * sizeof *slope);
     if (slope == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < s->n; k++)
         slope[k] = slope_about(s, k);
     for (size_t k = 0; k < s->n; k++) {
-        const double above = slope[k] * s->bins[k].width;
-        s->bins[k].density *= exp(-above * above / 2);
-        s->bins[k].deviation *= exp(-above * above / 2);
+        wt_spectrum_bin *b = &s->bins[k];
+        const double above = slope[k] * b->width;
+        const double leak = window == WT_WINDOW_HANN
+                                ? fmin(most, fmax(0, leak_of(map, slope[k], b->wavenumber)))
+                                : 0;
+        b->density *= exp(-above * above / 2) / (1 + leak);
+        b->deviation *= exp(-above * above / 2) / (1 + leak);
+        b->freedom *= exp(-above * above);
+        b->shared_freedom *= exp(-above * above);
     }
     free(slope);
     return WT_OK;
@@ -169,7 +190,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     }
     free(z);
     if (status == WT_OK)
-        status = take_off_curvature(&made, err);
+        status = take_off_slope(&less, options->window, &made, err);
     if (status == WT_OK) {
         mark_reliable(&made);
         *spectrum = made;

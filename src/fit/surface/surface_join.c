@@ -113,8 +113,8 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
  * scan has few modes: what it lacks against the mean of all modes is added. */
 static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
 {
-    double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, cosine = 0,
-           sine = 0, deviation = 0;
+    double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, shared = 0,
+           cosine = 0, sine = 0, deviation = 0;
     *to = (wt_spectrum_bin){.index = index, .reliable = true};
     for (size_t i = 0; i < j->n; i++) {
         const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
@@ -128,6 +128,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
         q += w * b->mean_wavenumber;
         bias += w * surface_log_bias(b->freedom);
         variance += w * w * surface_log_variance(b->freedom);
+        shared += w * w * surface_log_variance(b->shared_freedom);
         cosine += w * b->cosine;
         sine += w * b->sine;
         to->n += b->n;
@@ -143,6 +144,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     to->density = exp(ln_c / n + (one ? 0 : surface_log_bias(freedom) - bias / n));
     to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
     to->deviation = to->density * sqrt(deviation / n);
+    to->shared_freedom = surface_freedom_of(shared / (n * n));
     to->cosine = cosine / n;
     to->sine = sine / n;
     return true;

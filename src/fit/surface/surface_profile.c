@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A density that the scatter of C1 leaves so open is none: its logarithm is not normal then. */
+static const double largest_variance = 0.5;
+
 /* The relative variance of C at a knot: what the scatter of every knot of C1 does to it. */
 static double variance_at(const wt_surface_spectrum *p, const double *q, double *c1, size_t at,
                           double c, const gsl_integration_glfixed_table *rule)
@@ -51,13 +54,21 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     }
     for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
         const double c = surface_invert(q, c1, profile->n, true, q[k], rule);
-        if (!(c > 0))
+        const double variance = c > 0 ? variance_at(profile, q, c1, k, c, rule) : (double)INFINITY;
+        if (!(variance < largest_variance))
             continue;
         wt_spectrum_bin *b = &made.bins[made.n++];
         *b = profile->bins[k];
         b->density = c;
         b->deviation = b->cosine = b->sine = (double)NAN;
-        b->freedom = surface_freedom_of(variance_at(profile, q, c1, k, c, rule));
+        b->shared_freedom *= surface_freedom_of(variance) / b->freedom;
+        b->freedom = surface_freedom_of(variance);
+    }
+    if (status == WT_OK && made.n < 2) {
+        status =
+            wt_fail(err, WT_E_RANGE, "so few profiles do not tell the spectrum of the surface");
+        wt_error_expected(err, "densities that are known to a factor of two");
+        wt_error_advice(err, "measure more profiles, ten say, longer ones, or a height map");
     }
     free(q);
     gsl_integration_glfixed_table_free(rule);

@@ -124,6 +124,7 @@ static double density_at(const transform *t, size_t i, size_t j)
 typedef struct mode_sums {
     double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
     double first, cosine, sine, c_cosine, c_sine;
+    double pairs; /* sum over pairs of modes of the squares of their correlation; 0: not counted */
 } mode_sums;
 
 typedef struct binning {
@@ -146,15 +147,21 @@ static wt_status make_bins(const surface_bins *of, binning *b, wt_error *err)
     return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
 }
 
+/* The bin of a mode; -1 if it is outside. Modes of a lattice lie on the limits, up to rounding. */
+static int place_of(const binning *b, double q)
+{
+    if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
+        return -1;
+    const int k = bin_of(b->of, q) - b->first;
+    return k >= 0 && (size_t)k < b->n ? k : -1;
+}
+
 /* A mode that stands for `times` of the full plane. */
 static void add_mode(const binning *b, double qx, double qy, double c, double times)
 {
     const double q = hypot(qx, qy);
-    /* Modes of a lattice lie on the limits, up to rounding. */
-    if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
-        return;
-    const int k = bin_of(b->of, q) - b->first;
-    if (k < 0 || (size_t)k >= b->n)
+    const int k = place_of(b, q);
+    if (k < 0)
         return;
     mode_sums *s = &b->sums[k];
     /* from the lower edge on, so that little cancels */
@@ -174,7 +181,84 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     s->c_sine += times * c * sine;
 }
 
-static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double reference,
+/* ---- how many modes are independent ---------------------------------------------------------- */
+
+/* Correlation of the amplitudes of modes that lie so many apart under a Hann window. */
+static const double hann_neighbours[] = {1, 2.0 / 3, 1.0 / 6};
+enum { REACH = sizeof hann_neighbours / sizeof *hann_neighbours - 1 };
+/* Larger bins than this have next to all neighbours of a mode inside. */
+static const double few_modes = 20000;
+
+static double square_of(int apart)
+{
+    const double r = hann_neighbours[apart < 0 ? -apart : apart];
+    return r * r;
+}
+
+/* Bins of the modes from -reach to reach in both directions, row by row. */
+typedef struct mode_grid {
+    int reach_x, reach_y;
+    short *bin;
+} mode_grid;
+
+static int grid_bin(const mode_grid *g, int i, int j)
+{
+    if (abs(i) > g->reach_x || abs(j) > g->reach_y)
+        return -1;
+    return g
+        ->bin[(size_t)(j + g->reach_y) * (size_t)(2 * g->reach_x + 1) + (size_t)(i + g->reach_x)];
+}
+
+static double pairs_of(const mode_grid *g, int i, int j, int bin, int reach_y)
+{
+    double sum = 0;
+    for (int v = -reach_y; v <= reach_y; v++)
+        for (int u = -REACH; u <= REACH; u++)
+            if (grid_bin(g, i + u, j + v) == bin)
+                sum += square_of(u) * square_of(v);
+    return sum;
+}
+
+/* For bins of few modes, many of whose neighbours are in other bins. */
+static wt_status count_pairs(const wt_height_map *map, bool lines, const binning *b, wt_error *err)
+{
+    double most = 0;
+    for (size_t k = 0; k < b->n; k++)
+        if (b->sums[k].n > 0 && b->sums[k].n <= few_modes)
+            most = b->of->reference * pow(10, (b->first + (int)k + 0.5) / PER_DECADE);
+    const double step_x = 2 * M_PI / ((double)map->nx * map->dx),
+                 step_y = lines ? 1 : 2 * M_PI / ((double)map->ny * map->dy);
+    mode_grid g = {.reach_x = (int)fmin(most / step_x, (double)map->nx / 2),
+                   .reach_y = lines ? 0 : (int)fmin(most / step_y, (double)map->ny / 2)};
+    const size_t columns = (size_t)(2 * g.reach_x + 1), rows = (size_t)(2 * g.reach_y + 1);
+    g.bin = malloc(columns * rows * sizeof *g.bin);
+    if (g.bin == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for modes");
+    for (size_t n = 0; n < columns * rows; n++) {
+        const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
+        g.bin[n] = (short)place_of(b, hypot(step_x * i, step_y * j));
+    }
+    for (size_t n = 0; n < columns * rows; n++) {
+        const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
+        if (g.bin[n] >= 0 && b->sums[g.bin[n]].n <= few_modes)
+            b->sums[g.bin[n]].pairs += pairs_of(&g, i, j, g.bin[n], lines ? 0 : REACH);
+    }
+    free(g.bin);
+    return WT_OK;
+}
+
+/* ---- means ----------------------------------------------------------------------------------- */
+
+/* Degrees of freedom of the mean of modes: two for each that is independent, and -q is none. */
+static double freedom_of(const mode_sums *s, size_t n_lines, double correlation)
+{
+    /* rows of a line count as one each, and their pairs were counted for one of them */
+    return s->pairs > 0
+               ? (double)n_lines * (s->n / (double)n_lines) * (s->n / (double)n_lines) / s->pairs
+               : s->n / correlation;
+}
+
+static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double reference, double freedom,
                                   double correlation)
 {
     const double edge = reference * pow(10, (index - 0.5) / PER_DECADE);
@@ -187,7 +271,8 @@ static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double referenc
                              .density = c,
                              .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
                              .n = (size_t)s->n,
-                             .freedom = s->n / correlation,
+                             .freedom = freedom,
+                             .shared_freedom = s->n / correlation,
                              .cosine = 2 * (s->c_cosine - c * s->cosine) / (s->n * c),
                              .sine = 2 * (s->c_sine - c * s->sine) / (s->n * c)};
 }
@@ -234,10 +319,13 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
         status = wt_fail(err, WT_E_MEMORY, "no memory for bins");
     if (status == WT_OK) {
         (lines ? bin_lines : bin_plane)(&t, map, &b);
+        if (window == WT_WINDOW_HANN)
+            status = count_pairs(map, lines, &b, err);
         for (size_t k = 0; k < b.n; k++)
             if (b.sums[k].n > 1)
-                to->bins[to->n++] =
-                    finish_bin(&b.sums[k], b.first + (int)k, bins->reference, correlation);
+                to->bins[to->n++] = finish_bin(
+                    &b.sums[k], b.first + (int)k, bins->reference,
+                    freedom_of(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
     }
     free(t.row);
     free(b.sums);

@@ -114,7 +114,8 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
     if (status == WT_OK) {
         opened.q0 = c->surface.q0;
         opened.q1 = c->surface.q1;
-        opened.c0.standard_error = c->surface.c0.standard_error;
+        if (c->surface.c0.standard_error > 0)
+            opened.c0.standard_error = c->surface.c0.standard_error;
         status = flow_surface_check(&opened, err); /* the cut-offs */
     }
     if (status == WT_OK)

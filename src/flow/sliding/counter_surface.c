@@ -11,12 +11,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void wt_surface_clear(wt_surface *surface)
 {
     if (surface == NULL)
         return;
     wt_power_spectrum_clear(&surface->spectrum);
+    free(surface->modes_error);
     *surface = (wt_surface){0};
 }
 
@@ -81,6 +83,50 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return flow_law_parse(&self_affine, text, surface, err);
 }
 
+/* The errors of the table power_spectrum, whose rows are the points that were read. */
+static wt_status take_errors(const wt_table *table, wt_surface *surface, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    const long column =
+        wt_table_find(table, power_spectrum_schema.columns[POWER_SPECTRUM_MODES_ERROR].name);
+    wt_estimate place = {0};
+    if (column < 0 || wt_table_n_rows(table) != s->n ||
+        wt_table_column_kind(table, (size_t)column) != WT_COLUMN_NUMBER)
+        return WT_OK;
+    surface->modes_error = malloc(s->n * sizeof *surface->modes_error);
+    if (surface->modes_error == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < s->n; i++) {
+        const double error = wt_table_number(table, i, (size_t)column);
+        surface->modes_error[i] = error > 0 && isfinite(error) ? error : 0;
+    }
+    if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
+                          &place) &&
+        place.value > 0 && isfinite(place.value))
+        surface->c0.standard_error = place.value;
+    return WT_OK;
+}
+
+/* Of a file that this program wrote. One from a pipe is read once. */
+static wt_status read_errors(const flow_file *file, wt_surface *surface, wt_error *err)
+{
+    static const char *const own[] = {"weartrack-stream", "weartrack-hdf5"};
+    bool is_own = false;
+    for (size_t i = 0; i < COUNT_OF(own); i++)
+        is_own = is_own || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
+    if (!is_own || strcmp(file->path, "-") == 0)
+        return WT_OK;
+    wt_result *tables = NULL;
+    wt_status status = wt_tables_read(file->path, file->name, NULL,
+                                      (wt_tables_role){NULL, NULL, NULL}, &tables, err);
+    const wt_table *table =
+        status == WT_OK ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
+    if (table != NULL)
+        status = take_errors(table, surface, err);
+    wt_result_free(tables);
+    return status;
+}
+
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
 {
     wt_input *input = NULL;
@@ -97,7 +143,7 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
     }
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
-    return status;
+    return status == WT_OK ? read_errors(file, surface, err) : status;
 }
 
 static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
@@ -185,6 +231,26 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
         return wt_roughness_self_affine(surface->q0, surface->qr, surface->q1, surface->hurst,
                                         factor * surface->c0.value, roughness, err);
     return spectrum_roughness(surface, factor, roughness, err);
+}
+
+wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t seed,
+                            size_t replicate, wt_roughness **roughness, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    if (replicate == WT_NO_REPLICATE || surface->modes_error == NULL || surface->self_affine)
+        return wt_surface_roughness(surface, factor, roughness, err);
+    wt_surface drawn = *surface;
+    drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
+    if (drawn.spectrum.density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < s->n; i++) {
+        /* each point has a draw of its own, behind all others */
+        const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
+        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z);
+    }
+    const wt_status status = wt_surface_roughness(&drawn, factor, roughness, err);
+    free(drawn.spectrum.density);
+    return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */

@@ -13,7 +13,12 @@ const wt_params *flow_spectrum_params(void);
 void flow_surface_cost(const wt_surface *surface, const wt_job *work);
 /* Whether they make a law; a roll-off that is not given is q0. */
 wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
-/* A measured spectrum as a surface, uncut; the densities are not checked. */
+/* The law of a replicate, all densities multiplied by `factor` and each by its own scatter; without
+ * that for WT_NO_REPLICATE. */
+wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t seed,
+                            size_t replicate, wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+/* A measured spectrum as a surface, uncut; the densities are not checked. The errors of one that
+ * weartrack psd made come with it. */
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
 

@@ -57,7 +57,11 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     }
     replicates_add(&r, sliding->pressure.standard_error, FLOW_DRAW_PRESSURE, "pressure");
     replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
-    replicates_add(&r, sliding->surface->c0.standard_error, FLOW_DRAW_DENSITY, "roughness");
+    const bool measured = sliding->surface->modes_error != NULL;
+    replicates_add(&r, sliding->surface->c0.standard_error, FLOW_DRAW_DENSITY,
+                   measured ? "places of the surface" : "roughness");
+    if (measured)
+        add_drawn(&r, "scatter of the spectrum");
     if (sliding->softness != NULL) {
         const bool drawn = softness_has_errors(sliding->softness);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");

@@ -1,6 +1,7 @@
 /* Material, roughness and load of one replicate of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/sliding_contact.h"
+#include "flow/sliding/counter_surface.h"
 #include "flow/strain/softness.h"
 #include "flow/work/cost.h"
 #include "flow/work/draws.h"
@@ -153,7 +154,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
         status = wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material,
                               c.statement, err);
     if (status == WT_OK)
-        status = wt_surface_roughness(sliding->surface, factor, &c.roughness, err);
+        status = flow_surface_draw(sliding->surface, factor, seed, replicate, &c.roughness, err);
     if (status == WT_OK)
         status = check_material(sliding, &c, err);
     if (status == WT_OK)

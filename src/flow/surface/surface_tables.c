@@ -4,11 +4,13 @@
 #include "base/clocale.h"
 #include "base/normal.h"
 #include "data/tables/rows.h"
+#include "fit/students_t.h"
+#include "fit/surface/surface.h"
 
 #include <math.h>
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double self_affine, modes, scans; const char *source;)
+          double modes_error, self_affine, modes, scans; const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by; wt_estimate extrapolated_share, place_scatter,
@@ -26,6 +28,13 @@ static wt_estimate number(double value, double standard_error)
 static wt_estimate of_interval(wt_interval i, bool known)
 {
     return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
+}
+
+/* With few places it is hardly known itself: half an interval of 95 %, over 1.96. */
+static double place_error_of(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
+                              : s->place_error;
 }
 
 /* ---- the spectrum ---------------------------------------------------------------------------- */
@@ -48,6 +57,7 @@ static void add_rows(table_writer *t, const surface_whole *w)
         const double c = k->density[i], q = k->wavenumber[i];
         const wt_interval none = {c, nan, nan, nan};
         TABLE_ADD(power_spectrum, t, q, bin ? wt_surface_density(&w->spectrum, i) : none,
+                  bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
                   law_at(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
@@ -124,7 +134,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
                                       : "measured",
         .extrapolated_share =
             number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
-        .place_scatter = number(s->place_scatter, 0), .place_error = number(s->place_error, 0),
+        .place_scatter = number(s->place_scatter, 0), .place_error = number(place_error_of(s), 0),
         .anisotropy = number(w->directions.amplitude, 0),
         .anisotropy_direction = number(area ? w->directions.direction : nan, 0),
         .directions = directions,

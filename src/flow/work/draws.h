@@ -27,7 +27,9 @@ typedef enum flow_draw {
     FLOW_DRAW_FORCE,
     /* of replicates again: what stands before keeps its numbers */
     FLOW_DRAW_SOFT_STORAGE,
-    FLOW_DRAW_SOFT_LOSS
+    FLOW_DRAW_SOFT_LOSS,
+    /* of the points of a spectrum, each behind the one before: the last */
+    FLOW_DRAW_MODES
 } flow_draw;
 
 /* Standard normal; 0 for WT_NO_REPLICATE. */

@@ -1,0 +1,127 @@
+/* Measured surfaces: waves with exponential squared amplitudes and random phases, cut out of what
+ * goes on beyond them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface_observe.h"
+#include "surface_scene.h"
+
+#include "made_surface.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { POINTS = 112, LINE = 250, MOST_SCANS = 10 };
+static const double side = 200e-6;
+
+static const facts *scene_facts(int scene)
+{
+    return &surface_scenes[scene].facts;
+}
+
+static void *prepare(int scene)
+{
+    (void)scene;
+    return NULL;
+}
+
+static made_surface surface_of(const surface_scene *s, random_source *random, double length)
+{
+    const double roll_off = s->roll_off > 0 ? s->roll_off : 6e5,
+                 hurst = s->hurst > 0 ? s->hurst : 0.8;
+    /* of all scenes alike at the roll-off of most */
+    const double c0 = 1e-25 * pow(roll_off / 6e5, -2 * (1 + hurst));
+    return (made_surface){.n = 256,
+                          .length = length,
+                          .seed = (uint64_t)(random_uniform(random) * 0x1p52),
+                          .modes = 126,
+                          .c0 = c0,
+                          .roll_off = roll_off,
+                          .hurst = hurst,
+                          .exponential = true};
+}
+
+/* A part of it as Gwyddion Simple Field. */
+static int write_scan(const surface_scene *s, const made_surface *surface, random_source *random,
+                      const char *path)
+{
+    const size_t nx = s->profiles > 0 ? LINE : POINTS, ny = s->profiles > 0 ? 1 : POINTS;
+    const double step = surface->length / (double)surface->n;
+    double *z = make_surface(surface), square = 0;
+    FILE *out = fopen(path, "wb");
+    if (out == NULL) {
+        free(z);
+        return -1;
+    }
+    for (size_t i = 0; i < surface->n * surface->n; i++)
+        square += z[i] * z[i];
+    const double form = s->form * sqrt(square) / (double)surface->n;
+    const int head = fprintf(out,
+                             "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\nXReal = %.9g\n"
+                             "YReal = %.9g\nXYUnits = m\nZUnits = m\n",
+                             nx, ny, step * (double)nx, step * (double)ny);
+    for (int i = head; i == head || i % 4 != 0; i++)
+        (void)fputc(0, out);
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            const double x = (double)i / (double)nx - 0.5, y = (double)j / (double)ny - 0.5;
+            const double height = z[(j + 7) * surface->n + i + 3] + form * (3 * x * x + x - 2 * y);
+            const bool gone = s->missing > 0 && random_uniform(random) < s->missing;
+            const float value = gone ? (float)NAN : (float)height;
+            (void)fwrite(&value, sizeof value, 1, out);
+        }
+    free(z);
+    const int bad = ferror(out);
+    return fclose(out) != 0 || bad ? -1 : 0;
+}
+
+static void read_spectrum(const char *path, const surface_scene *s, const made_surface *truth,
+                          trial *t)
+{
+    stream *found = stream_read(path);
+    const int n = found != NULL ? stream_rows(found, place_density.table) : 0;
+    if (n < 1)
+        trial_broke(t, "no spectrum of a surface");
+    for (int i = 0; i < n; i++)
+        trial_add(t, Q_DENSITY,
+                  made_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
+                  place_row(found, &place_density, i));
+    if (n > 0) {
+        trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
+        if (!(s->roll_off > 0)) {
+            trial_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
+            trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
+        }
+    }
+    stream_free(found);
+}
+
+static void observe(int scene, const void *prepared, random_source *random, trial *t)
+{
+    const surface_scene *s = &surface_scenes[scene];
+    const char *made = trial_file(t, "spectrum.tsv");
+    const char *arguments[MOST_SCANS + 5] = {"psd", "-o", made, "--no-provenance"};
+    const int wide = s->profiles > 0 ? s->profiles
+                     : s->places > 0 ? s->places
+                                     : 1,
+              all = wide + s->near_by;
+    made_surface truth = surface_of(s, random, side);
+    (void)prepared;
+    for (int i = 0; i < all; i++) {
+        char name[24];
+        made_surface here = surface_of(s, random, i < wide ? side : side / 10);
+        here.c0 *= exp(s->scatter * random_normal(random));
+        snprintf(name, sizeof name, "scan%d.gsf", i + 1);
+        arguments[4 + i] = trial_file(t, name);
+        if (write_scan(s, &here, random, arguments[4 + i]) != 0) {
+            trial_broke(t, "the scan cannot be written");
+            return;
+        }
+    }
+    if (trial_run(t, arguments))
+        read_spectrum(made, s, &truth, t);
+}
+
+family surface_family(void)
+{
+    return (family){
+        .n = n_surface_scenes, .facts = scene_facts, .prepare = prepare, .observe = observe};
+}

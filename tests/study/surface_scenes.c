@@ -1,0 +1,17 @@
+/* Measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface_scene.h"
+
+#define STATED .facts.intervals_promised = true
+
+const surface_scene surface_scenes[] = {
+    {NAMED("S1", "one scan"), STATED},
+    {NAMED("S2", "one scan of a bowl"), STATED, .form = 5},
+    {NAMED("S3", "two places and two near by"), .places = 2, .near_by = 2},
+    {NAMED("S4", "six places that scatter by 0.3"), STATED, .places = 6, .scatter = 0.3},
+    {NAMED("S5", "six places that do not"), STATED, .places = 6},
+    {NAMED("S6", "one scan, longer waves than it"), STATED, .roll_off = 3e4},
+    {NAMED("S7", "one scan, H 0.4"), STATED, .hurst = 0.4},
+    {NAMED("S8", "one scan, 5 % of it missing"), .missing = 0.05},
+    {NAMED("S9", "ten profiles"), STATED, .profiles = 10},
+};
+const int n_surface_scenes = sizeof surface_scenes / sizeof surface_scenes[0];
