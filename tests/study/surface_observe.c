@@ -86,7 +86,8 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
                   place_row(found, &place_density, i));
     if (n > 0) {
         trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
-        if (!(s->roll_off > 0)) {
+        /* profiles tell too few bins for a roll-off */
+        if (!(s->roll_off > 0) && s->profiles == 0) {
             trial_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
             trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
         }
