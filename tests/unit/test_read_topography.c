@@ -3,6 +3,7 @@
 #include "made_file.h"
 
 #include "base/array.h"
+#include "fit/surface/surface.h"
 #include "fit/surface/surface_heights.h"
 #include "fuzz/pack_list.h"
 
@@ -445,13 +446,81 @@ static void test_measured(void **state)
     assert_int_equal(n_compared, COUNT_OF(files));
 }
 
+/* The spectrum of a file by the steps of another program: a plane taken off, 0 where heights are
+ * missing, bins from 10^(k/10) on. */
+static void transform_measured(const char *name, bool flipped, double dx, double dy,
+                               wt_surface_spectrum *to)
+{
+    wt_input *input = NULL;
+    wt_image *images = NULL;
+    size_t n = 0;
+    double form[FORM_TERMS];
+    assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
+    assert_int_equal(wt_images_read(formats, input, NULL, NULL, &images, &n, NULL), WT_OK);
+    const size_t nx = images[0].n_columns, ny = images[0].n_rows;
+    double *z = malloc(nx * ny * sizeof *z);
+    assert_non_null(z);
+    for (size_t j = 0; j < ny; j++) /* as stored */
+        memcpy(z + j * nx, images[0].values + (flipped ? ny - 1 - j : j) * nx, nx * sizeof *z);
+    assert_int_equal(surface_form_remove(z, nx, ny, 1, form, NULL), WT_OK);
+    for (size_t i = 0; i < nx * ny; i++)
+        z[i] = isfinite(z[i]) ? z[i] : 0;
+    const wt_height_map map = {z, nx, ny, dx, dy};
+    const surface_bins bins = {pow(10, 0.05), 1e-9, fmin(M_PI / dx, M_PI / dy)};
+    assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, to, NULL), WT_OK);
+    wt_input_close(input);
+    clear(images, n);
+    free(z);
+}
+
+static void test_measured_spectra(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        bool flipped;
+        double dx, dy;
+    } files[] = {{"KautschukInfiniteFocus.x3p", false, 2.279984215e-6, 2.279794519e-6},
+                 {"whitelight.gsf", true, 5e-9, 1e-8},
+                 {"test.gwy", true, 1, 1}};
+    FILE *csv = fopen(WT_SHARED_DIR "/data/topography/topography-psd.csv", "r");
+    char line[1024], *cells[FIELDS];
+    wt_surface_spectrum spectra[COUNT_OF(files)] = {{.n = 0}};
+    size_t n_compared = 0;
+    if (csv == NULL) {
+        skip();
+        return;
+    }
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        char name[512];
+        snprintf(name, sizeof name, "%s/data/topography/%s", WT_SHARED_DIR, files[i].name);
+        transform_measured(name, files[i].flipped, files[i].dx, files[i].dy, &spectra[i]);
+    }
+    while (fgets(line, sizeof line, csv) != NULL) {
+        if (split(line, cells) < 9)
+            continue;
+        for (size_t i = 0; i < COUNT_OF(files); i++)
+            for (size_t k = 0; strcmp(cells[0], files[i].name) == 0 && k < spectra[i].n; k++)
+                if (spectra[i].bins[k].index == atoi(cells[2])) {
+                    assert_int_equal(spectra[i].bins[k].n, atoi(cells[5]));
+                    assert_near(spectra[i].bins[k].mean_wavenumber, atof(cells[6]), 1e-8);
+                    assert_near(spectra[i].bins[k].density, atof(cells[7]), 1e-6);
+                    n_compared++;
+                }
+    }
+    (void)fclose(csv);
+    for (size_t i = 0; i < COUNT_OF(files); i++)
+        wt_surface_spectrum_clear(&spectra[i]);
+    assert_int_equal(n_compared, 27 + 17 + 18);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gwyddion),    cmocka_unit_test(test_gwyddion_lies),
         cmocka_unit_test(test_x3p_types),   cmocka_unit_test(test_x3p_missing),
         cmocka_unit_test(test_x3p_profile), cmocka_unit_test(test_x3p_refused),
-        cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_measured),    cmocka_unit_test(test_measured_spectra),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }
