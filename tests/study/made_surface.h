@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 static inline uint64_t made_random(uint64_t seed, uint64_t i)
 {
@@ -20,6 +21,15 @@ static inline uint64_t made_random(uint64_t seed, uint64_t i)
 static inline double made_uniform(uint64_t seed, uint64_t i)
 {
     return (double)(made_random(seed, i) >> 11) * 0x1p-53;
+}
+
+/* Neither CMPLX nor I is the same for all compilers. */
+static inline double complex made_complex(double real, double imaginary)
+{
+    const double parts[] = {real, imaginary};
+    double complex z;
+    memcpy(&z, parts, sizeof z);
+    return z;
 }
 
 typedef struct made_surface {
@@ -46,7 +56,7 @@ static inline double complex made_amplitude(const made_surface *s, int mx, int m
     double square = 4 * made_density(s, q) * step * step * (1 + s->stretch * c2);
     if (s->exponential)
         square *= -log1p(-made_uniform(s->seed + 1, i));
-    return sqrt(square) * CMPLX(cos(phase), sin(phase));
+    return sqrt(square) * made_complex(cos(phase), sin(phase));
 }
 
 /* h(x_i, y_j) at z[j * n + i]: the sum over the modes of one line of them after the other. */
@@ -58,8 +68,8 @@ static inline double *make_surface(const made_surface *s)
     if (z == NULL || turn == NULL)
         abort();
     for (size_t k = 0; k < n; k++)
-        turn[k] =
-            CMPLX(cos(2 * M_PI * (double)k / (double)n), sin(2 * M_PI * (double)k / (double)n));
+        turn[k] = made_complex(cos(2 * M_PI * (double)k / (double)n),
+                               sin(2 * M_PI * (double)k / (double)n));
     for (int my = 0; my <= s->modes; my++) {
         for (size_t i = 0; i < n; i++)
             row[i] = 0;
