@@ -118,11 +118,18 @@ static double squared_doubt(const master_work *work, size_t i)
     return (by_overlap ? square : 0.0) + link->spread * link->spread + off * off;
 }
 
+/* By the user: that of the overlaps is held by the fit, too. */
+static bool is_held(const master_work *work, size_t i)
+{
+    return work->route != WT_SHIFTS_OF_OVERLAP && work->set.curves[i].given;
+}
+
 /* The error of a shift where superposition fails or may do so: what the places of the overlaps
  * disagree by, what spectrum and overlaps do, and what the misfit leaves open. The law takes it as
  * that of steps that err one by one, larger by so much that the errors are as large together: that
  * all err in the same way leaves its form alone. What only may be, it takes for nothing: in the
- * place of a law of the shifts as they are it would have none. */
+ * place of a law of the shifts as they are it would have none. Shifts that are given have no error
+ * of their own. */
 static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
@@ -135,7 +142,7 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
-        if (!work->placed[i])
+        if (!work->placed[i] || is_held(work, i))
             continue;
         const double own = work->route == WT_SHIFTS_OF_OVERLAP ? 0.0 : doubt_of_spectrum(work, i);
         const double square = squared_doubt(work, i);
@@ -144,15 +151,15 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
         all += work->link[i].placed ? sure : 0.0;
         steps += work->link[i].placed ? common_steps(work, i, i) : 0.0;
         for (size_t k = 0; k < n; k++)
-            if (work->placed[k] && work->link[i].placed && work->link[k].placed &&
-                (i < work->anchor) == (k < work->anchor))
+            if (work->placed[k] && !is_held(work, k) && work->link[i].placed &&
+                work->link[k].placed && (i < work->anchor) == (k < work->anchor))
                 gsl_matrix_set(p->doubts, work->curve[i], work->curve[k], common_steps(work, i, k));
     }
     gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
     if (may)
         gsl_matrix_set_zero(p->doubts);
     for (size_t i = 0; i < n; i++) /* without an overlap it errs alone */
-        if (work->placed[i] && !work->link[i].placed)
+        if (work->placed[i] && !is_held(work, i) && !work->link[i].placed)
             gsl_matrix_set(p->doubts, work->curve[i], work->curve[i],
                            fails ? pow(p->doubt[work->curve[i]], 2) : 0.0);
     return WT_OK;
