@@ -28,6 +28,7 @@ typedef struct cut_case {
 #define KEPT "no line end: if the file was cut off"
 #define HALF "half a line end"
 #define FEWER "fewer cells than all others"
+#define TWICE "2 rows from here on are there twice"
 #define OPEN "the line that ends a table is not there"
 
 static const cut_case cases[] = {
@@ -58,6 +59,7 @@ static const cut_case cases[] = {
     {FIXED "3,20,7.000,1.750\n4", 3, LEFT_OUT},
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r\n1,20,5.0,1.2\r\n2,20,6.0,1.5\r", 2, HALF},
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r1,20,5.0,1.2\r2,20,6.0,1.5\r", 2, NULL},
+    {FIXED "3,20,7.000,1.750\n2,20,6.000,1.500\n3,20,7.000,1.750\n", 5, TWICE},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n##\n", 2, NULL},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n##", 2, KEPT},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n", 2, OPEN},
@@ -69,7 +71,7 @@ static const cut_case cases[] = {
 
 static bool warned(const wt_parselog *log, const char *words)
 {
-    static const char *const all[] = {LEFT_OUT, KEPT, HALF, FEWER, OPEN};
+    static const char *const all[] = {LEFT_OUT, KEPT, HALF, FEWER, OPEN, TWICE};
     bool found = words == NULL;
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
         const wt_log_entry e = wt_parselog_get(log, i);
