@@ -3,6 +3,7 @@
 
 #include "base/array.h"
 #include "base/door_filter.h"
+#include "base/shortage.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -107,7 +108,8 @@ _Noreturn static void behind_door(const door_call *door)
     FILE *const answer = fdopen(ANSWER_FD, "w");
     if (answer == NULL || setvbuf(answer, NULL, _IOFBF, ANSWER_BUFFER) != 0)
         _exit(EXIT_FAILURE);
-    said.status = door->reading(door, answer, &said);
+    shortage_forget();
+    said.status = shortage_end(door->reading(door, answer, &said), &said);
     const bool written = fwrite(&said, sizeof said, 1, answer) == 1 && fflush(answer) == 0;
     _exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
 }
@@ -264,6 +266,15 @@ static void explain_call(const door_flow *flow, bool told, wt_error *err)
                   flow->what, name);
 }
 
+static wt_status fail_starved(const char *what, const door_limits *limits, wt_error *err)
+{
+    return wt_fail(err, WT_E_MEMORY, "reading the %s file takes more than %zu MiB of memory", what,
+                   limits->memory / MIB);
+}
+
+/* The scanner of UDUNITS ends the process so where it gets no memory. */
+enum { SCANNER_EXIT = 2 };
+
 /* Why there is no whole answer. */
 static wt_status explain_ending(const door_flow *flow, int state, wt_error *err)
 {
@@ -273,6 +284,8 @@ static wt_status explain_ending(const door_flow *flow, int state, wt_error *err)
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
     if (how == NO_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (how == ENDED && by == 0 && WEXITSTATUS(state) == SCANNER_EXIT)
+        return fail_starved(what, limits, err);
     if (how == BROKEN)
         return wt_fail(err, WT_E_IO, "cannot hear from the process that reads %s", what);
     if (how == LONG)
@@ -301,8 +314,7 @@ static wt_status reported_error(const char *what, const char *bytes, const door_
     if (said.status == WT_OK)
         return WT_OK;
     if (said.status == WT_E_MEMORY)
-        return wt_fail(err, WT_E_MEMORY, "reading the %s file takes more than %zu MiB of memory",
-                       what, limits->memory / MIB);
+        return fail_starved(what, limits, err);
     char *const texts[] = {said.message,  said.file,  said.place,
                            said.expected, said.found, said.advice};
     const size_t sizes[] = {sizeof said.message,  sizeof said.file,  sizeof said.place,
@@ -321,8 +333,7 @@ static wt_status fail_to_make(const char *what, int number, wt_error *err)
     (void)wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO, "no process for reading %s: %s",
                   what, strerror(number));
     if (number == EMFILE || number == ENFILE)
-        wt_error_advice(err, "more files must be open at once than the system lets: allow more, as "
-                             "by ulimit -n 256");
+        wt_error_advice(err, MORE_FILES_ADVICE);
     return err != NULL ? err->status : number == ENOMEM ? WT_E_MEMORY : WT_E_IO;
 }
 

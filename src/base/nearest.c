@@ -11,6 +11,17 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+/* Capitals of ASCII as small letters. */
+static char small(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static bool alike(char a, char b)
+{
+    return small(a) == small(b);
+}
+
 size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
 {
     size_t rows[3][LONGEST + 1];
@@ -22,9 +33,9 @@ size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
     for (size_t i = 1; i <= n_a; i++) {
         row[0] = i;
         for (size_t k = 1; k <= n_b; k++) {
-            const size_t other = a[i - 1] != b[k - 1];
+            const size_t other = alike(a[i - 1], b[k - 1]) ? 0 : 1;
             row[k] = least(least(last[k], row[k - 1]) + 1, last[k - 1] + other);
-            if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+            if (i > 1 && k > 1 && alike(a[i - 1], b[k - 2]) && alike(a[i - 2], b[k - 1]))
                 row[k] = least(row[k], before[k - 2] + 1);
         }
         size_t *const next = before;

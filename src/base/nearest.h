@@ -5,7 +5,8 @@
 #include <stddef.h>
 
 /* How many letters apart two words are: one is put in, left out, changed, or swapped with its
- * neighbour (optimal string alignment). SIZE_MAX for words of more than 63 bytes. */
+ * neighbour (optimal string alignment); capitals are small letters. SIZE_MAX for words of more than
+ * 63 bytes. */
 size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b);
 
 /* A search among names for the one that is nearest to a word. */

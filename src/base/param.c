@@ -214,6 +214,15 @@ static size_t n_choices(const wt_param *param)
     return n;
 }
 
+/* What a technician calls the form of a table that a spreadsheet opens. */
+static bool is_spreadsheet(const char *text, size_t length)
+{
+    nearest_name near = nearest_to(text, length);
+    nearest_try(&near, "excel", sizeof "excel" - 1);
+    nearest_try(&near, "xlsx", sizeof "xlsx" - 1);
+    return near.name != NULL;
+}
+
 static wt_status read_choice(const slot *s, const char *choices, const char *text, wt_error *err)
 {
     const size_t length = strlen(text);
@@ -228,6 +237,8 @@ static wt_status read_choice(const slot *s, const char *choices, const char *tex
             (void)wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
             if (near.name != NULL)
                 wt_error_advice(err, "did you mean '%.*s'?", (int)near.name_length, near.name);
+            else if (strstr(choices, "csv") != NULL && is_spreadsheet(text, length))
+                wt_error_advice(err, "a spreadsheet opens 'csv'");
             return WT_E_ARG;
         }
         p += word + 1;

@@ -1,21 +1,36 @@
-/* Answers without memory. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Answers without memory or without units. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/shortage.h"
 
-static _Thread_local bool seen;
+#include <errno.h>
+#include <string.h>
+
+static _Thread_local int seen; /* 0: nothing */
 
 void shortage_forget(void)
 {
-    seen = false;
+    seen = 0;
 }
 
-void shortage_note(void)
+void shortage_note(int number)
 {
-    seen = true;
+    seen = number;
+}
+
+wt_status shortage_fail(int number, wt_error *err)
+{
+    shortage_note(number);
+    if (number == ENOMEM)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    (void)wt_fail(err, WT_E_INTERNAL, "the units database of UDUNITS-2 cannot be read%s%s",
+                  number > 0 ? ": " : "", number > 0 ? strerror(number) : "");
+    wt_error_advice(err, "%s",
+                    number == EMFILE || number == ENFILE
+                        ? MORE_FILES_ADVICE
+                        : "install it, or name it in the variable UDUNITS2_XML_PATH");
+    return WT_E_INTERNAL;
 }
 
 wt_status shortage_end(wt_status status, wt_error *err)
 {
-    if (!seen)
-        return status;
-    return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return seen != 0 ? shortage_fail(seen, err) : status;
 }

@@ -21,16 +21,19 @@ enum { UNIT_MAX = 128 };
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *units = NULL;
 
-/* Memory ran out inside UDUNITS since it was entered. It then takes a unit that it knows for an
- * unknown one, or reads half of its database, and goes on: no answer of it counts. */
-static bool starved;
+/* What UDUNITS lacked since it was entered, as errno has it: memory, or a file of its database. It
+ * then takes a unit that it knows for an unknown one, or reads half of its database, and goes on:
+ * no answer of it counts. 0: nothing. */
+static int lacking;
 
 static int note_message(const char *format, va_list list)
 {
     (void)format;
     (void)list;
-    if (errno == ENOMEM || ut_get_status() == UT_OS)
-        starved = true;
+    if (errno == EMFILE || errno == ENFILE || errno == ENOENT || errno == EACCES)
+        lacking = errno;
+    else if (errno == ENOMEM || ut_get_status() == UT_OS)
+        lacking = ENOMEM;
     return 0;
 }
 
@@ -41,7 +44,7 @@ typedef struct visit {
 
 static visit enter_units(void)
 {
-    starved = false;
+    lacking = 0;
     errno = 0;
     return (visit){clocale_enter(), ut_set_error_message_handler(note_message)};
 }
@@ -49,7 +52,7 @@ static visit enter_units(void)
 static void leave_units(visit before)
 {
     if (errno == ENOMEM)
-        starved = true;
+        lacking = ENOMEM;
     (void)ut_set_error_message_handler(before.handler);
     clocale_leave(before.locale);
 }
@@ -76,7 +79,7 @@ static void make_units(void)
         ut_free(byte);
     }
     leave_units(before);
-    if (starved) {
+    if (lacking != 0) {
         ut_free_system(units);
         units = NULL;
     }
@@ -223,12 +226,6 @@ static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
     }
 }
 
-static wt_status out_of_memory(wt_error *err)
-{
-    shortage_note();
-    return wt_fail(err, WT_E_MEMORY, "out of memory");
-}
-
 wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, double *offset,
                         wt_error *err)
 {
@@ -259,13 +256,9 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     if (units == NULL)
         make_units();
     if (units == NULL) {
-        const bool memory = !starved;
+        const int number = lacking != 0 ? lacking : -1;
         (void)pthread_mutex_unlock(&lock);
-        if (!memory)
-            return out_of_memory(err);
-        (void)wt_fail(err, WT_E_INTERNAL, "the units database of UDUNITS-2 cannot be read");
-        wt_error_advice(err, "install it, or name it in the variable UDUNITS2_XML_PATH");
-        return WT_E_INTERNAL;
+        return shortage_fail(number, err);
     }
     const visit before = enter_units();
     if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
@@ -284,10 +277,10 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
             angular = convert_unit(text, "rad/s", &f, &o);
     }
     leave_units(before);
-    const bool failed = starved;
+    const bool failed = lacking == ENOMEM;
     (void)pthread_mutex_unlock(&lock);
     if (failed)
-        return out_of_memory(err);
+        return shortage_fail(ENOMEM, err);
 
     /* An offset makes sense for a temperature; a difference of temperatures has the same unit
      * without it, and nothing else has one. */

@@ -5,6 +5,7 @@
 #include "model/tip.h"
 
 #include "base/clocale.h"
+#include "base/nearest.h"
 
 #include <math.h>
 #include <string.h>
@@ -36,22 +37,26 @@ static void add_word(char list[LIST], const char *word, size_t after)
     snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
 }
 
-static void advise_shape(wt_error *err, size_t shape)
+/* With the name that was meant, if any is near. */
+static void advise_shape(wt_error *err, size_t shape, const nearest_name *near)
 {
     char examples[LIST] = "";
     for (size_t i = 0; i < N_SHAPES; i++)
         if (shape == N_SHAPES || shape == i)
             add_word(examples, shapes[i].example, N_SHAPES - 1 - i);
-    wt_error_advice(err, "write it like %s", examples);
+    if (near != NULL && near->name != NULL)
+        wt_error_advice(err, "did you mean %s? Write it like %s", near->name, examples);
+    else
+        wt_error_advice(err, "write it like %s", examples);
 }
 
 static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
-                            const char *found, size_t found_length)
+                            const nearest_name *found)
 {
     wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
     wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "\"%.*s\"", (int)found_length, found);
-    advise_shape(err, shape);
+    wt_error_found(err, "\"%.*s\"", (int)found->length, found->word);
+    advise_shape(err, shape, found);
     return status;
 }
 
@@ -60,26 +65,32 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
 {
     const char *equals = memchr(item, '=', length);
     if (equals == NULL)
-        return tip_syntax(err, shape, text, "name=value", item, length);
+        return tip_syntax(err, shape, text, "name=value",
+                          &(nearest_name){.word = item, .length = length});
     size_t name_length = (size_t)(equals - item), key = 0;
     while (key < TIP_N_DIMENSIONS && (strlen(tip_dimensions[key].name) != name_length ||
                                       strncmp(tip_dimensions[key].name, item, name_length) != 0))
         key++;
     if (key == TIP_N_DIMENSIONS || !(shapes[shape].allowed & 1u << key)) {
         char names[LIST] = "";
+        nearest_name near = nearest_to(item, name_length);
         for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
-            if (shapes[shape].allowed & 1u << i)
+            if (shapes[shape].allowed & 1u << i) {
                 add_word(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
-        return tip_syntax(err, shape, text, names, item, name_length);
+                nearest_try(&near, tip_dimensions[i].name, strlen(tip_dimensions[i].name));
+            }
+        return tip_syntax(err, shape, text, names, &near);
     }
     if (*seen & 1u << key)
-        return tip_syntax(err, shape, text, "every name once", item, length);
+        return tip_syntax(err, shape, text, "every name once",
+                          &(nearest_name){.word = item, .length = length});
     *seen |= 1u << key;
 
     char value[64];
     size_t value_length = length - name_length - 1;
     if (value_length >= sizeof value)
-        return tip_syntax(err, shape, text, "a number with its unit", equals + 1, value_length);
+        return tip_syntax(err, shape, text, "a number with its unit",
+                          &(nearest_name){.word = equals + 1, .length = value_length});
     memcpy(value, equals + 1, value_length);
     value[value_length] = '\0';
     wt_status status = wt_estimate_parse(value, tip_dimensions[key].quantity, &values[key], err);
@@ -97,13 +108,18 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
 static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_error *err)
 {
     char names[LIST] = "";
+    nearest_name near = nearest_to(text, length);
+    size_t meant = N_SHAPES;
     for (*shape = 0; *shape < N_SHAPES; ++*shape) {
         if (strlen(shapes[*shape].name) == length &&
             strncmp(shapes[*shape].name, text, length) == 0)
             return WT_OK;
         add_word(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
+        nearest_try(&near, shapes[*shape].name, strlen(shapes[*shape].name));
+        if (near.name == shapes[*shape].name)
+            meant = *shape;
     }
-    return tip_syntax(err, N_SHAPES, text, names, text, length);
+    return tip_syntax(err, near.name != NULL ? meant : N_SHAPES, text, names, &near);
 }
 
 wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
@@ -132,7 +148,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         if (missing & 1u << key) {
             status =
                 wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, tip_dimensions[key].name);
-            advise_shape(err, shape);
+            advise_shape(err, shape, NULL);
             return status;
         }
     }

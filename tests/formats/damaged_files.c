@@ -344,7 +344,7 @@ typedef struct call {
     uint64_t seed;
     size_t trials;
     bool verbose;
-    const char *refuse;
+    const char *refuse, *folder;
     wt_formats *formats;
     size_t counts[N_DAMAGES][N_OUTCOMES], failures;
 } call;
@@ -369,16 +369,49 @@ static void release(file *f)
     wt_parselog_free(f->log);
 }
 
+/* One damage by the number of the trial. */
+static bytes draw_damage(const call *c, const file *f, size_t trial, damage *d)
+{
+    uint64_t seed = 88172645463325252u + 1000003 * c->seed + 7919 * trial;
+    (void)draw(&seed, 2);
+    *d = (damage)(trial % N_DAMAGES);
+    return damage_file(f, *d, &seed);
+}
+
+static void write_file(const char *path, bytes b)
+{
+    FILE *const out = fopen(path, "wb");
+    if (out == NULL || fwrite(b.at, 1, b.n, out) != b.n || fclose(out) != 0)
+        abort();
+}
+
+/* FOLDER/NUMBER-KIND-NAME, so that a reader that goes by the name finds it. */
+static void write_damaged(call *c, const char *path)
+{
+    const char *const slash = strrchr(path, '/');
+    file f;
+    load(c->formats, path, &f);
+    for (size_t i = 0; i < c->trials && f.whole.n > 0; i++) {
+        char name[1024];
+        damage d = FIELD;
+        const bytes b = draw_damage(c, &f, i, &d);
+        (void)snprintf(name, sizeof name, "%s/%03zu-%s-%s", c->folder, i, damage_names[d],
+                       slash != NULL ? slash + 1 : path);
+        write_file(name, b);
+        free(b.at);
+    }
+    c->failures += f.whole.n == 0;
+    release(&f);
+}
+
 static void try_file(call *c, const char *path)
 {
     file f;
     size_t counts[N_OUTCOMES] = {0};
     load(c->formats, path, &f);
     for (size_t i = 0; i < c->trials && f.whole.n > 0; i++) {
-        uint64_t seed = 88172645463325252u + 1000003 * c->seed + 7919 * i;
-        (void)draw(&seed, 2);
-        const damage d = (damage)(i % N_DAMAGES);
-        const bytes b = damage_file(&f, d, &seed);
+        damage d = FIELD;
+        const bytes b = draw_damage(c, &f, i, &d);
         const outcome o = try_damage(c->formats, &f, b);
         const bool bad = o >= CRASHED || (o == CHANGED && c->refuse != NULL &&
                                           strstr(c->refuse, damage_names[d]) != NULL);
@@ -389,11 +422,8 @@ static void try_file(call *c, const char *path)
             char name[64];
             (void)snprintf(name, sizeof name, "damaged-%zu-%zu", (size_t)c->seed, i);
             printf("%s: %s %zu: %s\n", path, damage_names[d], i, outcome_names[o]);
-            FILE *const out = c->verbose ? fopen(name, "wb") : NULL;
-            if (out != NULL) {
-                (void)fwrite(b.at, 1, b.n, out);
-                (void)fclose(out);
-            }
+            if (c->verbose)
+                write_file(name, b);
         }
         free(b.at);
     }
@@ -416,10 +446,14 @@ int main(int argc, char **argv)
             c.verbose = true;
         else if (strncmp(argv[i], "refuse=", 7) == 0)
             c.refuse = argv[i];
+        else if (strncmp(argv[i], "write=", 6) == 0)
+            c.folder = argv[i] + 6;
+        else if (c.folder != NULL)
+            write_damaged(&c, argv[i]);
         else
             try_file(&c, argv[i]);
     }
-    for (size_t d = 0; d < N_DAMAGES; d++) {
+    for (size_t d = 0; d < N_DAMAGES && c.folder == NULL; d++) {
         printf("%-10s", damage_names[d]);
         for (size_t o = 0; o < N_OUTCOMES; o++)
             printf(" %5zu %s", c.counts[d][o], outcome_names[o]);

@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "base/door.h"
+#include "base/shortage.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -268,6 +269,41 @@ static wt_status ends_itself(const door_call *door, FILE *answer, wt_error *err)
     abort();
 }
 
+/* As the scanner of UDUNITS does where it gets no memory. */
+static wt_status exits(const door_call *door, FILE *answer, wt_error *err)
+{
+    (void)door;
+    (void)answer;
+    (void)err;
+    _exit(2);
+}
+
+/* A unit is taken for an unknown one for want of memory, and reading goes on without it. */
+static wt_status goes_without(const door_call *door, FILE *answer, wt_error *err)
+{
+    (void)door;
+    (void)answer;
+    (void)err;
+    shortage_note(ENOMEM);
+    return WT_OK;
+}
+
+/* The file is not to blame, and nothing of it is left out in silence. */
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    wt_status (*const readings[])(const door_call *, FILE *, wt_error *) = {exits, goes_without};
+    for (size_t i = 0; i < sizeof readings / sizeof *readings; i++) {
+        char *answer = NULL;
+        size_t length = 0;
+        wt_error err = WT_ERROR_INIT;
+        const door_call door = door_to(readings[i], NULL, -1);
+        assert_int_equal(door_read(&door, &usual, &answer, &length, &err), WT_E_MEMORY);
+        assert_string_equal(err.message, "reading the made file takes more than 64 MiB of memory");
+        assert_null(answer);
+    }
+}
+
 static void reading_goes_on(void **state)
 {
     (void)state;
@@ -360,6 +396,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_but_reading),
         cmocka_unit_test(reading_goes_on),
+        cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(of_the_system),
     };
     return cmocka_run_group_tests_name("door", tests, set_up, clean);

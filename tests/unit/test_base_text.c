@@ -349,9 +349,9 @@ static void nearest_names(void **state)
     static const char *const names[] = {"indent", "dwell", "master", "ramp", "run"};
     static const struct {
         const char *word, *name;
-    } words[] = {{"identt", "indent"}, {"mater", "master"}, {"rum", "run"},
-                 {"ran", "run"},       {"ram", "ramp"},     {"plot", NULL},
-                 {"x", NULL},          {"", NULL},          {"rm", NULL}};
+    } words[] = {{"identt", "indent"}, {"mater", "master"}, {"rum", "run"}, {"RUN", "run"},
+                 {"ran", "run"},       {"ram", "ramp"},     {"plot", NULL}, {"x", NULL},
+                 {"", NULL},           {"rm", NULL}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         nearest_name near = nearest_to(words[i].word, strlen(words[i].word));
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)

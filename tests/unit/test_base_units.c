@@ -1,12 +1,17 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/number.h"
+#include "base/shortage.h"
 #include "near.h"
 #include "weartrack/base.h"
 
 #include <locale.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 static void check_unit(const char *unit, wt_quantity quantity, double factor, double offset)
 {
@@ -294,15 +299,49 @@ static void chances_in_words(void **state)
     assert_string_equal(number_chance((double)NAN).text, "not known");
 }
 
+/* ---- without the database -------------------------------------------------------------------- */
+
+/* The answer of a process that cannot read its units, 0 if it says all that it must. */
+static int ask_without(const char *database, rlim_t files, const char *message, const char *advice)
+{
+    int state = 1;
+    const pid_t child = fork();
+    if (child == 0) {
+        double factor = 0, offset = 0;
+        wt_error err = WT_ERROR_INIT, end = WT_ERROR_INIT;
+        const struct rlimit few = {files, files};
+        bool good = database == NULL || setenv("UDUNITS2_XML_PATH", database, 1) == 0;
+        good = good && (files == 0 || setrlimit(RLIMIT_NOFILE, &few) == 0);
+        shortage_forget();
+        good = good && wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, &err) == WT_E_INTERNAL &&
+               strstr(err.message, message) != NULL && strstr(err.advice, advice) != NULL;
+        /* Whoever took it for an unknown unit is told at the end. */
+        good = good && shortage_end(WT_E_FORMAT, &end) == WT_E_INTERNAL &&
+               strcmp(end.message, err.message) == 0;
+        _exit(good ? 0 : 1);
+    }
+    return child > 0 && waitpid(child, &state, 0) == child ? state : -1;
+}
+
+/* Before this process has read it: what a part of the database lacks, a whole one has. */
+static void no_database(void **state)
+{
+    (void)state;
+    assert_int_equal(ask_without("/nowhere.xml", 0, "cannot be read: No such file", "install it"),
+                     0);
+    for (rlim_t files = 3; files < 5; files++)
+        assert_int_equal(ask_without(NULL, files, "Too many open files", "ulimit -n"), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(units_of_instruments),     cmocka_unit_test(temperatures),
-        cmocka_unit_test(frequency_is_not_angular), cmocka_unit_test(wrong_units),
-        cmocka_unit_test(every_si_unit_is_itself),  cmocka_unit_test(quantities),
-        cmocka_unit_test(quantities_refused),       cmocka_unit_test(formatted),
-        cmocka_unit_test(foreign_locale),           cmocka_unit_test(chances_in_words),
-        cmocka_unit_test(several_threads),
+        cmocka_unit_test(no_database),      cmocka_unit_test(units_of_instruments),
+        cmocka_unit_test(temperatures),     cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(wrong_units),      cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(quantities),       cmocka_unit_test(quantities_refused),
+        cmocka_unit_test(formatted),        cmocka_unit_test(foreign_locale),
+        cmocka_unit_test(chances_in_words), cmocka_unit_test(several_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

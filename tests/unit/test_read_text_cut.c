@@ -29,6 +29,10 @@ typedef struct cut_case {
 #define HALF "half a line end"
 #define FEWER "fewer cells than all others"
 #define TWICE "2 rows from here on are there twice"
+#define FACTORS                                                                                    \
+    "f [Hz],T [degC],E' [MPa],E'' [MPa],tan delta\n1,20,5,1.25,0.25\n2,20,6,1.5,0.25\n"            \
+    "3,20,7,2.1,0.30\n"
+#define NOT_THE_RATIO "the loss factor of 1 row from here on is not the ratio of the moduli"
 #define OPEN "the line that ends a table is not there"
 
 static const cut_case cases[] = {
@@ -60,6 +64,14 @@ static const cut_case cases[] = {
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r\n1,20,5.0,1.2\r\n2,20,6.0,1.5\r", 2, HALF},
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r1,20,5.0,1.2\r2,20,6.0,1.5\r", 2, NULL},
     {FIXED "3,20,7.000,1.750\n2,20,6.000,1.500\n3,20,7.000,1.750\n", 5, TWICE},
+    /* A modulus that was 8; a factor of two digits; factors of another kind altogether. */
+    {FACTORS "4,20,9,2,0.25\n", 4, NOT_THE_RATIO},
+    {FACTORS "4,20,8,2.19,0.27\n", 4, NULL},
+    {FACTORS "4,20,8,2,\n", 4, NULL},
+    {"f [Hz],T [degC],E' [MPa],E'' [MPa],tan "
+     "delta\n1,20,5,1.25,0.3\n2,20,6,1.5,0.2\n3,20,7,2.1,0.4\n"
+     "4,20,8,2,0.1\n",
+     4, NULL},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n##\n", 2, NULL},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n##", 2, KEPT},
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n", 2, OPEN},
@@ -71,7 +83,7 @@ static const cut_case cases[] = {
 
 static bool warned(const wt_parselog *log, const char *words)
 {
-    static const char *const all[] = {LEFT_OUT, KEPT, HALF, FEWER, OPEN, TWICE};
+    static const char *const all[] = {LEFT_OUT, KEPT, HALF, FEWER, OPEN, TWICE, NOT_THE_RATIO};
     bool found = words == NULL;
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
         const wt_log_entry e = wt_parselog_get(log, i);

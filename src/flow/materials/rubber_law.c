@@ -152,7 +152,8 @@ wt_status wt_rubber_open(const char *text, const wt_read_options *read,
     }
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
     flow_file file = {.path = text, .name = text, .set = &set};
-    return flow_rubber_read(&file, &o, poisson_ratio, work, rubber, err);
+    return flow_law_meant(&zener_text, text,
+                          flow_rubber_read(&file, &o, poisson_ratio, work, rubber, err), err);
 }
 
 /* ---- the points of a master curve ------------------------------------------------------------ */

@@ -168,6 +168,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
     wt_surface s = {0};
     wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
                                                        : read_spectrum(text, read, work, &s, err);
+    status = flow_law_meant(&self_affine, text, status, err);
     if (status == WT_OK)
         status = flow_surface_check(&s, err);
     if (status != WT_OK) {

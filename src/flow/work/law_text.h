@@ -14,6 +14,10 @@ typedef struct flow_law_text {
 } flow_law_text;
 /* Whether the text begins with the prefix. */
 bool flow_is_law(const flow_law_text *law, const char *text);
+/* Where reading the text as a file ended with WT_E_NOT_FOUND and it is nearly the prefix, says
+ * which law is meant; else the status. */
+wt_status flow_law_meant(const flow_law_text *law, const char *text, wt_status status,
+                         wt_error *err) WT_NODISCARD;
 /* Sets the parameters that are there; all required ones must be. */
 wt_status flow_law_parse(const flow_law_text *law, const char *text, void *structure,
                          wt_error *err) WT_NODISCARD;

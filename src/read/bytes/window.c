@@ -4,6 +4,7 @@
 #include "base/shortage.h"
 #include "read/bytes/scratch.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,6 +83,6 @@ bool input_has(wt_input *input, const char *words)
     }
     window_close(&w);
     if (status == WT_E_MEMORY)
-        shortage_note();
+        shortage_note(ENOMEM);
     return found;
 }

@@ -6,6 +6,7 @@
 
 #include "base/shortage.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,7 +59,7 @@ bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *grou
         return false;
     const int code = regexec(&pattern->regex, line.text, n, groups, 0);
     if (code == REG_ESPACE)
-        shortage_note();
+        shortage_note(ENOMEM);
     return code == 0;
 }
 

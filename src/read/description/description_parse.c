@@ -6,6 +6,7 @@
 #include "read/description/description_xml.h"
 #include "read/embedded_formats.h"
 
+#include <errno.h>
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
 #include <math.h>
@@ -32,7 +33,7 @@ static void keep_quiet(void *user, xmlErrorPtr error)
     (void)user;
     /* What it calls internal is memory too. */
     if (error != NULL && (error->code == XML_ERR_NO_MEMORY || error->code == XML_SCHEMAV_INTERNAL))
-        shortage_note();
+        shortage_note(ENOMEM);
 }
 
 wt_status description_xsd_new(description_xsd **schema, wt_error *err)

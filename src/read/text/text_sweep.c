@@ -365,47 +365,6 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
     return WT_OK;
 }
 
-static int by_values(const void *a, const void *b, void *user)
-{
-    const text_table *const t = user;
-    const size_t p = *(const size_t *)a, q = *(const size_t *)b;
-    const int order = memcmp(t->values + p * t->n_columns, t->values + q * t->n_columns,
-                             t->n_columns * sizeof *t->values);
-    return order != 0 ? order : (p > q) - (p < q);
-}
-
-/* A measurement gives no row a second time, to the last digit of all that is read of it. */
-static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_parselog *log,
-                                 wt_error *err)
-{
-    enum { COLUMNS_LEAST = 3 };
-    size_t n = 0, line = SIZE_MAX;
-    if (t->n_columns < COLUMNS_LEAST || t->n_rows < 2)
-        return WT_OK;
-    size_t *const rows = malloc(t->n_rows * sizeof *rows);
-    if (rows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for an isotherm");
-    for (size_t i = 0; i < t->n_rows; i++)
-        rows[i] = i;
-    qsort_r(rows, t->n_rows, sizeof *rows, by_values, t);
-    for (size_t i = 1; i < t->n_rows; i++) {
-        const size_t width = t->n_columns;
-        const bool twice = memcmp(t->values + rows[i] * width, t->values + rows[i - 1] * width,
-                                  width * sizeof *t->values) == 0 &&
-                           t->samples[rows[i]] == t->samples[rows[i - 1]] &&
-                           t->blocks[rows[i]] == t->blocks[rows[i - 1]];
-        n += twice;
-        line = twice && t->row_lines[rows[i]] < line ? t->row_lines[rows[i]] : line;
-    }
-    free(rows);
-    if (n > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
-                        "%zu rows from here on are there twice with the same numbers: was a part "
-                        "of the file copied into it?",
-                        n);
-    return WT_OK;
-}
-
 wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
                      wt_sweep *sweep, wt_error *err)
 {
@@ -432,7 +391,7 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
                         "%zu test%s of relaxation or creep left out beside the sweeps", n_steps,
                         n_steps > 1 ? "s" : "");
     for (size_t i = 0; i < file->n_tables && status == WT_OK && made.loading == WT_OSCILLATION; i++)
-        status = warn_of_doubles(file, &file->tables[i], log, err);
+        status = sweep_check_table(file, &file->tables[i], log, err);
     for (size_t i = 0; i < file->steps.n; i++)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps.items[i]);

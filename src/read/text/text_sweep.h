@@ -54,6 +54,10 @@ void sweep_source(const sweep_builder *b, char *source, size_t size);
 /* Of the rows in `b->rows`: mean and scatter of the column, or what the header or the user says. */
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
 
+/* ---- text_sweep_check.c: warns of what the table says against itself. */
+wt_status sweep_check_table(const text_file *file, text_table *table, wt_parselog *log,
+                            wt_error *err);
+
 /* ---- text_strain.c: takes the rows of strain sweeps out of `rows`, and adds these to the sweep.
  */
 wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n);

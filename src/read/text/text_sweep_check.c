@@ -1,0 +1,104 @@
+/* What a table of a DMA sweep says against itself: rows that are there twice, a loss factor that is
+ * not that of the moduli beside it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_sweep.h"
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int by_values(const void *a, const void *b, void *user)
+{
+    const text_table *const t = user;
+    const size_t p = *(const size_t *)a, q = *(const size_t *)b;
+    const int order = memcmp(t->values + p * t->n_columns, t->values + q * t->n_columns,
+                             t->n_columns * sizeof *t->values);
+    return order != 0 ? order : (p > q) - (p < q);
+}
+
+/* A measurement gives no row a second time, to the last digit of all that is read of it. */
+static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_parselog *log,
+                                 wt_error *err)
+{
+    enum { COLUMNS_LEAST = 3 };
+    size_t n = 0, line = SIZE_MAX;
+    if (t->n_columns < COLUMNS_LEAST || t->n_rows < 2)
+        return WT_OK;
+    size_t *const rows = malloc(t->n_rows * sizeof *rows);
+    if (rows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for an isotherm");
+    for (size_t i = 0; i < t->n_rows; i++)
+        rows[i] = i;
+    qsort_r(rows, t->n_rows, sizeof *rows, by_values, t);
+    for (size_t i = 1; i < t->n_rows; i++) {
+        const size_t width = t->n_columns;
+        const bool twice = memcmp(t->values + rows[i] * width, t->values + rows[i - 1] * width,
+                                  width * sizeof *t->values) == 0 &&
+                           t->samples[rows[i]] == t->samples[rows[i - 1]] &&
+                           t->blocks[rows[i]] == t->blocks[rows[i - 1]];
+        n += twice;
+        line = twice && t->row_lines[rows[i]] < line ? t->row_lines[rows[i]] : line;
+    }
+    free(rows);
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
+                        "%zu rows from here on are there twice with the same numbers: was a part "
+                        "of the file copied into it?",
+                        n);
+    return WT_OK;
+}
+
+/* Of a row, E''/E' less the loss factor; not a number if it lacks one of them. */
+static double factor_gap(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return text_table_value(t, row, c->loss) / text_table_value(t, row, c->storage) -
+           text_table_value(t, row, c->factor);
+}
+
+/* Where the loss factors of most rows are those of their moduli, one that is not is a wrong number
+ * in its row. Two digits leave 5 %; a table of fixed decimals, and the noise of an instrument that
+ * averages all three, leave in most rows the like of half of them. */
+static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_parselog *log,
+                                 wt_error *err)
+{
+    static const double two_digits = 0.05, most_rows = 10;
+    enum { ROWS_LEAST = 4 };
+    const sweep_columns c = sweep_find_columns(t, WT_DEFORMATION_OF_FILE);
+    size_t n = 0, n_wrong = 0, line = SIZE_MAX;
+    if (c.storage == NULL || c.loss == NULL || c.factor == NULL || t->n_rows < ROWS_LEAST)
+        return WT_OK;
+    double *const gaps = malloc(t->n_rows * sizeof *gaps);
+    if (gaps == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for an isotherm");
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const double gap = factor_gap(t, &c, i);
+        if (isfinite(gap))
+            gaps[n++] = fabs(gap);
+    }
+    gsl_sort(gaps, 1, n);
+    const double usual = n > 0 ? gsl_stats_median_from_sorted_data(gaps, 1, n) : (double)NAN;
+    free(gaps);
+    for (size_t i = 0; i < t->n_rows && n >= ROWS_LEAST; i++) {
+        const double gap = fabs(factor_gap(t, &c, i));
+        const bool wrong = isfinite(gap) && gap > most_rows * usual &&
+                           gap > two_digits * fabs(text_table_value(t, i, c.factor));
+        n_wrong += wrong;
+        line = wrong && t->row_lines[i] < line ? t->row_lines[i] : line;
+    }
+    if (n_wrong > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
+                        "the loss factor of %zu row%s from here on is not the ratio of the moduli "
+                        "beside it, as it is in the others: was a number changed?",
+                        n_wrong, n_wrong > 1 ? "s" : "");
+    return WT_OK;
+}
+
+wt_status sweep_check_table(const text_file *file, text_table *t, wt_parselog *log, wt_error *err)
+{
+    const wt_status status = warn_of_doubles(file, t, log, err);
+    return status == WT_OK ? warn_of_factors(file, t, log, err) : status;
+}
