@@ -167,6 +167,7 @@ typedef struct curve_input {
     size_t n_missing, n_repeated, n_spikes;
     double step_noise; /* noise from successive differences [N] */
     bool saturated;    /* above the limit of the force */
+    double flat_level; /* at which it stands still, from its start [N]; 0: it does not */
 } curve_input;
 
 /* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */

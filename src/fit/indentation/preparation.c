@@ -463,10 +463,10 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     if (flat_top(s, input->step_noise, resolution, &top)) {
         const double level = s->force[top] - mean(s->force, s->n / 10);
         const double travelled = s->position[s->n - 1] - s->position[top];
+        input->flat_level = level;
         curve_say(
             reason,
-            "force stands still at %s above its start over the last %zu samples (%s of travel); "
-            "a force limit below it makes the rest usable",
+            "force stands still at %s above its start over the last %zu samples (%s of travel)",
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
