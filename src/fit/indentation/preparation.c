@@ -33,7 +33,7 @@ enum {
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 22 };
+    enum { N_ARRAYS = 22 }; /* those below */
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -110,7 +110,7 @@ curve_span curve_span_of(const double *x, size_t n)
 /* 32 classes to each power of two of what is below `largest`. */
 static size_t class_of(double x, double largest)
 {
-    enum { LEADING = 52 - 5 };
+    enum { LEADING = 52 - 5 }; /* of the 52 bits of a fraction the first 5: 32 classes */
     uint64_t bits, most;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&most, &largest, sizeof most);
