@@ -20,7 +20,8 @@ extern "C" {
  *   too_short          fewer than 32 different samples, or than 8 in contact
  *   no_approach        the height does not go one way; the force falls along the segment
  *   saturated          the force stands still while the piezo goes on, or bends down at its top
- *                      (a force of contact rises ever steeper; one false alarm in 1000)
+ *                      (a force of contact rises ever steeper; one false alarm in 1000), and what
+ *                      lies below has no modulus; else that one, doubtful
  *   rigid              the tip advances less than 2 % of the bending of the lever, or 1 % of
  *                      sensitivity would change the modulus by more than 50 %
  *   negative_modulus, no_contact   no contact point gives a positive modulus; the largest force is

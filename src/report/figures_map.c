@@ -78,6 +78,7 @@ static void draw_panel(figure_drawing *d, const map_panel *panel)
     plot_item(d, panel->doubtful,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
               "boxxyerror fc palette notitle");
+    plot_item(d, panel->doubtful, "($1*x_unit):($2*y_unit) with points ls 16 pt 6 notitle");
     plot_item(d, panel->doubtful, "($1*x_unit):($2*y_unit) with points ls 14 pt 6 notitle");
     plot_item(d, panel->rejected, "($1*x_unit):($2*y_unit) with points ls 14 pt 2 notitle");
     plot_end(d);

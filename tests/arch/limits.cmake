@@ -51,7 +51,7 @@ endfunction()
 foreach(room IN ITEMS model kernel fit flow)
   file(GLOB_RECURSE files RELATIVE ${SOURCE}/src ${SOURCE}/src/${room}/*.c ${SOURCE}/src/${room}/*.h)
   foreach(file IN LISTS files)
-    if(file MATCHES "/indentation/") # not yet
+    if(file STREQUAL "fit/indentation/adhesion.c") # not yet
       continue()
     endif()
     file(READ ${SOURCE}/src/${file} text)

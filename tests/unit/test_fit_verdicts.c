@@ -87,10 +87,12 @@ static void saturated_detector(void **state)
         for (size_t i = 0; i < t.n; i++)
             if (data.force[i] > 30e-9)
                 data.force[i] = 30e-9 + noisy * 20e-12 * curve_normal(&random);
-        expect(&t, WT_CURVE_SATURATED, "samples");
+        wt_indent_fit fit = expect(&t, WT_CURVE_DOUBTFUL, "fitted up to 2");
+        assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
+        assert_true(fit.n_fitted < t.n && fit.max_force > 26e-9 /* of all */);
         wt_indent_options options = wt_indent_defaults();
-        options.fit_force_fraction = 0.9; /* as the reason advises */
-        wt_indent_fit fit = fit_with(&t, &options);
+        options.fit_force_fraction = 0.9; /* told, nothing is doubtful */
+        fit = fit_with(&t, &options);
         assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
         assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
     }
@@ -402,13 +404,19 @@ static void softly_saturated_detector(void **state)
     curve_truth t = curve_standard();
     const double top = curve_contact_force(&t, t.travel - t.contact_point);
     wt_indent_options options = wt_indent_defaults();
+    wt_indent_fit fit;
+    int held = 0;
     for (int draw = 0; draw < 20; draw++) {
         curve_make(&t, 1 + 7919 * (uint64_t)draw, &data);
         flatten(&t, 1.3 * top);
-        expect(&t, WT_CURVE_SATURATED, "flattens towards its top");
+        fit = expect(&t, WT_CURVE_DOUBTFUL, "above which the force flattens");
+        held += fabs(fit.modulus.value - t.modulus) < 1.96 * fit.modulus.standard_error;
+        assert_true(fit.n_fitted < t.n);
     }
+    print_message("%d of 20 hold\n", held);
+    assert_in_range(held, 16, 20);     /* one of 400 holds fewer */
     options.fit_force_fraction = 0.15; /* where tanh x is x to 0.4 % */
-    const wt_indent_fit fit = fit_with(&t, &options);
+    fit = fit_with(&t, &options);
     assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
     assert_near(fit.modulus.value, t.modulus, 0.01);
     /* A force that is nearly a line, of a lever much softer than the contact, is none: one in 1000
@@ -422,7 +430,9 @@ static void softly_saturated_detector(void **state)
         t.correlation = 0.45 * k;
         for (int draw = 0; draw < DRAWS; draw++) {
             curve_make(&t, 5 + 104729 * (uint64_t)draw, &data);
-            flat += fit_with(&t, NULL).verdict == WT_CURVE_SATURATED;
+            const wt_indent_fit nearly = fit_with(&t, NULL);
+            flat +=
+                nearly.verdict == WT_CURVE_SATURATED || strstr(nearly.reason, "flattens") != NULL;
         }
     }
     print_message("%d of %d\n", flat, 3 * DRAWS);

@@ -23,18 +23,23 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_depth = 1e-5; /* of a contact point below the deepest, of all depths */
-static const double least_rise = 1.001; /* of the cost between two minima */
-static const double rough = 1e-2, fine = 1e-3; /* of the distance of points of the scan */
-static const double weights_matter = 1.2;      /* largest 1 + S/k */
+/* Of a contact point below the deepest, of all depths: the last of the octaves, 2^-SCAN_OCTAVES. */
+static const double least_depth = 1e-5;
+/* Of the cost between two minima: 1.6 sigma of one from the other in 2,500 samples. */
+static const double least_rise = 1.001;
+/* Of the distance of points of the scan: of weights, which change slowly, and where least squares
+ * begin, which end by themselves. */
+static const double rough = 1e-2, fine = 1e-3;
+/* Largest 1 + S/k: weights from 0.7 to 1 move a minimum by little, and least squares mend that. */
+static const double weights_matter = 1.2;
 enum {
     NODES = SCAN_NODES,
     REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
-    PER_OCTAVE = 16,    /* contact points that are tried */
+    PER_OCTAVE = 16,    /* contact points that are tried: a power of 2, as the nodes */
     MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
-    MAX_ITERATIONS = 40,
-    SAMPLES_BEHIND = 4, /* of 1024 */
-    STRIDE = NODES + 2, /* of the octaves */
+    MAX_ITERATIONS = 40, /* of Brent: golden sections alone are at 4e-9 then */
+    SAMPLES_BEHIND = 4,  /* of 1024, the deepest: spikes and noise of the end */
+    STRIDE = NODES + 2,  /* of the octaves */
 };
 
 /* Samples with what does not depend on the contact point. */

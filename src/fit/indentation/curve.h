@@ -19,11 +19,12 @@
 #include <math.h>
 
 enum {
-    CURVE_MIN_SAMPLES = 32,
-    CURVE_MAX_MINIMA = 4,
-    CURVE_TIP_MOVES = 2,
+    CURVE_MIN_SAMPLES = 32, /* the least of baseline and contact, 18, and what is left out */
+    CURVE_MAX_MINIMA = 4,   /* the best two are told, and refinement may change their order */
+    CURVE_TIP_MOVES = 2,    /* radius and half-angle: no tip has more sizes with errors */
     CURVE_POWER_TERMS = 15, /* of a power law as a series */
 };
+/* Of the work: less is piezo and noise. */
 #define CURVE_LEAST_LOSS 0.03
 
 /* E(t) = t^-power from 1e-4 to 1e3 times the loading time, and a rest for what is slower. */
@@ -167,6 +168,7 @@ typedef struct curve_input {
     size_t n_missing, n_repeated, n_spikes;
     double step_noise; /* noise from successive differences [N] */
     bool saturated;    /* above the limit of the force */
+    double flat_level; /* at which it stands still, from its start [N]; 0: it does not */
 } curve_input;
 
 /* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */

@@ -314,6 +314,85 @@ static wt_status check_arguments(const wt_indent_options *options, const wt_tip 
     return status == WT_OK ? curve_range_check(options, tip, err) : status;
 }
 
+static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,
+                     curve_fitting *f, wt_indent_fit *fit)
+{
+    const curve_branch *approach = of->approach;
+    *f = *of;
+    curve_fit_empty(fit);
+    fit->verdict = curve_prepare(approach->height, approach->force, approach->n, spring_constant,
+                                 f->options, f->workspace, &f->input, fit->reason);
+    f->input.saturated = f->input.saturated || f->below_saturation;
+    if (fit->verdict != WT_CURVE_ACCEPTED)
+        return;
+    fit->direction = f->input.direction;
+    if (curve_leaves_the_sample(f, fit->reason)) {
+        fit->verdict = WT_CURVE_NO_APPROACH;
+        return;
+    }
+    bool found = curve_scan_and_refine(f) && curve_fit_interference(f);
+    if (found && retract->n > 0)
+        curve_read_retract(f, retract->height, retract->force, retract->n);
+    if (found)
+        found = curve_fit_adhesion(f);
+    if (found)
+        found = curve_fit_range(f);
+    if (!found) {
+        fit->verdict = curve_no_contact(f, fit->reason);
+        return;
+    }
+    curve_allow_loss(f);
+    curve_add_misfit(f);
+    add_other_contact(f);
+    report(f, fit);
+    find_rates(f, approach, fit);
+    report_spectrum(f, fit);
+    fit->verdict = curve_judge(f, fit);
+    if (f->options->contact_estimators)
+        curve_estimate_contact(f, fit->contact_by);
+}
+
+/* The fit of the forces up to a limit, as fit_force makes it. */
+static void fit_below(const curve_fitting *of, const curve_branch *retract, double spring_constant,
+                      double limit, curve_fitting *f, wt_indent_fit *fit)
+{
+    wt_indent_options options = *of->options;
+    curve_fitting below = *of;
+    options.fit_force = limit;
+    below.options = &options;
+    below.below_saturation = true;
+    fit_once(&below, retract, spring_constant, f, fit);
+    f->options = of->options;
+}
+
+/* Each at most three quarters of the one before: to a third of the force. */
+enum { LIMIT_ROUNDS = 4 };
+
+/* A saturated curve has a modulus below the force that its verdict names, which may take that test
+ * again; it stays refused where the rest has none. */
+static void fit_below_saturation(const curve_fitting *of, const curve_branch *retract,
+                                 double spring_constant, curve_fitting *f, wt_indent_fit *fit)
+{
+    const wt_indent_options *o = of->options;
+    wt_indent_fit below = *fit;
+    curve_fitting rest = *f;
+    double limit = 0.0;
+    for (int round = 0; round < LIMIT_ROUNDS && below.verdict == WT_CURVE_SATURATED; round++) {
+        const double next = curve_linear_to(&rest);
+        if (!(next > o->fit_force_from) || (limit > 0.0 && !(next < limit)))
+            break;
+        limit = next;
+        fit_below(of, retract, spring_constant, limit, &rest, &below);
+    }
+    if (wt_curve_usable(below.verdict)) {
+        *f = rest;
+        *fit = below;
+        curve_judge_below(limit, fit);
+    } else if (limit > 0.0) {
+        curve_judge_nothing_below(limit, below.verdict, fit->reason);
+    }
+}
+
 wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
                              const curve_branch *approach, const curve_branch *retract,
                              double spring_constant, wt_indent_workspace *workspace,
@@ -333,45 +412,19 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     if (status != WT_OK)
         return status;
 
-    curve_fitting f = {.table = table,
-                       .options = options,
-                       .approach = approach,
-                       .workspace = workspace,
-                       .pull_off = (double)NAN,
-                       .loss = (double)NAN,
-                       .loss_bias = (double)NAN,
-                       .loss_power = (double)NAN,
-                       .range_settled = true};
-    curve_fit_empty(fit);
-    fit->verdict = curve_prepare(approach->height, approach->force, n, spring_constant, options,
-                                 workspace, &f.input, fit->reason);
-    if (fit->verdict != WT_CURVE_ACCEPTED)
-        return WT_OK;
-    fit->direction = f.input.direction;
-    if (curve_leaves_the_sample(&f, fit->reason)) {
-        fit->verdict = WT_CURVE_NO_APPROACH;
-        return WT_OK;
-    }
-    bool found = curve_scan_and_refine(&f) && curve_fit_interference(&f);
-    if (found && retract->n > 0)
-        curve_read_retract(&f, retract->height, retract->force, retract->n);
-    if (found)
-        found = curve_fit_adhesion(&f);
-    if (found)
-        found = curve_fit_range(&f);
-    if (!found) {
-        fit->verdict = curve_no_contact(&f, fit->reason);
-        return WT_OK;
-    }
-    curve_allow_loss(&f);
-    curve_add_misfit(&f);
-    add_other_contact(&f);
-    report(&f, fit);
-    find_rates(&f, approach, fit);
-    report_spectrum(&f, fit);
-    fit->verdict = curve_judge(&f, fit);
-    if (options->contact_estimators)
-        curve_estimate_contact(&f, fit->contact_by);
+    const curve_fitting begin = {.table = table,
+                                 .options = options,
+                                 .approach = approach,
+                                 .workspace = workspace,
+                                 .pull_off = (double)NAN,
+                                 .loss = (double)NAN,
+                                 .loss_bias = (double)NAN,
+                                 .loss_power = (double)NAN,
+                                 .range_settled = true};
+    curve_fitting f;
+    fit_once(&begin, retract, spring_constant, &f, fit);
+    if (fit->verdict == WT_CURVE_SATURATED)
+        fit_below_saturation(&begin, retract, spring_constant, &f, fit);
     if (wt_curve_usable(fit->verdict)) {
         workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
         workspace->step_left = fmax(workspace->step_left, f.solution.step_left);

@@ -24,10 +24,10 @@ enum {
     WAVES = 64,      /* looked at one by one; faster ones together */
     AT_ONCE = 16,    /* a multiple of WIDE */
     PARTS = AT_ONCE / WIDE,
-    PER_OCTAVE = 4,
-    POWERS = 4,
-    CORNERS = 9,
-    HEIGHTS = 5,
+    PER_OCTAVE = 4, /* bands: in half of one the frequency changes by 9 % */
+    POWERS = 4,     /* of 1/f: halves, to the 2 of a random walk */
+    CORNERS = 9,    /* octaves, to the longest waves of 512 blocks */
+    HEIGHTS = 5,    /* over the white part: octaves of the knee */
 };
 
 typedef struct block_sums {

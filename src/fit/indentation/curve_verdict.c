@@ -30,6 +30,7 @@ static const double most_tried = 0.85;
 /* Of a top of the force that flattens by noise: a map of a thousand has one. */
 static const double flat_chance = 0.001;
 static const double most_flat = 0.5;   /* loss: much of it flattens the force, too */
+static const double below_flat = 0.9;  /* of the force that stands still: clear of its noise */
 static const double large_error = 0.2; /* of a modulus, to be said: only its order is known then */
 
 static const struct {
@@ -272,8 +273,8 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
         curve_say(
             reason,
             "the force flattens towards its top (chance %s by noise): detector, or the sample "
-            "gives way; a force limit below %s makes the rest usable",
-            number_chance(s->lack.flat_chance).text, curve_si(s->lack.flat_from, "N").words);
+            "gives way",
+            number_chance(s->lack.flat_chance).text);
         return WT_CURVE_SATURATED;
     }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
@@ -406,4 +407,39 @@ wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
     if (wt_curve_usable(verdict))
         add_notes(f, fit, fit->reason);
     return verdict;
+}
+
+double curve_linear_to(const curve_fitting *f)
+{
+    return f->input.flat_level > 0.0 ? below_flat * f->input.flat_level
+                                     : f->solution.lack.flat_from;
+}
+
+void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160])
+{
+    char text[160];
+    curve_say(text, "; up to %s: %s", curve_si(limit, "N").words, wt_curve_verdict_text(below));
+    append_note(reason, text);
+}
+
+void curve_judge_below(double limit, wt_indent_fit *fit)
+{
+    const char *const word = fit->verdict == WT_CURVE_DOUBTFUL ? "doubtful: " : "accepted; ";
+    char all[160], *part = all;
+    memcpy(all, fit->reason, sizeof all);
+    fit->verdict = WT_CURVE_DOUBTFUL;
+    curve_say(fit->reason,
+              "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
+              "gives way",
+              curve_si(limit, "N").words);
+    if (strncmp(all, word, strlen(word)) != 0)
+        return;
+    for (part += strlen(word); part != NULL && *part != '\0';) { /* what else there is, in order */
+        char text[160], *end = strstr(part, "; ");
+        if (end != NULL)
+            *end = '\0';
+        curve_say(text, "; %s", part);
+        append_note(fit->reason, text);
+        part = end != NULL ? end + 2 : NULL;
+    }
 }

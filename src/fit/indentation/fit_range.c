@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+/* A bound: what goes to and fro for six rounds may only grow from then on, which ends. */
 enum { MAX_ROUNDS = 12, FREE_ROUNDS = 6 };
 
 static wt_status check_order(const char *from_name, double from, const char *to_name, double to,

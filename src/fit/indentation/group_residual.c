@@ -12,6 +12,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+/* T squared needs more curves than waves; as many again are its degrees of freedom. */
 enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
 
 wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n)

@@ -20,26 +20,30 @@
 #include <string.h>
 
 enum {
-    MOST = 256, /* blocks, and the least */
-    LEAST = 64,
+    MOST = 256, /* blocks: the shortest periods of 10 um, in four each */
+    LEAST = 64, /* for a spectrum that has an octave on either side */
     BLOCKS = 2 * MOST,
     TRANSFORM = 2 * BLOCKS,
-    PER_PERIOD = 4, /* blocks, least */
-    POWERS = 4,
-    CLOSER = 12, /* steps to the period, before it is fitted */
+    PER_PERIOD = 4, /* blocks, least: their mean then has 90 % of a sine */
+    POWERS = 4,     /* a cubic: what drift does */
+    CLOSER = 12,    /* steps to the period, before it is fitted */
 };
-static const double shortest = 150e-9;    /* a period [m] */
-static const double longest = 1.5e-6;     /* slower ones are drift, whose shape nobody knows */
-static const double wave_again = 2.0;     /* a fitted wave of so many times the amplitude */
-static const double worth_a_look = 0.25;  /* a peak, of the height that it would need */
-static const double false_alarms = 0.001; /* of baselines without a sine */
-static const double least_half = 0.25;    /* of the gain, from either half */
-static const double bent = 0.01;          /* chance of the baseline if it were straight */
-static const double few_cycles = 3.0;   /* cycles, of which a cubic leaves little to the spectrum */
-static const double per_freedom = 10.0; /* blocks */
-static const double negligible_amplitude =
-    2e-5;                                 /* of the force: an amplitude that does not matter */
-static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
+static const double shortest = 150e-9; /* [m]: half of a blue wavelength in water */
+static const double longest = 1.5e-6;  /* slower ones are drift, whose shape nobody knows */
+static const double wave_again = 2.0;  /* a fitted one so much larger is that of the contact */
+/* A peak, of the height that it would need: between two frequencies of the transform it has less,
+ * and noise of another colour around it. */
+static const double worth_a_look = 0.25;
+static const double false_alarms =
+    0.001; /* of baselines without a sine: a map of a thousand has one */
+static const double least_half =
+    0.25;                        /* of the gain, from either half: half of what a sine has there */
+static const double bent = 0.01; /* chance of the baseline if it were straight, as in the fit */
+static const double few_cycles = 3.0; /* cycles, of which a cubic leaves little to the spectrum */
+/* Blocks to a degree of freedom: the colour of the noise about a peak is found from few. */
+static const double per_freedom = 10.0;
+static const double negligible_amplitude = 2e-5; /* of the force: what rounding in files makes */
+static const double before_contact = 0.2;        /* of the contact: a snap-on hides there */
 
 typedef struct baseline {
     size_t n;                     /* blocks */

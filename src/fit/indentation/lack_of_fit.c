@@ -23,8 +23,8 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    COSINES = 8,
-    TOPS = 3, /* lengths of the top: so many eighths of the window */
+    COSINES = 8, /* a smooth misfit is in the first; more share its power with noise */
+    TOPS = 3,    /* lengths of the top: so many eighths of the window */
     POWERS = 4,
     MAX_COLUMNS = BLOCKS_COLUMNS + COSINES,
     BEFORE = BLOCKS_BEFORE,

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Bounds: with the kinks of adhesion steps need not end, and each costs more. */
 enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
 
 /* Of a straight baseline that looks as bent: to say so, and to allow for it in the errors. */
@@ -298,7 +299,7 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace)
 {
-    enum { MOST = 64 };
+    enum { MOST = 64 }; /* nodes, linear between them: weights need no digits */
     const size_t n = samples->n < MOST ? samples->n : MOST;
     const double c = minimum->contact_point;
     const double last = fmax(c, curve_span_of(samples->position, samples->n).high);

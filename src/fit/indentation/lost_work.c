@@ -12,7 +12,6 @@
 
 #include <math.h>
 
-/* Of the work: less than that is piezo and noise. */
 static const double least_loss = CURVE_LEAST_LOSS;
 /* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
 static const double most_loss = 0.5;

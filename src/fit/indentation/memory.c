@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_NEWTON = 30 };
+enum { MAX_NEWTON = 30 }; /* from the step before; halves are at 1e-9 */
 /* Steps of time that differ by less are one: a file gives them in so many digits. */
 static const double same_step = 1e-3;
 

@@ -37,9 +37,9 @@ enum {
     N = CURVE_N_PARAMETERS,
     LEGENDRE = MISFIT_FUNCTIONS, /* carry lengths from 0.175 on to 1 % of the variance */
     M = MISFIT_COLUMNS,
-    LENGTHS = 3,
-    SIZES = 16, /* most */
-    NODES = 64, /* of the depth, for the covariance of the Legendre functions */
+    LENGTHS = 3, /* the nodes of three points of a normal prior */
+    SIZES = 16,  /* most */
+    NODES = 64,  /* of the depth, for the covariance of the Legendre functions */
 };
 /* ln l is normal about ln 0.5 with a standard deviation of 0.7: nodes at -1, 0 and 1 of them. */
 static const double length_median = 0.5, length_sd = 0.7;

@@ -13,7 +13,7 @@ enum {
     N = CURVE_N_PARAMETERS,
     LEGENDRE = MISFIT_FUNCTIONS,
     M = MISFIT_COLUMNS,
-    BEND_ROUNDS = 4,
+    BEND_ROUNDS = 4, /* of Newton on a parabola in each move */
     MOVE_STEPS = 12, /* to the farthest move, each way */
 };
 static const double moved_chi2 = 3.84;   /* of a move that is not 0, by its 95 % */

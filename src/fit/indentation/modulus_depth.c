@@ -34,18 +34,19 @@
 
 enum {
     W = CURVE_WAVES,
-    POINTS = 48, /* of the window of a residual */
-    MAX_PARAMETERS = 4,
-    LEAST_CURVES = 2 * W,
-    LEAST_SPOTS = 3,
-    MAX_ITERATIONS = 50,
+    POINTS = 48, /* of the window of a residual: eight to a half wave of its fastest cosine */
+    MAX_PARAMETERS = 4,   /* those of a layer */
+    LEAST_CURVES = 2 * W, /* the scatter has as many degrees of freedom as there are cosines */
+    LEAST_SPOTS = 3,      /* two have a scatter of one degree of freedom, 13 standard errors wide */
+    MAX_ITERATIONS = 50,  /* a bound of least squares in four parameters */
 };
-static const double level = 0.01;             /* of a change, and of what is left */
+static const double level = 0.01; /* of a change, and of what is left: one group of 100 by chance */
 static const double margin = WT_DEPTH_MARGIN; /* a change that does not matter */
-static const double roughest = 4.0;           /* ends of the interval of a thickness that is told */
-static const double shape_error = 0.01;       /* of a modulus by a law that is one of several */
-static const double largest_log = 4.0;        /* of a factor */
-static const double more_shallow = 1.5;       /* of the error of a memory, at no depth */
+/* Ends of the interval of a thickness, their ratio: one not known to a factor 2 is not told. */
+static const double roughest = 4.0;
+static const double shape_error = 0.01; /* of a modulus by a law that is one of several */
+static const double largest_log = 4.0;  /* of a factor: of 55 one side is as good as rigid */
+static const double more_shallow = 1.5; /* of the error of a memory, at no depth */
 
 /* Contact point [depth], then: ln of the modulus at the top, slope, bend; or ln E1, ln E1/E2, ln
  * (contact radius over thickness). */

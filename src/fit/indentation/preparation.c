@@ -33,7 +33,7 @@ enum {
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 22 };
+    enum { N_ARRAYS = 22 }; /* those below */
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -110,7 +110,7 @@ curve_span curve_span_of(const double *x, size_t n)
 /* 32 classes to each power of two of what is below `largest`. */
 static size_t class_of(double x, double largest)
 {
-    enum { LEADING = 52 - 5 };
+    enum { LEADING = 52 - 5 }; /* of the 52 bits of a fraction the first 5: 32 classes */
     uint64_t bits, most;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&most, &largest, sizeof most);
@@ -463,10 +463,10 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     if (flat_top(s, input->step_noise, resolution, &top)) {
         const double level = s->force[top] - mean(s->force, s->n / 10);
         const double travelled = s->position[s->n - 1] - s->position[top];
+        input->flat_level = level;
         curve_say(
             reason,
-            "force stands still at %s above its start over the last %zu samples (%s of travel); "
-            "a force limit below it makes the rest usable",
+            "force stands still at %s above its start over the last %zu samples (%s of travel)",
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }

@@ -7,7 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = CURVE_N_PARAMETERS, POWERS = 4, SLOW = 8, MOST = BLOCKS_BEFORE + BLOCKS_WINDOW };
+enum {
+    N = CURVE_N_PARAMETERS,
+    POWERS = 4, /* a cubic: drift is no noise */
+    SLOW = 8,   /* cosines of the contact: what a misfit makes is none either */
+    MOST = BLOCKS_BEFORE + BLOCKS_WINDOW,
+};
 static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
 /* Of the force: a residual that rounding in files and tables makes. */
 static const double rounding_share = 2e-5;

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The law of a bonded layer is that of 0.5: what can be compressed gives way under the tip. */
 static const double least_bonded_poisson = 0.499;
 
 wt_indent_job wt_indent_job_defaults(void)

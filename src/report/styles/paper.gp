@@ -34,12 +34,14 @@ set style line 44 lc rgb '#dba9cb' lw 1 dt solid pt 13 ps 0.76
 set style line 45 lc rgb '#aaaaaa' lw 1 dt solid pt 11 ps 0.72
 set style line 46 lc rgb '#bf8a91' lw 1 dt solid pt 6 ps 0.6
 
-# 11 fitted law, 12 mark or guide, 13 mean with its interval, 14 point without weight, 15 second law
+# 11 fitted law, 12 mark or guide, 13 mean with its interval, 14 point without weight, 15 second law,
+# 16 white rim of 14 on a map
 set style line 11 lc rgb '#111111' lw 1.6 dt solid
 set style line 12 lc rgb '#777777' lw 1.1 dt (3,3)
 set style line 13 lc rgb '#111111' lw 2 dt solid pt 7 ps 0.8
 set style line 14 lc rgb '#555555' lw 2.0 dt solid pt 6 ps 0.8
 set style line 15 lc rgb '#111111' lw 1.6 dt (8,4)
+set style line 16 lc rgb '#ffffff' lw 5.0 dt solid pt 6 ps 0.8
 
 # 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more and 81 to 86, of groups: bands of error, see-through
 set style line 21 lc rgb '#111111' lw 2.4 dt solid
