@@ -389,6 +389,18 @@ WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t
  * wt_peak_find. At most `most` of them; *n: how many. */
 WT_API wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most,
                                  wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
+/* Where the storage modulus begins to fall, the extrapolated onset of ASTM E1640 and ISO 6721-11:
+ * the tangent of ln y where it falls most steeply meets the tangent of the glass, which is laid
+ * where, colder, it falls with a tenth of that slope. */
+typedef struct wt_onset {
+    bool found;
+    wt_interval at;      /* NaN if not found */
+    size_t n;            /* points used */
+    const char *why_not; /* "", or why it is not found; static */
+} wt_onset;
+/* x rising, y > 0; the curve is that of wt_peak_find through the points about the fall. */
+WT_API wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *onset,
+                               wt_error *err) WT_NODISCARD;
 /* The value at a place by such a curve through its neighbours; NaN outside of the points. */
 WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
                                   wt_interval *value, wt_error *err) WT_NODISCARD;

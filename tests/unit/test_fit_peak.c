@@ -88,6 +88,80 @@ static void peaks_hold_the_truth(void **unused)
     }
 }
 
+/* By its definition: tangents of ln E' at the steepest place and, colder, at a tenth of that. */
+static double log_storage(const rubber *r, double celsius)
+{
+    const double factor = value(r, celsius, true);
+    return log(value(r, celsius, false) / factor);
+}
+
+static double true_onset(const rubber *r)
+{
+    const double h = 0.01;
+    double steepest = 0, inflection = 0, slope = 0;
+    for (double t = r->reference - 30; t < r->reference + 70; t += h) {
+        slope = (log_storage(r, t + h) - log_storage(r, t - h)) / (2 * h);
+        inflection = slope < steepest ? t : inflection;
+        steepest = fmin(slope, steepest);
+    }
+    double glass = inflection;
+    do {
+        glass -= h;
+        slope = (log_storage(r, glass + h) - log_storage(r, glass - h)) / (2 * h);
+    } while (slope < 0.1 * steepest);
+    return (log_storage(r, inflection) - log_storage(r, glass) + slope * glass -
+            steepest * inflection) /
+           (slope - steepest);
+}
+
+static void onsets_hold_the_truth(void **unused)
+{
+    (void)unused;
+    uint64_t state = 5;
+    size_t held = 0, found = 0;
+    double width = 0;
+    for (size_t draw = 0; draw < DRAWS; draw++) {
+        double x[MOST], y[MOST];
+        const rubber *r;
+        wt_onset onset;
+        const size_t n = measure(draw, false, x, y, &state, &r);
+        for (size_t i = 0; i < n; i++) /* the same scatter, of the storage modulus */
+            y[i] *= exp(log_storage(r, x[i])) / value(r, x[i], false);
+        assert_int_equal(wt_onset_find(x, y, n, &onset, NULL), WT_OK);
+        if (!onset.found)
+            continue;
+        const double truth = true_onset(r);
+        found++;
+        held += onset.at.low <= truth && truth <= onset.at.high;
+        width += onset.at.high - onset.at.low;
+    }
+    print_message("onset: %zu of %zu, %.2f K wide\n", held, found, width / (double)found);
+    assert_true(found > DRAWS * 95 / 100);
+    assert_true((double)held >= 0.92 * (double)found && (double)held <= 0.98 * (double)found);
+}
+
+/* None where the sweep begins in the fall, where nothing falls, of few points. */
+static void no_onset(void **unused)
+{
+    (void)unused;
+    double x[60], y[60];
+    wt_onset onset;
+    for (int i = 0; i < 60; i++) {
+        x[i] = i;
+        y[i] = exp(18 - 0.1 * i);
+    }
+    assert_int_equal(wt_onset_find(x, y, 60, &onset, NULL), WT_OK);
+    assert_false(onset.found);
+    assert_true(isnan(onset.at.value));
+    assert_non_null(strstr(onset.why_not, "do not show both"));
+    assert_int_equal(wt_onset_find(x, y, 4, &onset, NULL), WT_OK);
+    assert_non_null(strstr(onset.why_not, "fewer than 5"));
+    for (int i = 0; i < 60; i++)
+        y[i] = exp(18 - 0.001 * i);
+    assert_int_equal(wt_onset_find(x, y, 60, &onset, NULL), WT_OK);
+    assert_non_null(strstr(onset.why_not, "less than a factor 2"));
+}
+
 static void values_hold_the_truth(void **unused)
 {
     uint64_t state = 11;
@@ -319,6 +393,8 @@ static void no_lower_peak(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(peaks_hold_the_truth),
+                                       cmocka_unit_test(onsets_hold_the_truth),
+                                       cmocka_unit_test(no_onset),
                                        cmocka_unit_test(values_hold_the_truth),
                                        cmocka_unit_test(no_peak),
                                        cmocka_unit_test(parabola),

@@ -42,6 +42,10 @@
                  factor)                                                                           \
     PEAK_COLUMNS(X, GLASS_TRANSITION_LOSS, "loss_modulus", "the loss modulus", SI(LOSS_MODULUS),   \
                  "the loss modulus", loss)                                                         \
+    NUMBER_AND_INTERVAL(X, GLASS_TRANSITION_ONSET, "storage_modulus_onset_temperature",            \
+                        "temperature at which the storage modulus begins to fall, by tangents",    \
+                        SI(TEMPERATURE), "Onset of the storage modulus", SHOWS(onset))             \
+    X(GLASS_TRANSITION_ONSET_NOTE, AS(onset_note), "why there is no onset", TEXT, LABEL("Note"))   \
     X(GLASS_TRANSITION_TEMPERATURE_MIN, AS(temperature_min), "coldest point", SI(TEMPERATURE))     \
     X(GLASS_TRANSITION_TEMPERATURE_MAX, AS(temperature_max), "warmest point", SI(TEMPERATURE))     \
     X(GLASS_TRANSITION_OTHER, AS(other),                                                           \
@@ -53,6 +57,8 @@
       SHOWS(factor_peak), HEADLINE("Glass transition (peak of tan δ)"), OPTIONAL)                  \
     X(GLASS_TRANSITION_KEY_LOSS_PEAK, "loss_modulus_peak_temperature", SI(TEMPERATURE),            \
       SHOWS(loss_peak), HEADLINE("Glass transition (peak of the loss modulus)"), OPTIONAL)         \
+    X(GLASS_TRANSITION_KEY_ONSET, "storage_modulus_onset_temperature", SI(TEMPERATURE),            \
+      SHOWS(onset), LABEL("Onset of the fall of the storage modulus"), OPTIONAL)                   \
     X(GLASS_TRANSITION_KEY_FACTOR_ENERGY, "loss_factor_activation_energy", UNIT("J/mol"),          \
       SHOWS(factor_energy), LABEL("Activation energy of the peak of tan δ"), OPTIONAL)             \
     X(GLASS_TRANSITION_KEY_LOSS_ENERGY, "loss_modulus_activation_energy", UNIT("J/mol"),           \

@@ -9,6 +9,7 @@
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -308,15 +309,144 @@ static double opinion_quantile(const opinions *o, double probability, double fro
     return 0.5 * (low + high);
 }
 
+static wt_interval interval_of(const opinions *o)
+{
+    double mean = 0, error = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        mean += o->weight[i] * o->mean[i];
+        error = fmax(error, o->error[i]);
+    }
+    const double low = opinion_quantile(o, 0.025, mean, -error),
+                 high = opinion_quantile(o, 0.975, mean, error);
+    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
+}
+
 wt_interval smooth_interval(const smooth *s, double x)
 {
     const opinions o = opinions_at(s, x, SMOOTH_VALUE);
-    double mean = 0, error = 0;
-    for (size_t i = 0; i < o.n; i++) {
-        mean += o.weight[i] * o.mean[i];
-        error = fmax(error, o.error[i]);
+    return interval_of(&o);
+}
+
+/* ---- a number that slopes make ----------------------------------------------------------------
+ */
+
+/* Curves without the number may weigh so much: the share that an interval of 95 % leaves out. */
+static const double without_number = 0.05;
+
+typedef struct slopes {
+    const double *x; /* [n] */
+    size_t n;
+    double *mean, *moved;                /* [n] */
+    gsl_matrix *known, *powers;          /* [points][n], [n][PARABOLA] */
+    gsl_matrix *covariance, *directions; /* [n][n] */
+    gsl_vector *squares;                 /* [n] */
+    gsl_eigen_symmv_workspace *eigen;
+} slopes;
+
+static double slope_covariance(const smooth_way *w, double x, double y)
+{
+    const double away = (x - y) / w->length;
+    return w->ratio / (w->length * w->length) * (1 - away * away) * exp(-0.5 * away * away);
+}
+
+/* How the slopes by one way depart from their mean together: directions and their squares. */
+static bool find_directions(const smooth *s, const smooth_way *w, slopes *v)
+{
+    for (size_t k = 0; k < v->n; k++) {
+        const double at = (v->x[k] - s->centre) / s->half;
+        gsl_vector_view column = gsl_matrix_column(v->known, k);
+        double p[PARABOLA];
+        parabola_powers(at, SMOOTH_SLOPE, p);
+        for (size_t i = 0; i < s->n; i++) {
+            const double value = departure_covariance(w, at, s->x[i], SMOOTH_SLOPE);
+            gsl_vector_set(&column.vector, i, value);
+            for (size_t a = 0; a < PARABOLA; a++)
+                p[a] -= value * gsl_matrix_get(w->flat, i, a);
+        }
+        for (size_t a = 0; a < PARABOLA; a++)
+            gsl_matrix_set(v->powers, k, a, p[a]);
+        for (size_t j = 0; j < v->n; j++)
+            gsl_matrix_set(v->covariance, k, j,
+                           slope_covariance(w, at, (v->x[j] - s->centre) / s->half));
+        v->mean[k] = scale_of(s, SMOOTH_SLOPE) * way_mean(s, w, at, SMOOTH_SLOPE);
     }
-    const double low = opinion_quantile(&o, 0.025, mean, -error),
-                 high = opinion_quantile(&o, 0.975, mean, error);
-    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
+    gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1, w->root, v->known);
+    gsl_blas_dgemm(CblasTrans, CblasNoTrans, -1, v->known, v->known, 1, v->covariance);
+    for (size_t k = 0; k < v->n; k++)
+        for (size_t j = 0; j < v->n; j++)
+            for (size_t a = 0; a < PARABOLA * PARABOLA; a++)
+                *gsl_matrix_ptr(v->covariance, k, j) += gsl_matrix_get(v->powers, k, a / PARABOLA) *
+                                                        w->inverse[a / PARABOLA][a % PARABOLA] *
+                                                        gsl_matrix_get(v->powers, j, a % PARABOLA);
+    return gsl_eigen_symmv(v->covariance, v->squares, v->directions, v->eigen) == GSL_SUCCESS;
+}
+
+static double number_beside(slopes *v, size_t k, double step, smooth_number *number)
+{
+    for (size_t i = 0; i < v->n; i++)
+        v->moved[i] = v->mean[i] + step * gsl_matrix_get(v->directions, i, k);
+    return number(v->x, v->moved, v->n);
+}
+
+/* The number by one way and its error; false: it has none. */
+static bool number_of_way(const smooth *s, const smooth_way *w, slopes *v, smooth_number *number,
+                          double *mean, double *error)
+{
+    if (!find_directions(s, w, v))
+        return false;
+    double sum = 0;
+    *mean = number(v->x, v->mean, v->n);
+    for (size_t k = 0; k < v->n && isfinite(*mean); k++) {
+        const double step = scale_of(s, SMOOTH_SLOPE) *
+                            sqrt(fmax(gsl_vector_get(v->squares, k), 0) * w->variance),
+                     up = number_beside(v, k, step, number),
+                     down = number_beside(v, k, -step, number),
+                     half = isnan(up)     ? *mean - down
+                            : isnan(down) ? up - *mean
+                                          : (up - down) / 2;
+        sum += half * half;
+    }
+    *error = sqrt(sum);
+    return isfinite(*mean) && isfinite(*error);
+}
+
+static wt_status new_slopes(const smooth *s, const double *x, size_t n, pool *memory, slopes *v,
+                            wt_error *err)
+{
+    *v = (slopes){.x = x,
+                  .n = n,
+                  .mean = pool_numbers(memory, n),
+                  .moved = pool_numbers(memory, n),
+                  .known = pool_matrix(memory, s->n, n),
+                  .powers = pool_matrix(memory, n, PARABOLA),
+                  .covariance = pool_matrix(memory, n, n),
+                  .directions = pool_matrix(memory, n, n),
+                  .squares = pool_vector(memory, n)};
+    if (memory->failed || (v->eigen = gsl_eigen_symmv_alloc(n)) == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the slopes of a curve");
+    return WT_OK;
+}
+
+wt_status smooth_of_slopes(const smooth *s, const double *x, size_t n, smooth_number *number,
+                           wt_interval *interval, wt_error *err)
+{
+    pool memory = {0};
+    slopes v;
+    opinions o = {.freedom = (double)(s->n - PARABOLA)};
+    double sum = 0;
+    *interval = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    const wt_status status = new_slopes(s, x, n, &memory, &v, err);
+    for (size_t i = 0; status == WT_OK && i < s->n_ways; i++) {
+        o.weight[o.n] = s->ways[i].weight;
+        if (!number_of_way(s, &s->ways[i], &v, number, &o.mean[o.n], &o.error[o.n]))
+            continue;
+        sum += o.weight[o.n++];
+    }
+    for (size_t i = 0; i < o.n; i++)
+        o.weight[i] /= sum;
+    if (sum >= 1 - without_number)
+        *interval = interval_of(&o);
+    gsl_eigen_symmv_free(v.eigen);
+    pool_free(&memory);
+    return status;
 }

@@ -33,4 +33,11 @@ double smooth_mean(const smooth *s, double x, smooth_order order);
 double smooth_below(const smooth *s, double x, smooth_order order, double limit);
 wt_interval smooth_interval(const smooth *s, double x);
 
+/* A number that the slopes at rising places make, such as where two tangents meet; NaN: none. */
+typedef double smooth_number(const double *x, const double *slope, size_t n);
+/* Its interval, by the slopes that the points allow together, to first order in how they depart
+ * from their mean; NaN where more than one of twenty of the curves, by weight, have none. */
+wt_status smooth_of_slopes(const smooth *s, const double *x, size_t n, smooth_number *number,
+                           wt_interval *interval, wt_error *err) WT_NODISCARD;
+
 #endif

@@ -1,5 +1,6 @@
 /* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
- * at each frequency, moduli at temperatures. SPDX-License-Identifier: GPL-3.0-or-later */
+ * and the onset of the fall at each frequency, moduli at temperatures. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "flow/sweeps/master.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/cost.h"
@@ -195,9 +196,9 @@ typedef struct shown_peak {
     const char *why_not;
 } shown_peak;
 
-TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss;
-          double angular_frequency, temperature_min, temperature_max; const char *source;
-          bool other;)
+TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss; wt_interval onset;
+          const char *onset_note; double angular_frequency, temperature_min, temperature_max;
+          const char *source; bool other;)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
@@ -210,6 +211,7 @@ static shown_peak show_peak(const wt_peak *p)
 
 typedef struct peaks {
     wt_peak factor, loss;
+    wt_onset onset;
 } peaks;
 
 static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, wt_peak *peak,
@@ -237,8 +239,9 @@ static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *
         const wt_peak none = {.found = false,
                               .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
         TABLE_ADD(glass_transition, t, show_peak(q == FACTOR ? &lower[i] : &none),
-                  show_peak(q == LOSS ? &lower[i] : &none), ramp->angular_frequency,
-                  ramp->temperature[0], ramp->temperature[ramp->n - 1], ramp->source, true);
+                  show_peak(q == LOSS ? &lower[i] : &none), not_known,
+                  "in the row of the largest peak", ramp->angular_frequency, ramp->temperature[0],
+                  ramp->temperature[ramp->n - 1], ramp->source, true);
     }
     return status;
 }
@@ -249,11 +252,14 @@ static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const w
     wt_status status = find_peak(job, u, FACTOR, &found->factor, err);
     if (status == WT_OK)
         status = find_peak(job, u, LOSS, &found->loss, err);
+    found->onset = (wt_onset){.at = not_known, .why_not = "not measured"};
+    if (status == WT_OK && u->has[STORAGE])
+        status = wt_onset_find(u->temperature, u->value[STORAGE], u->n, &found->onset, err);
     if (status != WT_OK)
         return status;
     TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
-              ramp->angular_frequency, ramp->temperature[0], ramp->temperature[ramp->n - 1],
-              ramp->source, false);
+              found->onset.at, found->onset.why_not, ramp->angular_frequency, ramp->temperature[0],
+              ramp->temperature[ramp->n - 1], ramp->source, false);
     for (quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
         status = u->has[q] ? put_others(t, ramp, u, q, err) : WT_OK;
     return status;
@@ -337,7 +343,7 @@ typedef struct writers {
 } writers;
 
 /* Of the frequency nearest to 1 Hz that has a peak. */
-TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak;
+TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak, onset;
            wt_estimate factor_energy, loss_energy; double angular_frequency;
            const char *deformation;)
 
@@ -348,6 +354,7 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
     motion factors = {0}, losses = {0};
     glass_transition_keys best = {.factor_peak = not_known,
                                   .loss_peak = not_known,
+                                  .onset = not_known,
                                   .angular_frequency = (double)NAN,
                                   .deformation = flow_deformation_name(sweep->deformation)};
     wt_status status = WT_OK;
@@ -371,6 +378,7 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
             best.angular_frequency = ramp->angular_frequency;
             best.factor_peak = found.factor.found ? found.factor.at : not_known;
             best.loss_peak = found.loss.found ? found.loss.at : not_known;
+            best.onset = found.onset.at;
         }
     }
     best.factor_energy = activation_energy(&factors);
