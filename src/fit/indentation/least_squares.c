@@ -261,6 +261,38 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     *solution = s;
 }
 
+bool curve_score(const wt_contact_table *table, const curve_samples *samples,
+                 const curve_kind *kind, const curve_solution *from, const double *difference,
+                 wt_indent_workspace *workspace, curve_step *to)
+{
+    curve_law m = curve_law_of(table, samples, kind, workspace);
+    normal_equations e;
+    double towards[N] = {0.0}, along[1][N], row[N], dd = 0.0, dr = 0.0;
+    curve_law_evaluate(&m, from->p, &from->wave);
+    curve_model_normal(&m, from->p, &e);
+    for (size_t i = 0; i < samples->n; i++) {
+        const double d = difference[i];
+        if (!(fabs(d) > 0.0))
+            continue;
+        (void)curve_model_row(&m, from->p, i, row);
+        dd += d * d;
+        dr += d * workspace->residual[i];
+        for (size_t a = 0; a < N; a++)
+            towards[a] += row[a] * d;
+    }
+    memcpy(along[0], towards, sizeof towards);
+    if (!solve(&e, 0.0, along, 1))
+        return false;
+    dd -= dot(along[0], towards);
+    dr -= dot(along[0], e.jr);
+    if (!(dd > 0.0) || !(dr * dr / dd < from->cost))
+        return false;
+    to->share = dr / dd;
+    to->gain = -from->effective_n * log1p(-dr * to->share / from->cost);
+    to->modulus = -to->share * along[0][CURVE_E] / from->p[CURVE_E];
+    return true;
+}
+
 static bool better(const curve_solution *a, const curve_solution *b)
 {
     return a->converged && (!b->converged || a->cost < b->cost);
