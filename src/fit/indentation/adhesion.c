@@ -25,9 +25,9 @@ static const double least_tabor = 1.0;
 /* A constant pull, in that which is seen at the end of the way out: over as many samples as a
  * pull-off may take the mean of a pull is two thirds of its largest. */
 static const double most_pull = 1.5;
-/* Of that, in a score: a law with another work and contact point than those of its best fit
- * correlates with that by more than 1/sqrt(3). */
-static const double near_gain = 1.0 / 3.0;
+/* Of that, in a score: a law that has not the work and the contact point of its best fit still
+ * shows most of it. */
+static const double near_gain = 0.5;
 /* Of the largest pull that was not seen: works of adhesion to look for. */
 static const double some_pulls[] = {1.0, 0.25};
 static const double some_jumps[] = {2.0, 1.0, 4.0}; /* depths of a jump before contact: touch */
@@ -374,8 +374,9 @@ static double gain_of(const curve_fitting *f, const curve_solution *other)
 }
 
 /* The better one of the laws of adhesion; what the others would give is in the error, as far as it
- * is likely. False if there is none: then all is as it was. */
-static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
+ * is likely. False if there is none: then all is as it was. pull_alone: no other law than that of a
+ * constant pull can be the one to take, unless that is. */
+static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
     const outcome before = {f->solution, f->kind, true, true};
     outcome law[LAWS] = {{.found = false}};
@@ -392,6 +393,9 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
                            jump > 0 || pull_is_likely(f, &before.solution)};
         if (better_law(&law[i], best, lossy))
             best = &law[i];
+        if (i == CONSTANT_PULL && pull_alone &&
+            !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
+            break;
         /* From where samples let go costs have kinks: once more from the pull that was found. */
         if (i == JKR)
             pull = law[CONSTANT_PULL].solution.p[CURVE_W];
@@ -412,6 +416,8 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
     return best->found;
 }
 
+/* ---- score: does adhesion matter? ------------------------------------------------------------ */
+
 /* Residuals of a law at p. */
 static void residuals_of(const curve_fitting *f, const curve_kind *kind,
                          const double p[CURVE_N_PARAMETERS], double *to)
@@ -421,55 +427,64 @@ static void residuals_of(const curve_fitting *f, const curve_kind *kind,
     memcpy(to, f->workspace->residual, f->input.samples.n * sizeof *to);
 }
 
-/* Of a law of adhesion with this pull, at a solution without. */
-static bool score_of(const curve_fitting *f, bool constant_pull, double pull, curve_step *to)
+/* From the forces without adhesion, whose residuals are given, to those of a law with this pull.
+ * False where that does not hold. */
+static bool difference_of(const curve_fitting *f, bool constant_pull, double pull,
+                          const double *without, double *to)
 {
-    const curve_samples *s = &f->input.samples;
-    const curve_kind plainly = {.tilt = f->kind.tilt, .contact_fixed = f->kind.contact_fixed};
-    curve_kind kind = plainly;
+    curve_kind kind = {.tilt = f->kind.tilt, .adhesive = true, .constant_pull = constant_pull};
     double p[CURVE_N_PARAMETERS];
-    /* Nothing needs the way out after curve_read_retract. */
-    double *const without = f->workspace->retract_position, *const with =
-                                                                f->workspace->retract_force;
     adhesion law;
     memcpy(p, f->solution.p, sizeof p);
-    residuals_of(f, &plainly, p, without);
     p[CURVE_W] = pull;
     if (!constant_pull) {
         if (!law_of_pull(f, pull, &law))
             return false;
         p[CURVE_W] = sqrt(law.work);
-        if (!kind.contact_fixed)
+        if (!f->kind.contact_fixed)
             p[CURVE_C] -= some_jumps[0] * jump_depth(f, &law);
+        p[CURVE_F0] = curve_baseline(&f->solution, p[CURVE_C]); /* the same line */
     }
-    kind.adhesive = true;
-    kind.constant_pull = constant_pull;
-    residuals_of(f, &kind, p, with);
-    for (size_t i = 0; i < s->n; i++)
-        with[i] = without[i] - with[i];
-    return curve_score(f->table, s, &f->kind, &f->solution, with, f->workspace, to);
+    residuals_of(f, &kind, p, to);
+    const size_t touched = first_beyond(&f->input.samples, p[CURVE_C]);
+    for (size_t i = 0; i < f->input.samples.n; i++)
+        to[i] = i < touched ? 0.0 : without[i] - to[i];
+    return true;
 }
 
 /* At a solution that describes the curve: can a law of adhesion be so much better that it is the
- * one to take? If not, what a pull that is likely would make of the modulus is in the error. */
-static bool adhesion_matters(curve_fitting *f, double most)
+ * one to take? If not, what a pull that is likely would make of the modulus is in the error. Leaves
+ * the workspace as that of the solution. pull_alone: a constant pull can, no other law. */
+static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
 {
-    curve_step step = {.gain = 0.0};
-    double modulus = 0.0;
+    const curve_kind plainly = {.tilt = f->kind.tilt};
+    wt_indent_workspace *w = f->workspace;
+    /* Nothing needs the way out after curve_read_retract, nor the scan's arrays after the scan. */
+    double *const difference[] = {w->retract_position, w->retract_force, w->tip};
+    enum { SCORES = sizeof difference / sizeof difference[0] };
+    curve_step step[SCORES];
+    residuals_of(f, &plainly, f->solution.p, w->weight);
+    /* A constant pull changes forces by as much: any that is small. */
+    (void)difference_of(f, true, f->input.step_noise, w->weight, difference[0]);
+    size_t n = 1;
+    for (size_t i = 0; i < sizeof some_pulls / sizeof some_pulls[0]; i++)
+        if (difference_of(f, false, some_pulls[i] * most, w->weight, difference[n]))
+            n++;
+    curve_score(f->table, &f->input.samples, &f->kind, &f->solution, difference, n, w, step);
     bool matters = false;
-    /* A pull changes forces by as much: any that is small. */
-    if (score_of(f, true, f->input.step_noise, &step) && step.share > 0.0) {
-        matters = step.gain > near_gain * better_chi2;
-        if (step.gain > 0.25 * work_errors * work_errors)
-            modulus = by_likelihood(step.gain, step.modulus);
-    }
-    for (size_t i = 0; !matters && i < sizeof some_pulls / sizeof some_pulls[0]; i++)
-        matters = score_of(f, false, some_pulls[i] * most, &step) && step.share > 0.0 &&
-                  step.gain > near_gain * better_chi2;
-    if (!matters)
-        f->other_law = modulus;
-    return matters;
+    for (size_t i = n; i-- > 0;)
+        if (step[i].share > 0.0 && step[i].gain > near_gain * better_chi2) {
+            *pull_alone = !matters && i == 0;
+            matters = true;
+        }
+    if (matters)
+        return true;
+    if (step[0].share > 0.0 && step[0].gain > 0.25 * work_errors * work_errors)
+        f->other_law = by_likelihood(step[0].gain, step[0].modulus);
+    return false;
 }
+
+/* ---------------------------------------------------------------------------------------------- */
 
 bool curve_fit_adhesion(curve_fitting *f)
 {
@@ -482,7 +497,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (fit_adhesion_laws(f, found.pull, found.start)) {
+            if (fit_adhesion_laws(f, found.pull, found.start, false)) {
                 evaluate(f);
                 return true;
             }
@@ -499,7 +514,10 @@ bool curve_fit_adhesion(curve_fitting *f)
         return true;
     const double most = fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise);
     const bool quick = curve_fits(f) && !curve_has_wave(&elastic.wave);
-    if ((quick && !adhesion_matters(f, most)) || !fit_adhesion_laws(f, most, 0)) {
+    bool pull_alone = false;
+    if (quick && !adhesion_matters(f, most, &pull_alone))
+        return true;
+    if (!fit_adhesion_laws(f, most, 0, pull_alone)) {
         evaluate(f);
         return true;
     }

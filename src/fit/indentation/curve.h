@@ -269,12 +269,12 @@ typedef struct curve_step {
     double gain;    /* 2 ln of the ratio of likelihoods */
     double modulus; /* by how much that moves, relative */
 } curve_step;
-/* At a solution of this kind; difference: of the forces of another law, at each sample [N]. False
- * if the samples cannot tell it from the parameters. Leaves the workspace as that of the solution.
- */
-bool curve_score(const wt_contact_table *table, const curve_samples *samples,
-                 const curve_kind *kind, const curve_solution *from, const double *difference,
-                 wt_indent_workspace *workspace, curve_step *to);
+/* At a solution of this kind; difference: n of them, of the forces of another law, at each sample
+ * [N]. Zeros where the samples cannot tell it from the parameters. Leaves the workspace as that of
+ * the solution. */
+void curve_score(const wt_contact_table *table, const curve_samples *samples,
+                 const curve_kind *kind, const curve_solution *at, double *const *difference,
+                 size_t n, wt_indent_workspace *workspace, curve_step *to);
 /* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, near those that a minimum of another has.
  * Returns the largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
