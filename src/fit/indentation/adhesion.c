@@ -25,6 +25,12 @@ static const double least_tabor = 1.0;
 /* A constant pull, in that which is seen at the end of the way out: over as many samples as a
  * pull-off may take the mean of a pull is two thirds of its largest. */
 static const double most_pull = 1.5;
+/* Of that, in a score: a law that has not the work and the contact point of its best fit still
+ * shows most of it. */
+static const double near_gain = 0.5;
+/* Of the largest pull that was not seen: works of adhesion to look for. */
+static const double some_pulls[] = {1.0, 0.25};
+static const double some_jumps[] = {2.0, 1.0, 4.0}; /* depths of a jump before contact: touch */
 enum {
     MAX_ROUNDS = 3,
     MAX_MOVES = 8,
@@ -264,12 +270,11 @@ static bool is_adhesive(const curve_fitting *f)
 static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pull, double depth,
                               size_t jump)
 {
-    static const double depths[] = {2.0, 1.0, 4.0};
     const curve_samples *samples = &f->input.samples;
     const bool follows = jump == 0;
-    for (size_t i = 0; i < (follows ? sizeof depths / sizeof depths[0] : 1); i++) {
+    for (size_t i = 0; i < (follows ? sizeof some_jumps / sizeof some_jumps[0] : 1); i++) {
         if (follows)
-            jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
+            jump = first_beyond(samples, start.p[CURVE_C] - some_jumps[i] * depth);
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
         f->solution = refine_from(f, start, pull, jump, follows);
@@ -283,21 +288,32 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pul
     return false;
 }
 
+/* JKR with this pull; false where that law does not hold. */
+static bool law_of_pull(const curve_fitting *f, double pull, adhesion *law)
+{
+    const double reduced = f->solution.p[CURVE_E], k = f->input.samples.spring_constant;
+    *law = (adhesion){f->table, reduced, adhesion_work(f->table, reduced, k, pull)};
+    return !isnan(law->work) && adhesion_applies(contact_table_tip(f->table));
+}
+
+/* Where the tip touches. */
+static double jump_depth(const curve_fitting *f, const adhesion *law)
+{
+    const double k = f->input.samples.spring_constant, touch = 0.0;
+    double bare;
+    adhesion_balance(law, k, adhesion_release(law, k), &touch, 1, &bare);
+    return adhesion_at(law, bare).depth;
+}
+
 static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
 {
-    const double k = f->input.samples.spring_constant;
     curve_solution start = f->solution;
-    const adhesion law = {f->table, start.p[CURVE_E],
-                          adhesion_work(f->table, start.p[CURVE_E], k, pull)};
-    if (isnan(law.work) || !adhesion_applies(contact_table_tip(f->table)))
+    adhesion law;
+    if (!law_of_pull(f, pull, &law))
         return false;
-    const double touch = 0.0;
-    double bare;
-    adhesion_balance(&law, k, adhesion_release(&law, k), &touch, 1, &bare);
-    const double depth = adhesion_at(&law, bare).depth;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
-    return fit_adhesion_from(f, start, pull, depth, jump);
+    return fit_adhesion_from(f, start, pull, jump_depth(f, &law), jump);
 }
 
 static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
@@ -338,11 +354,16 @@ static bool better_law(const outcome *a, const outcome *b, bool lossy)
     return a->solution.cost < b->solution.cost;
 }
 
-/* What another fit, better by chi2, would make of the modulus, as far as it is likely. */
+/* What another law, better by chi2, adds to the error of the modulus that it moves, as far as it is
+ * likely. */
+static double by_likelihood(double chi2, double moved)
+{
+    return fabs(moved) / sqrt(1.0 + exp(-0.5 * chi2));
+}
+
 static double by_other(const curve_fitting *f, const curve_solution *other, double chi2)
 {
-    const double share = 1.0 / (1.0 + exp(-0.5 * chi2));
-    return sqrt(share) * fabs(other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+    return by_likelihood(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
 }
 
 /* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
@@ -353,8 +374,9 @@ static double gain_of(const curve_fitting *f, const curve_solution *other)
 }
 
 /* The better one of the laws of adhesion; what the others would give is in the error, as far as it
- * is likely. False if there is none: then all is as it was. */
-static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
+ * is likely. False if there is none: then all is as it was. pull_alone: no other law than that of a
+ * constant pull can be the one to take, unless that is. */
+static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
     const outcome before = {f->solution, f->kind, true, true};
     outcome law[LAWS] = {{.found = false}};
@@ -371,6 +393,9 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
                            jump > 0 || pull_is_likely(f, &before.solution)};
         if (better_law(&law[i], best, lossy))
             best = &law[i];
+        if (i == CONSTANT_PULL && pull_alone &&
+            !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
+            break;
         /* From where samples let go costs have kinks: once more from the pull that was found. */
         if (i == JKR)
             pull = law[CONSTANT_PULL].solution.p[CURVE_W];
@@ -391,6 +416,76 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump)
     return best->found;
 }
 
+/* ---- score: does adhesion matter? ------------------------------------------------------------ */
+
+/* Residuals of a law at p. */
+static void residuals_of(const curve_fitting *f, const curve_kind *kind,
+                         const double p[CURVE_N_PARAMETERS], double *to)
+{
+    curve_law m = curve_law_of(f->table, &f->input.samples, kind, f->workspace);
+    curve_law_evaluate(&m, p, &kind->wave);
+    memcpy(to, f->workspace->residual, f->input.samples.n * sizeof *to);
+}
+
+/* From the forces without adhesion, whose residuals are given, to those of a law with this pull.
+ * False where that does not hold. */
+static bool difference_of(const curve_fitting *f, bool constant_pull, double pull,
+                          const double *without, double *to)
+{
+    curve_kind kind = {.tilt = f->kind.tilt, .adhesive = true, .constant_pull = constant_pull};
+    double p[CURVE_N_PARAMETERS];
+    adhesion law;
+    memcpy(p, f->solution.p, sizeof p);
+    p[CURVE_W] = pull;
+    if (!constant_pull) {
+        if (!law_of_pull(f, pull, &law))
+            return false;
+        p[CURVE_W] = sqrt(law.work);
+        if (!f->kind.contact_fixed)
+            p[CURVE_C] -= some_jumps[0] * jump_depth(f, &law);
+        p[CURVE_F0] = curve_baseline(&f->solution, p[CURVE_C]); /* the same line */
+    }
+    residuals_of(f, &kind, p, to);
+    const size_t touched = first_beyond(&f->input.samples, p[CURVE_C]);
+    for (size_t i = 0; i < f->input.samples.n; i++)
+        to[i] = i < touched ? 0.0 : without[i] - to[i];
+    return true;
+}
+
+/* At a solution that describes the curve: can a law of adhesion be so much better that it is the
+ * one to take? If not, what a pull that is likely would make of the modulus is in the error. Leaves
+ * the workspace as that of the solution. pull_alone: a constant pull can, no other law. */
+static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
+{
+    const curve_kind plainly = {.tilt = f->kind.tilt};
+    wt_indent_workspace *w = f->workspace;
+    /* Nothing needs the way out after curve_read_retract, nor the scan's arrays after the scan. */
+    double *const difference[] = {w->retract_position, w->retract_force, w->tip};
+    enum { SCORES = sizeof difference / sizeof difference[0] };
+    curve_step step[SCORES];
+    residuals_of(f, &plainly, f->solution.p, w->weight);
+    /* A constant pull changes forces by as much: any that is small. */
+    (void)difference_of(f, true, f->input.step_noise, w->weight, difference[0]);
+    size_t n = 1;
+    for (size_t i = 0; i < sizeof some_pulls / sizeof some_pulls[0]; i++)
+        if (difference_of(f, false, some_pulls[i] * most, w->weight, difference[n]))
+            n++;
+    curve_score(f->table, &f->input.samples, &f->kind, &f->solution, difference, n, w, step);
+    bool matters = false;
+    for (size_t i = n; i-- > 0;)
+        if (step[i].share > 0.0 && step[i].gain > near_gain * better_chi2) {
+            *pull_alone = !matters && i == 0;
+            matters = true;
+        }
+    if (matters)
+        return true;
+    if (step[0].share > 0.0 && step[0].gain > 0.25 * work_errors * work_errors)
+        f->other_law = by_likelihood(step[0].gain, step[0].modulus);
+    return false;
+}
+
+/* ---------------------------------------------------------------------------------------------- */
+
 bool curve_fit_adhesion(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
@@ -402,7 +497,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             leave_out(f, found.start, found.deepest + 1);
-            if (fit_adhesion_laws(f, found.pull, found.start)) {
+            if (fit_adhesion_laws(f, found.pull, found.start, false)) {
                 evaluate(f);
                 return true;
             }
@@ -417,7 +512,12 @@ bool curve_fit_adhesion(curve_fitting *f)
     /* Rubber lets go with far more than it is touched with, of which no snap-on was seen. */
     if (!(f->pull_off > 0.0) || !try_it)
         return true;
-    if (!fit_adhesion_laws(f, fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise), 0)) {
+    const double most = fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise);
+    const bool quick = curve_fits(f) && !curve_has_wave(&elastic.wave);
+    bool pull_alone = false;
+    if (quick && !adhesion_matters(f, most, &pull_alone))
+        return true;
+    if (!fit_adhesion_laws(f, most, 0, pull_alone)) {
         evaluate(f);
         return true;
     }

@@ -264,6 +264,19 @@ static inline double curve_wave_amplitude(const curve_wave *wave)
 void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
                   const double p[CURVE_N_PARAMETERS], wt_indent_workspace *workspace,
                   curve_solution *solution);
+/* What a share of a difference between laws would bring, all parameters fitted along: the score
+ * test (Rao, Proc. Camb. Phil. Soc. 44 (1948) 50), which needs no fit. */
+typedef struct curve_step {
+    double share;   /* of the difference */
+    double gain;    /* 2 ln of the ratio of likelihoods */
+    double modulus; /* by how much that moves, relative */
+} curve_step;
+/* At a solution of this kind; difference: n of them, of the forces of another law, at each sample
+ * [N]. Zeros where the samples cannot tell it from the parameters. Leaves the workspace as that of
+ * the solution. */
+void curve_score(const wt_contact_table *table, const curve_samples *samples,
+                 const curve_kind *kind, const curve_solution *at, double *const *difference,
+                 size_t n, wt_indent_workspace *workspace, curve_step *to);
 /* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, near those that a minimum of another has.
  * Returns the largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,

@@ -262,6 +262,48 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     *solution = s;
 }
 
+/* Of one difference, at the latest evaluation. */
+static bool score_one(const curve_law *m, const curve_solution *at, const normal_equations *e,
+                      const double *difference, curve_step *to)
+{
+    const curve_samples *s = m->samples;
+    double towards[N] = {0.0}, along[1][N], row[N], dd = 0.0, dr = 0.0;
+    for (size_t i = 0; i < s->n; i++) {
+        const double d = difference[i];
+        if (!(fabs(d) > 0.0))
+            continue;
+        (void)curve_model_row(m, at->p, i, row);
+        dd += d * d;
+        dr += d * m->workspace->residual[i];
+        for (size_t a = 0; a < N; a++)
+            towards[a] += row[a] * d;
+    }
+    memcpy(along[0], towards, sizeof towards);
+    if (!solve(e, 0.0, along, 1))
+        return false;
+    dd -= dot(along[0], towards);
+    dr -= dot(along[0], e->jr);
+    if (!(dd > 0.0) || !(dr * dr / dd < at->cost))
+        return false;
+    to->share = dr / dd;
+    to->gain = -at->effective_n * log1p(-dr * to->share / at->cost);
+    to->modulus = -to->share * along[0][CURVE_E] / at->p[CURVE_E];
+    return true;
+}
+
+void curve_score(const wt_contact_table *table, const curve_samples *samples,
+                 const curve_kind *kind, const curve_solution *at, double *const *difference,
+                 size_t n, wt_indent_workspace *workspace, curve_step *to)
+{
+    curve_law m = curve_law_of(table, samples, kind, workspace);
+    normal_equations e;
+    curve_law_evaluate(&m, at->p, &at->wave);
+    curve_model_normal(&m, at->p, &e);
+    for (size_t j = 0; j < n; j++)
+        if (!score_one(&m, at, &e, difference[j], &to[j]))
+            to[j] = (curve_step){0.0, 0.0, 0.0};
+}
+
 static bool better(const curve_solution *a, const curve_solution *b)
 {
     return a->converged && (!b->converged || a->cost < b->cost);
