@@ -1,4 +1,4 @@
-/* Starting gnuplot: the one place of the library that runs another program.
+/* Starting gnuplot.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,10 +20,9 @@ typedef struct gnuplot_call {
 } gnuplot_call;
 
 /* Runs gnuplot without a shell, without standard input, without the user's settings, in the C
- * locale. It ends with this process, and what it has started ends with it, unless that has left its
- * process group. WT_E_TOOL if it cannot be started, fails or takes too long; the error carries its
- * words. One process for each script: what one leaves behind would change the bytes of the next
- * picture. */
+ * locale (base/program.h). WT_E_TOOL if it cannot be started, fails or takes too long; the error
+ * carries its words. One process for each script: what one leaves behind would change the bytes of
+ * the next picture. */
 wt_status gnuplot_run(const gnuplot_call *call, wt_error *err) WT_NODISCARD;
 
 #endif
