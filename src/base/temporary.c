@@ -49,7 +49,7 @@ char *temporary_folder(const char *folder, int *descriptor)
     return NULL;
 }
 
-enum { LEVELS = 2 }; /* of folders in a temporary one, and more */
+enum { LEVELS = 8 }; /* of folders in a temporary one; programs that run there make some, too */
 
 static void remove_at(int parent, const char *name, int deeper)
 {

@@ -13,7 +13,7 @@ char *temporary_name(const char *folder);
 char *temporary_folder(const char *folder, int *descriptor);
 /* Says of an open file that it is in use. */
 void temporary_hold(int descriptor);
-/* Removes a file, or a folder with all that is in it two levels deep; links are not followed. */
+/* Removes a file, or a folder with all that is in it eight levels deep; links are not followed. */
 void temporary_remove(const char *path);
 /* Removes what processes that no longer live have left in `folder`. */
 void temporary_sweep(const char *folder);

@@ -32,15 +32,10 @@ typedef struct signature {
 #define AS_TEXT "export it as text or CSV from the program of the instrument"
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
 #define CURVES "export force curves as text: columns of height and force with their units"
-#define ROUGHNESS                                                                                  \
-    "height maps are read as .x3p, .gwy or .gsf: export it so, or open it in Gwyddion and save "   \
-    "it; "                                                                                         \
-    "roughness is taken as a power spectrum, too (`weartrack formats show table-spectrum`)"
 #define RESULT "a result of weartrack (text stream) without measured curves, sweeps or spectra"
 #define TABLES                                                                                     \
     "`weartrack table --list` shows its tables; where something is measured anew, give the file "  \
     "of the instrument"
-#define TOPOGRAPHY(bytes, whose) NOT_READ(bytes, "a topography (" whose ")", ROUGHNESS)
 #define DESCRIBE                                                                                   \
     "export it in one of the formats of `weartrack formats list`; say what its columns hold, "     \
     "with "                                                                                        \
@@ -56,14 +51,7 @@ static const signature signatures[] = {
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
-    TOPOGRAPHY("AliconaImaging", "Alicona"),
-    TOPOGRAPHY("DIGITAL SURF", "Digital Surf, MountainsMap"),
-    TOPOGRAPHY("DSCOMPRESSED", "Digital Surf, MountainsMap"),
-    TOPOGRAPHY("\1\0Directory", "Wyko, Veeco"),
-    TOPOGRAPHY("VCA DATA", "Dektak, Bruker"),
-    TOPOGRAPHY("aISO-1.0", "SDF, ISO 25178-71"),
-    TOPOGRAPHY("aBCR-1.0", "SDF, ISO 25178-71"),
-    NOT_READ("WSxM file copyright", "a WSxM file", CURVES "; " ROUGHNESS),
+    NOT_READ("WSxM file copyright", "a WSxM file", CURVES),
     NOT_READ("\1\260\223\377", "an NT-MDT file (.mdt)",
              "export each curve as text from Nova: height, approach and retract"),
     SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
@@ -226,7 +214,7 @@ static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error 
     return WT_E_EMPTY;
 }
 
-static wt_status fail_unknown(wt_input *input, wt_error *err)
+static wt_status fail_unknown(wt_input *input, unsigned kinds, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -238,7 +226,11 @@ static wt_status fail_unknown(wt_input *input, wt_error *err)
     status = like->measured ? wt_fail(err, WT_E_UNSUPPORTED, "such a file is not read")
                             : wt_fail(err, WT_E_FORMAT, "file format not recognised");
     wt_error_found(err, "%s", like->words);
-    wt_error_advice(err, "%s", like->advice);
+    if (like == &binary && (kinds & WT_KIND_IMAGE) != 0)
+        wt_error_advice(err, "--format gwyddion has the program Gwyddion read it, which knows many "
+                             "height maps; or export it as .x3p, .gwy or .gsf");
+    else
+        wt_error_advice(err, "%s", like->advice);
     return status;
 }
 
@@ -273,7 +265,7 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
             return WT_E_UNSUPPORTED;
         }
     }
-    return fail_unknown(input, err);
+    return fail_unknown(input, kinds, err);
 }
 
 /* A tar archive of one text would be read as that text, between its header and its zeros, and of
@@ -294,7 +286,7 @@ wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *
 {
     wt_status status = WT_E_NOT_FOUND;
     if (is_tar(input)) {
-        status = fail_unknown(input, err);
+        status = fail_unknown(input, kinds, err);
     } else if (format == NULL) {
         status = detect(formats, input, kinds, reader, err);
     } else {

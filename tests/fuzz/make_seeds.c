@@ -240,6 +240,8 @@ static int make_gwy(const char *folder)
     out = open_memstream(&container, &n_container);
     (void)fwrite("/0/data\0o", 1, 9, out);
     put_object(out, "GwyDataField", field, n_field);
+    (void)fwrite("/0/mask\0o", 1, 9, out);
+    put_object(out, "GwyDataField", field, n_field);
     (void)fwrite("/0/data/title\0sHeight", 1, 22, out);
     (void)fclose(out);
     path_of(path, sizeof path, folder, "seed0.gwy");

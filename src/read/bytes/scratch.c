@@ -7,10 +7,15 @@
 #include <string.h>
 #include <unistd.h>
 
-int scratch_open(void)
+const char *scratch_folder(void)
 {
     const char *const asked = getenv("TMPDIR");
-    const char *const folder = asked != NULL && asked[0] != '\0' ? asked : "/tmp";
+    return asked != NULL && asked[0] != '\0' ? asked : "/tmp";
+}
+
+int scratch_open(void)
+{
+    const char *const folder = scratch_folder();
     int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0)
         return file;

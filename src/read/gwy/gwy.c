@@ -3,6 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "read/gwy/gwy.h"
+
 #include "base/number.h"
 #include "read/gwy/gwy_object.h"
 #include "read/images.h"
@@ -52,6 +54,36 @@ static double length_of(gwy_bytes field, const char *key)
     return gwy_find(field, key, 'd', &c) ? gwy_double(&c) : (double)NAN;
 }
 
+/* Where the mask of a channel is set the height is missing. */
+static wt_status take_mask(wt_image *image, gwy_bytes container, unsigned long number,
+                           wt_error *err)
+{
+    char key[48];
+    gwy_component mask, data;
+    gwy_bytes field;
+    const char *name = NULL;
+    snprintf(key, sizeof key, "/%lu/mask", number);
+    if (!gwy_find(container, key, 'o', &mask))
+        return WT_OK;
+    const size_t n = image->n_columns * image->n_rows;
+    double *set = malloc(n * sizeof *set);
+    if (set == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a mask");
+    wt_status status = WT_OK;
+    if (!gwy_object(&mask.value, &name, &field) || !gwy_find(field, "data", 'D', &data) ||
+        data.n != n)
+        status = corrupt(err, key, "a mask of another size than its field");
+    else
+        (void)samples_decode(SAMPLE_FLOAT64, false, data.value.at, n, 1, 0, set);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        if (set[i] > 0) {
+            const size_t row = image->n_rows - 1 - i / image->n_columns;
+            image->values[row * image->n_columns + i % image->n_columns] = (double)NAN;
+        }
+    free(set);
+    return status;
+}
+
 static wt_status add_field(image_list *list, gwy_bytes field, const char *key, const char *title,
                            wt_error *err)
 {
@@ -79,8 +111,8 @@ static wt_status add_field(image_list *list, gwy_bytes field, const char *key, c
 }
 
 /* The data fields in the order of the file. */
-static wt_status add_fields(image_list *list, gwy_bytes container, const char *file,
-                            wt_parselog *log, wt_error *err)
+static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
+                            const char *file, wt_parselog *log, wt_error *err)
 {
     wt_status status = WT_OK, broken = WT_OK;
     gwy_bytes rest = container;
@@ -89,7 +121,7 @@ static wt_status add_fields(image_list *list, gwy_bytes container, const char *f
     while (status == WT_OK && gwy_next(&rest, &c, &broken)) {
         const char *name = NULL;
         gwy_bytes field;
-        if (c.type == 'o' && channel_of(c.key, "/mask", &number))
+        if (!masks_are_missing && c.type == 'o' && channel_of(c.key, "/mask", &number))
             wt_parselog_add(log, WT_NOTE, file, c.key,
                             "a mask, which may mark anything, is not taken for missing heights");
         if (c.type != 'o' || !channel_of(c.key, "/data", &number) ||
@@ -104,23 +136,22 @@ static wt_status add_fields(image_list *list, gwy_bytes container, const char *f
         snprintf(key, sizeof key, "/%lu/data/title", number);
         const bool named = gwy_find(container, key, 's', &title);
         status = add_field(list, field, c.key, named ? (const char *)title.value.at : "", err);
+        if (status == WT_OK && masks_are_missing)
+            status = take_mask(&list->images[list->n - 1], container, number, err);
     }
     return status == WT_OK && broken != WT_OK
                ? corrupt(err, "container", "a component goes on beyond its object")
                : status;
 }
 
-static wt_status gwy_images(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_image **images,
-                            size_t *n_images, wt_error *err)
+wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_parselog *log, wt_image **images,
+                   size_t *n_images, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
     image_list list = {NULL, 0};
     gwy_bytes all, container;
     const char *name = NULL;
-    (void)self;
-    (void)options;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
         return status;
@@ -129,8 +160,17 @@ static wt_status gwy_images(const file_reader *self, wt_input *input,
         !gwy_object(&all, &name, &container) || strcmp(name, "GwyContainer") != 0)
         status = corrupt(err, "beginning of the file", "the file is cut, or holds no container");
     if (status == WT_OK)
-        status = add_fields(&list, container, wt_input_name(input), log, err);
+        status = add_fields(&list, container, masks_are_missing, wt_input_name(input), log, err);
     return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+}
+
+static wt_status gwy_images(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            size_t *n_images, wt_error *err)
+{
+    (void)self;
+    (void)options;
+    return gwy_read(input, false, log, images, n_images, err);
 }
 
 static recognition detect(const file_reader *self, file_peek *peek)

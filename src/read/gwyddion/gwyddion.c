@@ -1,0 +1,127 @@
+/* Height maps of other makers, as Gwyddion reads them: the program writes them as .gwy, and what it
+ * wrote is read.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/gwyddion/gwyddion.h"
+
+#include "read/gwy/gwy.h"
+#include "read/images.h"
+#include "read/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SURF "DIGITAL SURF"
+#define SURF_PACKED "DSCOMPRESSED"
+
+/* Any other file is given to Gwyddion by --format. */
+static const char *whose(const file_peek *peek)
+{
+    if (PEEK_BEGINS(peek, "AliconaImaging"))
+        return "Alicona";
+    if (PEEK_BEGINS(peek, SURF) || PEEK_BEGINS(peek, SURF_PACKED))
+        return "Digital Surf, MountainsMap";
+    if (PEEK_BEGINS(peek, "\1\0Directory"))
+        return "Wyko, Veeco";
+    if (PEEK_BEGINS(peek, "VCA DATA"))
+        return "Dektak, Bruker";
+    if (PEEK_BEGINS(peek, "aISO-1.0") || PEEK_BEGINS(peek, "aBCR-1.0"))
+        return "SDF, ISO 25178-71";
+    /* Its curves begin alike. */
+    if (PEEK_BEGINS(peek, "WSxM file copyright") && PEEK_HOLDS(peek, "SxM Image file"))
+        return "WSxM";
+    return NULL;
+}
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    return recognised(whose(peek) != NULL, 90);
+}
+
+/* Whether the head of a file of Digital Surf says that points are missing: the int16 at byte 86,
+ * least byte first. */
+static bool surf_has_missing(const file_peek *peek)
+{
+    enum { FLAG = 86 };
+    return (PEEK_BEGINS(peek, SURF) || PEEK_BEGINS(peek, SURF_PACKED)) && peek->length > FLAG + 1 &&
+           peek->bytes[FLAG] == 1 && peek->bytes[FLAG + 1] == 0;
+}
+
+/* Digital Surf marks them by a height below all others, and Gwyddion (2.62) takes it for one. A map
+ * of a newer one that knows better has missing points already. */
+static void take_out_lowest(wt_image *image, const char *file, wt_parselog *log)
+{
+    const size_t n = image->n_columns * image->n_rows;
+    double lowest = (double)INFINITY;
+    size_t taken = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(image->values[i]))
+            return;
+        lowest = image->values[i] < lowest ? image->values[i] : lowest;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (image->values[i] <= lowest) {
+            image->values[i] = (double)NAN;
+            taken++;
+        }
+    wt_parselog_add(log, WT_WARNING, file, image->name,
+                    "the file says that heights are missing; the %zu of %zu at the lowest height, "
+                    "which marks them, are left out",
+                    taken, n);
+}
+
+static wt_status read_images(const file_reader *self, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_image **images,
+                             size_t *n_images, wt_error *err)
+{
+    enum { HEAD = 512 };
+    char version[64];
+    file_peek peek = {.name = wt_input_name(input)};
+    wt_input *converted = NULL;
+    wt_error inner = WT_ERROR_INIT;
+    (void)self;
+    (void)options;
+    wt_status status = gwyddion_convert(input, &gwyddion_usual_limits, &converted, version, err);
+    if (status == WT_OK) {
+        status = gwy_read(converted, true, log, images, n_images, &inner);
+        if (status != WT_OK) {
+            wt_fail(err, status, "what Gwyddion made of the file: %s", inner.message);
+            wt_error_advice(err, "open it in Gwyddion: a profile or an image without heights gives "
+                                 "no height map");
+        }
+        wt_input_close(converted);
+    }
+    const wt_status seen = wt_input_peek(input, HEAD, &peek.bytes, &peek.length, &peek.whole, NULL);
+    if (status != WT_OK) {
+        const char *const maker = seen == WT_OK ? whose(&peek) : NULL;
+        if (maker != NULL)
+            wt_error_found(err, "a topography (%s)", maker);
+        return status;
+    }
+    wt_parselog_add(log, WT_NOTE, peek.name, NULL, "converted by %s", version);
+    if (seen == WT_OK && surf_has_missing(&peek))
+        take_out_lowest(&(*images)[0], peek.name, log);
+    return WT_OK;
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
+}
+
+const file_reader reader_gwyddion = {
+    .info = {.id = "gwyddion",
+             .title = "height maps of Alicona, Digital Surf, Wyko, Dektak, SDF, WSxM, by the "
+                      "program Gwyddion",
+             .kinds = WT_KIND_IMAGE,
+             .verified = true,
+             .evidence = "measured files of Alicona, Digital Surf, Wyko and WSxM, whose numbers "
+                         "other programs agree on",
+             .version = "1"},
+    .detect = detect,
+    .read_images = read_images,
+    .describe = describe,
+};

@@ -1,0 +1,259 @@
+/* Height maps by the program Gwyddion: one of ours stands for it that hangs, crashes, floods, or
+ * writes nothing, rubbish or what is asked. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report_place.h"
+
+#include "made_file.h"
+
+#include "read/gwyddion/gwyddion.h"
+
+#include <math.h>
+
+/* ---- what stands for the program ------------------------------------------------------------- */
+
+static char *path_before;
+
+static int make_place(void **state)
+{
+    char all[4096];
+    if (make_workplace(state) != 0 || mkdir("bin", 0777) != 0 || mkdir("none", 0777) != 0 ||
+        mkdir("tmp", 0777) != 0)
+        return -1;
+    path_before = strdup(getenv("PATH"));
+    snprintf(all, sizeof all, "%s/tmp", (char *)*state);
+    assert_int_equal(setenv("TMPDIR", all, 1), 0);
+    snprintf(all, sizeof all, "%s/bin:%s", (char *)*state, path_before);
+    return setenv("PATH", all, 1);
+}
+
+static int remove_place(void **state)
+{
+    assert_int_equal(setenv("PATH", path_before, 1), 0);
+    assert_int_equal(unsetenv("TMPDIR"), 0);
+    free(path_before);
+    return remove_workplace(state);
+}
+
+/* The version is asked for by itself. */
+static void stand_in(const char *script)
+{
+    FILE *out = fopen("bin/gwyddion", "w");
+    assert_non_null(out);
+    (void)fprintf(
+        out,
+        "#!/bin/sh\n[ \"$1\" = --version ] && { echo 'Gwyddion 9.9 (made up)'; exit 0; }\n"
+        "%s\n",
+        script);
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(chmod("bin/gwyddion", 0755), 0);
+}
+
+static const char surf[512] = "DIGITAL SURF";
+
+/* ---- what goes wrong ------------------------------------------------------------------------- */
+
+static void fails_with(const char *script, wt_status expected, const char *words)
+{
+    /* Small, so that the test is short; the program that hangs would do so for ever. */
+    const gwyddion_limits limits = {
+        .time = 2, .cpu_time = 2, .file_size = (size_t)1 << 20, .memory = (size_t)1 << 30};
+    enum { FAR_BELOW_FOR_EVER = 60 };
+    wt_input *input = NULL, *converted = NULL;
+    wt_error err = WT_ERROR_INIT;
+    char version[64];
+    const double start = wt_time_wall();
+    stand_in(script);
+    assert_int_equal(wt_input_open_memory(surf, sizeof surf, "a.sur", &input, NULL), WT_OK);
+    const wt_status status = gwyddion_convert(input, &limits, &converted, version, &err);
+    if (status != expected || strstr(err.message, words) == NULL)
+        fail_msg("%s: %d: %s", script, (int)status, err.message);
+    assert_null(converted);
+    assert_true(strlen(err.advice) > 0);
+    assert_int_equal(count_files("tmp"), 0);
+    assert_true(wt_time_wall() - start < FAR_BELOW_FOR_EVER);
+    wt_input_close(input);
+}
+
+static void test_failures(void **state)
+{
+    (void)state;
+    fails_with("sleep 1000 & sleep 1000", WT_E_TOOL, "did not end within 2 s");
+    fails_with("while :; do :; done", WT_E_TOOL, "Gwyddion ");
+    fails_with("trap '' XCPU TERM; while :; do :; done", WT_E_TOOL, "Gwyddion ");
+    fails_with("kill -SEGV $$", WT_E_TOOL, "ended by signal 11");
+    fails_with("echo no; exit 1", WT_E_TOOL, "exit status 1");
+    fails_with("exit 0", WT_E_TOOL, "made nothing");
+    fails_with(": > converted.gwy", WT_E_TOOL, "made nothing");
+    fails_with("mkdir converted.gwy", WT_E_TOOL, "made nothing");
+    fails_with("ln -s /etc/passwd converted.gwy", WT_E_TOOL, "made nothing");
+    fails_with("mkfifo converted.gwy", WT_E_TOOL, "made nothing");
+    fails_with("exec head -c 10000000000 /dev/zero > converted.gwy", WT_E_TOOL, "signal 25");
+    fails_with("mkdir -p a/b/c/d/e; echo x > a/b/c/d/e/f; exit 3", WT_E_TOOL, "exit status 3");
+}
+
+/* What has reached the limit was cut there, whatever the program says of itself. */
+static void test_flood_that_goes_on(void **state)
+{
+    (void)state;
+    fails_with("trap '' XFSZ; head -c 10000000000 /dev/zero > converted.gwy; exit 0", WT_E_TOOL,
+               "more of the file than is read");
+}
+
+static wt_status read_surf(const char *bytes, size_t n, wt_parselog *log, wt_image **images,
+                           size_t *n_images, wt_error *err)
+{
+    wt_input *input = NULL;
+    assert_int_equal(wt_input_open_memory(bytes, n, "b.sur", &input, NULL), WT_OK);
+    const wt_status status = wt_images_read(formats, input, NULL, log, images, n_images, err);
+    wt_input_close(input);
+    return status;
+}
+
+static void test_rubbish(void **state)
+{
+    (void)state;
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    stand_in("echo GWYPrubbish > converted.gwy");
+    assert_int_equal(read_surf(surf, sizeof surf, NULL, &images, &n, &err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.message, "what Gwyddion made of the file"));
+    assert_string_equal(err.file, "b.sur");
+    assert_non_null(strstr(err.found, "Digital Surf"));
+    assert_null(images);
+    assert_int_equal(count_files("tmp"), 0);
+}
+
+static void test_not_installed(void **state)
+{
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    char none[512];
+    snprintf(none, sizeof none, "%s/none", (char *)*state);
+    assert_int_equal(setenv("PATH", none, 1), 0);
+    assert_int_equal(read_surf(surf, sizeof surf, NULL, &images, &n, &err), WT_E_TOOL);
+    assert_non_null(strstr(err.message, "which is missing"));
+    assert_non_null(strstr(err.advice, "apt-get install gwyddion"));
+    assert_non_null(strstr(err.found, "Digital Surf"));
+    assert_int_equal(count_files("tmp"), 0);
+}
+
+/* ---- what goes well -------------------------------------------------------------------------- */
+
+enum { COLUMNS = 3, ROWS = 2, POINTS = COLUMNS * ROWS };
+static const double heights[POINTS] = {3e-9, 1e-9, 4e-9, 1e-9, 5e-9, 9e-9}; /* uppermost first */
+
+/* "GwyDataField" of such values, as bytes in the order of this machine, which is the file's. */
+static size_t field_of(char *to, const double *values)
+{
+    char *p = to + 17; /* behind the name and the size */
+    const uint32_t columns = COLUMNS, rows = ROWS, n = POINTS;
+    const double x = 3e-6, y = 2e-6;
+#define PUT(bytes, n) p = (char *)memcpy(p, bytes, n) + (n)
+    PUT("xres\0i", 6);
+    PUT(&columns, 4);
+    PUT("yres\0i", 6);
+    PUT(&rows, 4);
+    PUT("xreal\0d", 7);
+    PUT(&x, 8);
+    PUT("yreal\0d", 7);
+    PUT(&y, 8);
+    for (int i = 0; i < 2; i++) {
+        PUT(i == 0 ? "si_unit_xy\0o" : "si_unit_z\0o", i == 0 ? 12 : 11);
+        const uint32_t inside = 11;
+        PUT("GwySIUnit\0", 10);
+        PUT(&inside, 4);
+        PUT("unitstr\0sm\0", 11);
+    }
+    PUT("data\0D", 6);
+    PUT(&n, 4);
+    PUT(values, POINTS * sizeof *values);
+    const uint32_t size = (uint32_t)(p - to - 17);
+    memcpy(to, "GwyDataField", 13);
+    memcpy(to + 13, &size, 4);
+    return (size_t)(p - to);
+}
+
+static void write_good(const double *mask)
+{
+    char bytes[2048], *p = bytes + 4 + 13 + 4;
+    PUT("/0/data\0o", 9);
+    p += field_of(p, heights);
+    if (mask != NULL) {
+        PUT("/0/mask\0o", 9);
+        p += field_of(p, mask);
+    }
+#undef PUT
+    const uint32_t size = (uint32_t)(p - bytes - 21);
+    memcpy(bytes, "GWYPGwyContainer", 17);
+    memcpy(bytes + 17, &size, 4);
+    FILE *out = fopen("good.gwy", "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(bytes, 1, (size_t)(p - bytes), out), p - bytes);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* Reads and compares; `missing` are the points that must be, one bit each. */
+static void check_read(const char *bytes, unsigned missing, const char *words)
+{
+    wt_image *images = NULL;
+    size_t n = 0;
+    bool said = false, version = false;
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    stand_in("[ \"$HOME\" = \"$(pwd -P)\" ] || exit 7\n[ -z \"$DISPLAY\" ] || exit 8\n"
+             "read x && exit 9\n[ \"$2\" = surface.sur ] && [ -s \"$2\" ] || exit 10\n"
+             "cp ../../good.gwy converted.gwy; mkdir -p .gwyddion/a/b; echo > .gwyddion/a/b/c");
+    if (read_surf(bytes, sizeof surf, log, &images, &n, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    assert_int_equal(n, 1);
+    assert_int_equal(images[0].n_columns, COLUMNS);
+    assert_int_equal(images[0].n_rows, ROWS);
+    for (size_t i = 0; i < POINTS; i++) {
+        const double z = images[0].values[(ROWS - 1 - i / COLUMNS) * COLUMNS + i % COLUMNS];
+        if ((missing >> i & 1u) != 0)
+            assert_true(isnan(z));
+        else
+            assert_near(z, heights[i], 1e-15);
+    }
+    for (size_t i = 0; i < wt_parselog_count(log); i++) {
+        const char *message = wt_parselog_get(log, i).text;
+        version = version || strstr(message, "converted by Gwyddion 9.9 (made up)") != NULL;
+        said = said || strstr(message, words) != NULL;
+    }
+    assert_true(version && said);
+    assert_int_equal(count_files("tmp"), 0);
+    wt_parselog_free(log);
+    wt_image_clear(&images[0]);
+    free(images);
+}
+
+static void test_heights(void **state)
+{
+    (void)state;
+    static const double mask[POINTS] = {0, 0, 1, 0, 0, 1};
+    char flagged[sizeof surf];
+    assert_int_equal(setenv("DISPLAY", ":99", 1), 0);
+    memcpy(flagged, surf, sizeof surf);
+    flagged[86] = 1;
+    write_good(NULL);
+    check_read(surf, 0, "");
+    /* Digital Surf: the file says that points are missing, and they are the lowest. */
+    check_read(flagged, 1u << 1 | 1u << 3, "the 2 of 6 at the lowest height");
+    /* What Gwyddion masks is missing, and then nothing else is. */
+    write_good(mask);
+    check_read(surf, 1u << 2 | 1u << 5, "2 of 6 pixels");
+    check_read(flagged, 1u << 2 | 1u << 5, "2 of 6 pixels");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, make_place, remove_place)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_failures), TEST(test_flood_that_goes_on),
+        TEST(test_rubbish),  TEST(test_not_installed),
+        TEST(test_heights),
+    };
+    return cmocka_run_group_tests(tests, set_up, clean);
+}
