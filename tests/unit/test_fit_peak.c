@@ -366,7 +366,7 @@ static void lower_peaks_are_told(void **unused)
     }
     print_message("lower peaks: %zu of %zu found, %zu of them held, %zu wrong\n", found,
                   (size_t)DRAWS, held, wrong);
-    assert_true(found > 0.97 * DRAWS);
+    assert_true((double)found > 0.97 * DRAWS);
     assert_true((double)held > 0.91 * (double)found);
     assert_true(wrong <= 2);
 }

@@ -5,8 +5,8 @@
  */
 #include "read/text/text_sweep.h"
 
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,8 +79,7 @@ static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_
         if (isfinite(gap))
             gaps[n++] = fabs(gap);
     }
-    gsl_sort(gaps, 1, n);
-    const double usual = n > 0 ? gsl_stats_median_from_sorted_data(gaps, 1, n) : (double)NAN;
+    const double usual = n > 0 ? numbers_median(gaps, n) : (double)NAN;
     free(gaps);
     for (size_t i = 0; i < t->n_rows && n >= ROWS_LEAST; i++) {
         const double gap = fabs(factor_gap(t, &c, i));
