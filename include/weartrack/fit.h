@@ -389,7 +389,7 @@ WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t
  * wt_peak_find. At most `most` of them; *n: how many. */
 WT_API wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most,
                                  wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
-/* Where the storage modulus begins to fall, the extrapolated onset of ASTM E1640 and ISO 6721-11:
+/* Where the storage modulus begins to fall, the extrapolated onset of ASTM E1640:
  * the tangent of ln y where it falls most steeply meets the tangent of the glass, which is laid
  * where, colder, it falls with a tenth of that slope. */
 typedef struct wt_onset {
