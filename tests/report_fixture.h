@@ -35,6 +35,7 @@ typedef struct fixture_change {
     const char *table;
     bool leave_out;
     bool (*keep)(const wt_table *table, size_t row); /* NULL: all rows */
+    void (*begin)(wt_table *copy);                   /* more columns; NULL: nothing */
     void (*edit)(wt_table *copy, size_t row);        /* the last row of a copy; NULL: nothing */
     void (*finish)(wt_table *copy);                  /* more rows, keys; NULL: nothing */
     const char *without;                             /* a column or key it has not */
@@ -123,6 +124,8 @@ static inline wt_table *fixture_copy(const wt_table *table, const fixture_change
     if (copy == NULL)
         abort();
     fixture_columns(copy, table, change);
+    if (change->begin != NULL)
+        change->begin(copy);
     fixture_rows(copy, table, change);
     for (size_t i = 0; i < wt_table_n_keys(table); i++) {
         const char *key = wt_table_key_name(table, i);
@@ -452,6 +455,38 @@ static inline void fixture_know_errors(wt_table *table, size_t row)
     fixture_put(table, "extrapolated_share", row == 3 ? 0.04 : 0.01);
 }
 
+/* As if the isotherms were of steps, too: 1 + 0.01 i of the storage modulus, and one over it. */
+static const char *const fixture_relaxation[] = {"relaxation_modulus", "own_relaxation",
+                                                 "fitted_relaxation", "fitted_relaxation_low",
+                                                 "fitted_relaxation_high"};
+static const char *const fixture_creep[] = {"creep_compliance", "own_creep", "fitted_creep",
+                                            "fitted_creep_low", "fitted_creep_high"};
+enum { FIXTURE_STEP_COLUMNS = sizeof fixture_creep / sizeof *fixture_creep };
+
+static inline void fixture_begin_steps(wt_table *table)
+{
+    fixture_check(wt_table_add_column(table, "time", "s", "reduced time", NULL));
+    for (int i = 0; i < FIXTURE_STEP_COLUMNS; i++) {
+        fixture_check(wt_table_add_column(table, fixture_relaxation[i], "Pa", "modulus", NULL));
+        fixture_check(wt_table_add_column(table, fixture_creep[i], "1/Pa", "compliance", NULL));
+    }
+}
+
+static inline double fixture_cell(const wt_table *table, size_t row, const char *column)
+{
+    return wt_table_number(table, row, (size_t)wt_table_find(table, column));
+}
+
+static inline void fixture_add_steps(wt_table *table, size_t row)
+{
+    const double storage = fixture_cell(table, row, "storage_modulus");
+    fixture_put(table, "time", 1 / fixture_cell(table, row, "angular_frequency"));
+    for (int i = 0; i < FIXTURE_STEP_COLUMNS; i++) {
+        fixture_put(table, fixture_relaxation[i], storage * (1 + 0.01 * i));
+        fixture_put(table, fixture_creep[i], (1 + 0.01 * i) / storage);
+    }
+}
+
 static inline void fixture_leave_undetermined(wt_table *table, size_t row)
 {
     if (row == 0)
@@ -516,6 +551,7 @@ static inline wt_result *fixture_result(void)
         {"force_displacement", .finish = fixture_name_curve},
         {"friction", .edit = fixture_know_errors},
         {"shift_factors", .edit = fixture_leave_undetermined},
+        {"master_curve", .begin = fixture_begin_steps, .edit = fixture_add_steps},
         {"dma_comparison", .edit = fixture_extrapolate},
         {"answer", .edit = fixture_spoil_answer, .finish = fixture_name_case},
         {"inputs", .edit = fixture_spoil_input},

@@ -219,6 +219,34 @@ static void caption_master_curve(figure_drawing *d)
                           "the points of all temperatures on one line without steps.");
 }
 
+/* ---- after a step ---------------------------------------------------------------------------- */
+
+static void draw_after_step(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    d->width = 1.15;
+    drawing_axes(d);
+    if (!span_empty(&d->colour))
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    plot_band(d, FITTED + 1, "y_unit");
+    plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
+    plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
+    plot_end(d);
+}
+
+static void caption_after_step(figure_drawing *d)
+{
+    const double reference =
+        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
+    if (isfinite(reference))
+        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
+    text_format(&d->caption,
+                "; %zu points of %zu isotherm%s, coloured by the temperature of the measurement. "
+                "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
+                d->table->n_rows, count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
+}
+
 /* ---- superposition without a frequency ------------------------------------------------------- */
 
 static void plot_plane(figure_drawing *d, const combination *x, const combination *y, size_t column,
@@ -432,10 +460,26 @@ static void caption_vertical_shifts(figure_drawing *d)
     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                              \
-    .nothing = "no point of the master curve has numbers above zero",                              \
+    .nothing = "no oscillation moduli above zero; steps have a figure over time",                  \
     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),    \
                CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
+
+/* Isotherms of steps; other master curves have none of them, which is not worth a word. */
+#define AFTER_STEP(id, heading, quantity, label, OWN_VALUE)                                        \
+    {                                                                                              \
+        .name = id, .title = heading, .table = &master_curve_schema, .data_title = heading,        \
+        .x = {MASTER_CURVE_TIME, AXIS_LOG, "Reduced time"},                                        \
+        .y = {{MASTER_CURVE_##quantity, AXIS_LOG, label}},                                         \
+        .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                          \
+        .curves = {CURVE(MASTER_CURVE_##quantity, OWN), CURVE(OWN_VALUE, DATA),                    \
+                   CURVE(MASTER_CURVE_TEMPERATURE, DATA),                                          \
+                   CURVE(FITTED_OF_##quantity, DATA, .with_errors = true)},                        \
+        .words = label " shifted to the reference temperature", .draw = draw_after_step,           \
+        .caption = caption_after_step                                                              \
+    }
+#define FITTED_OF_RELAXATION_MODULUS MASTER_CURVE_FITTED_RELAXATION
+#define FITTED_OF_CREEP_COMPLIANCE MASTER_CURVE_FITTED_CREEP
 
 const figure_description figures_master[] = {
     {.name = "isotherms",
@@ -447,7 +491,7 @@ const figure_description figures_master[] = {
      .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .curves = {CURVE(MASTER_CURVE_OWN_STORAGE, OWN), CURVE(MASTER_CURVE_OWN_LOSS, OWN),
                 CURVE(MASTER_CURVE_TEMPERATURE, DATA)},
-     .nothing = "no point of the isotherms has numbers above zero",
+     .nothing = "no oscillation moduli above zero; steps have a figure over time",
      .words =
          "Storage and loss modulus at the temperature of each isotherm, and tan δ below, before "
          "any shift; the colours are those of the master curve.",
@@ -466,10 +510,14 @@ const figure_description figures_master[] = {
                 CURVE(MASTER_CURVE_FITTED_STORAGE, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS_FACTOR, DATA, .with_errors = true)},
-     .nothing = "no point of the master curve has numbers above zero",
+     .nothing = "no oscillation moduli above zero; steps have a figure over time",
      .words = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
+    AFTER_STEP("relaxation", "Master curve of relaxation", RELAXATION_MODULUS, "Relaxation modulus",
+               MASTER_CURVE_OWN_RELAXATION),
+    AFTER_STEP("creep", "Master curve of creep", CREEP_COMPLIANCE, "Creep compliance",
+               MASTER_CURVE_OWN_CREEP),
     {.name = "shift_factors",
      .title = "Shift factors",
      .table = &shift_factors_schema,

@@ -447,11 +447,15 @@ static void test_nothing_to_draw(void **state)
     for (size_t i = 0; i < wt_figure_count(); i++) {
         char words[96];
         (void)snprintf(words, sizeof words, "Not drawn: %s – ", wt_figure_get(i).title);
-        bool silent = strcmp(wt_figure_get(i).name, "modulus_map") == 0;
+        /* Most results have none of these. */
+        static const char *const rare[] = {"modulus_map", "relaxation", "creep"};
+        bool silent = false;
+        for (size_t k = 0; k < sizeof rare / sizeof *rare; k++)
+            silent = silent || strcmp(wt_figure_get(i).name, rare[k]) == 0;
         if ((strstr(page, words) == NULL) != silent)
             fail_msg("%s: is it said that it cannot be drawn?", wt_figure_get(i).name);
     }
-    assert_non_null(strstr(page, "Not drawn: Master curve – no point of the master curve"));
+    assert_non_null(strstr(page, "Not drawn: Master curve – no oscillation moduli above zero"));
     assert_null(strstr(page, ">nan<"));
     assert_false(exists("out/plots/style.gp"));
     free(page);

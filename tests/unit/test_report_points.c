@@ -93,6 +93,8 @@ static void test_whole_tables(void **state)
     NEED_REPORT();
     static const char *const whole[][2] = {{"isotherms", "master_curve"},
                                            {"master_curve", "master_curve"},
+                                           {"relaxation", "master_curve"},
+                                           {"creep", "master_curve"},
                                            {"shift_factors", "shift_factors"},
                                            {"vertical_shifts", "shift_factors"},
                                            {"relaxation_spectrum", "relaxation_spectrum"},
