@@ -83,15 +83,16 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return flow_law_parse(&self_affine, text, surface, err);
 }
 
-/* The errors of the table power_spectrum, whose rows are the points that were read. */
-static wt_status take_errors(const wt_table *table, wt_surface *surface, wt_error *err)
+/* The errors of the table power_spectrum. *taken: its rows are the points that were read. */
+static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
     const long column =
         wt_table_find(table, power_spectrum_schema.columns[POWER_SPECTRUM_MODES_ERROR].name);
     wt_estimate place = {0};
-    if (column < 0 || wt_table_n_rows(table) != s->n ||
-        wt_table_column_kind(table, (size_t)column) != WT_COLUMN_NUMBER)
+    *taken = column >= 0 && wt_table_n_rows(table) == s->n &&
+             wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    if (!*taken)
         return WT_OK;
     surface->modes_error = malloc(s->n * sizeof *surface->modes_error);
     if (surface->modes_error == NULL)
@@ -107,22 +108,31 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, wt_erro
     return WT_OK;
 }
 
-/* Of a file that this program wrote. One from a pipe is read once. */
-static wt_status read_errors(const flow_file *file, wt_surface *surface, wt_error *err)
+/* Of a file that this program wrote. One from a pipe is read once, and then friction has no error
+ * of the surface, which is said. */
+static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surface *surface,
+                             wt_error *err)
 {
     static const char *const own[] = {"weartrack-stream", "weartrack-hdf5"};
     bool is_own = false;
     for (size_t i = 0; i < COUNT_OF(own); i++)
         is_own = is_own || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
-    if (!is_own || strcmp(file->path, "-") == 0)
+    if (!is_own)
         return WT_OK;
     wt_result *tables = NULL;
-    wt_status status = wt_tables_read(file->path, file->name, NULL,
-                                      (wt_tables_role){NULL, NULL, NULL}, &tables, err);
+    bool taken = false;
+    const bool piped = strcmp(file->path, "-") == 0;
+    wt_status status = piped ? WT_OK
+                             : wt_tables_read(file->path, file->name, NULL,
+                                              (wt_tables_role){NULL, NULL, NULL}, &tables, err);
     const wt_table *table =
-        status == WT_OK ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
+        status == WT_OK && !piped ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
     if (table != NULL)
-        status = take_errors(table, surface, err);
+        status = take_errors(table, surface, &taken, err);
+    if (status == WT_OK && !taken && (piped || table != NULL))
+        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                        "the errors of the spectrum are not read%s: no error holds the surface",
+                        piped ? " from a pipe; give a file" : "");
     wt_result_free(tables);
     return status;
 }
@@ -143,7 +153,7 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
     }
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
-    return status == WT_OK ? read_errors(file, surface, err) : status;
+    return status == WT_OK ? read_errors(file, work, surface, err) : status;
 }
 
 static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
