@@ -170,6 +170,7 @@ typedef struct text_file {
     wt_quantity_set quantities; /* of those tables */
     field_value *values;        /* [n_fields] of the description, as last seen */
     text_list unknown;          /* names of columns that no rule knows, each once */
+    bool moduli_again;          /* of a name that is read already, in one table */
     text_list steps;            /* titles of steps without a table */
     text_list samples;          /* names of samples, each once */
     pool memory;                /* of the lists and the values */

@@ -207,15 +207,25 @@ static size_t find_cell(const resolver *r, const char *name)
     return SIZE_MAX;
 }
 
-static bool is_taken(const text_table *table, const column_rule *rule)
+/* The column that is read by such a rule; NULL. */
+static const text_column *taken_by(const text_table *table, const column_rule *rule)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         const column_rule *other = table->columns[i].rule;
         if (other->quantity == rule->quantity && other->has_segment == rule->has_segment &&
             (!rule->has_segment || other->segment == rule->segment))
-            return true;
+            return &table->columns[i];
     }
-    return false;
+    return NULL;
+}
+
+/* A table with columns for each temperature: its moduli have the same names again. */
+static bool is_modulus_again(const names_row *names, const text_column *first, size_t cell)
+{
+    const text_span one = names->names.cells[first->cell], other = names->names.cells[cell];
+    const wt_quantity_set moduli = MODULI_OF_TENSION | MODULI_OF_SHEAR;
+    return (moduli & WT_Q_BIT(first->rule->quantity)) != 0 && one.length == other.length &&
+           memcmp(one.text, other.text, one.length) == 0;
 }
 
 typedef enum open_answer { OPEN_NOT, OPEN_YES, OPEN_NO } open_answer;
@@ -359,9 +369,11 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
             continue;
         }
         text_column column = resolve_column(&r, i, &known);
+        const text_column *taken = NULL;
         if (column.problem != COLUMN_GOOD) {
             table->problems[table->n_problems++] = column;
-        } else if (is_taken(table, column.rule)) {
+        } else if ((taken = taken_by(table, column.rule)) != NULL) {
+            file->moduli_again = file->moduli_again || is_modulus_again(names, taken, i);
             status = add_unknown(file, cell, err);
         } else {
             table->quantities |= WT_Q_BIT(column.rule->quantity);

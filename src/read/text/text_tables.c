@@ -197,6 +197,10 @@ void text_log_unknown(const text_file *file, wt_parselog *log)
     text_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+    if (file->moduli_again)
+        wt_parselog_add(log, WT_WARNING, file->name, NULL,
+                        "a modulus has several columns of one name: only the first is read; of a "
+                        "table with columns for each temperature make one for each of them");
 }
 
 void text_log_columns(const text_file *file, wt_parselog *log)
