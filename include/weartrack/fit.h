@@ -700,8 +700,9 @@ typedef struct wt_self_affine {
     double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
     size_t n;      /* bins */
 } wt_self_affine;
-/* Weighted least squares in ln C over the reliable bins. */
-WT_API wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum);
+/* Weighted least squares in ln C over the reliable bins. WT_E_MEMORY. */
+WT_API wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
+                                    wt_error *err) WT_NODISCARD;
 
 /* The wavenumber at which the rms slope of the roughness from its q0 on reaches `slope`; NaN if it
  * does not. */

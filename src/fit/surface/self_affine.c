@@ -116,12 +116,13 @@ static void fill_law(const law_fit *f, double r, const wt_surface_spectrum *s, d
     to->hurst = (wt_interval){h, reach / NORMAL_95, h - reach, h + reach};
 }
 
-wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
+wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
+                             wt_error *err)
 {
-    wt_self_affine law = {.found = false};
+    *law = (wt_self_affine){.found = false};
     law_fit f = {.x = malloc(3 * (spectrum->n + 1) * sizeof *f.x)};
     if (f.x == NULL)
-        return law;
+        return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
     for (size_t k = 0; k < spectrum->n; k++) {
@@ -138,17 +139,17 @@ wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
         const double freedom = (double)(f.n - CONSTANTS), misfit = fmax(1, best / freedom);
         /* 95 % of chi-squared with one degree of freedom: a roll-off that the scatter could make is
          * none. */
-        law.rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
-        const double at = law.rolls_off ? r : f.x[0];
-        law.n = f.n;
-        law.misfit = chi_squared(&f, at) / (law.rolls_off ? freedom : freedom + 1);
-        law.found = f.power < 0 &&
-                    find_covariance(&f, at, law.rolls_off, fmax(1, law.misfit), law.covariance);
-        if (law.found)
-            fill_law(&f, at, spectrum, law.rolls_off ? freedom : freedom + 1, &law);
+        law->rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
+        const double at = law->rolls_off ? r : f.x[0];
+        law->n = f.n;
+        law->misfit = chi_squared(&f, at) / (law->rolls_off ? freedom : freedom + 1);
+        law->found = f.power < 0 &&
+                     find_covariance(&f, at, law->rolls_off, fmax(1, law->misfit), law->covariance);
+        if (law->found)
+            fill_law(&f, at, spectrum, law->rolls_off ? freedom : freedom + 1, law);
     }
     free(f.x);
-    return law;
+    return WT_OK;
 }
 
 /* ---- where the slope ends -------------------------------------------------------------------- */

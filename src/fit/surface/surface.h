@@ -34,12 +34,6 @@ typedef struct surface_bins {
 wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
                             const surface_bins *bins, wt_surface_spectrum *to,
                             wt_error *err) WT_NODISCARD;
-/* By how much the modes of a window are correlated: mean(w^4) / mean(w^2)^2 over one direction,
- * from many points. */
-double surface_correlation(wt_surface_window window);
-/* Values of C1 of one row at the modes 1 .. n/2, of all rows in the mean; for the tests. */
-wt_status surface_lines(const wt_height_map *map, wt_surface_window window, double *density,
-                        wt_error *err) WT_NODISCARD;
 
 /* ---- the scatter of a mean of exponential variables: surface_scatter.c -------------------------
  */

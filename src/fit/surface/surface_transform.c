@@ -26,7 +26,9 @@ static double window_at(wt_surface_window window, size_t i, size_t n)
     return 1;
 }
 
-double surface_correlation(wt_surface_window window)
+/* By how much its modes are correlated: mean(w^4) / mean(w^2)^2 over one direction, from many
+ * points. */
+static double window_correlation(wt_surface_window window)
 {
     switch (window) {
     case WT_WINDOW_HANN:
@@ -308,7 +310,7 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
 {
     transform t = {.row = NULL};
     binning b = {.n = 0};
-    const double one = surface_correlation(window), correlation = lines ? one : one * one;
+    const double one = window_correlation(window), correlation = lines ? one : one * one;
     wt_status status = make_bins(bins, &b, err);
     if (status == WT_OK)
         status = make_transform(map, window, lines, &t, err);
@@ -329,20 +331,5 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
     }
     free(t.row);
     free(b.sums);
-    return status;
-}
-
-wt_status surface_lines(const wt_height_map *map, wt_surface_window window, double *density,
-                        wt_error *err)
-{
-    transform t = {.row = NULL};
-    const wt_status status = make_transform(map, window, true, &t, err);
-    for (size_t i = 1; status == WT_OK && i <= t.nx / 2; i++) {
-        double sum = 0;
-        for (size_t j = 0; j < t.ny; j++)
-            sum += density_at(&t, i, j);
-        density[i - 1] = sum / (double)t.ny;
-    }
-    free(t.row);
     return status;
 }

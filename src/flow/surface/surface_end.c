@@ -23,9 +23,11 @@ void surface_knots_clear(surface_knots *knots)
     *knots = (surface_knots){.n = 0};
 }
 
-static double law_density(const wt_self_affine *law, double q)
+double surface_law_density(const wt_self_affine *law, double q)
 {
     const double x = fmax(1, q / law->roll_off.value);
+    if (!law->found)
+        return (double)NAN;
     return law->c0.value * pow(x, -2 * (1 + law->hurst.value));
 }
 
@@ -59,7 +61,7 @@ static wt_status make_knots(const surface_whole *w, double end, surface_knots *t
     for (size_t i = 1; i <= n_law; i++) {
         const double q = i == n_law ? end : last * pow(10, decades * (double)i / (double)n_law);
         to->wavenumber[to->n] = q;
-        to->density[to->n++] = law_density(&w->law, q);
+        to->density[to->n++] = surface_law_density(&w->law, q);
     }
     return WT_OK;
 }

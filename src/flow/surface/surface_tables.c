@@ -39,14 +39,6 @@ static double place_error_of(const wt_surface_spectrum *s)
 
 /* ---- the spectrum ---------------------------------------------------------------------------- */
 
-static double law_at(const wt_self_affine *law, double q)
-{
-    const double x = q / law->roll_off.value;
-    if (!law->found)
-        return (double)NAN;
-    return law->c0.value * (x > 1 ? pow(x, -2 * (1 + law->hurst.value)) : 1);
-}
-
 static void add_rows(table_writer *t, const surface_whole *w)
 {
     const double nan = (double)NAN;
@@ -58,7 +50,7 @@ static void add_rows(table_writer *t, const surface_whole *w)
         const wt_interval none = {c, nan, nan, nan};
         TABLE_ADD(power_spectrum, t, q, bin ? wt_surface_density(&w->spectrum, i) : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  law_at(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  surface_law_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"

@@ -188,8 +188,9 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
         status = measure_scans(job, work, &files, scans, &n, err);
     if (status == WT_OK)
         status = join_scans(scans, n, work, &whole.spectrum, err);
+    if (status == WT_OK)
+        status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
-        whole.law = wt_self_affine_fit(&whole.spectrum);
         whole.directions = wt_surface_directions(&whole.spectrum);
         say_whole(&whole, n, work);
         status = surface_end_find(job, work, &whole, err);
