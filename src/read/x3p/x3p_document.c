@@ -166,10 +166,11 @@ static wt_status read_root(const xmlNode *root, x3p_document *to, wt_error *err)
     return status;
 }
 
-static void keep_quiet(void *user, xmlErrorPtr error)
+/* Says nothing, and takes down whether memory ran out. */
+static void note_shortage(void *user, xmlErrorPtr error)
 {
-    (void)user;
-    (void)error;
+    bool *const starved = user;
+    *starved = *starved || (error != NULL && error->code == XML_ERR_NO_MEMORY);
 }
 
 wt_status x3p_document_parse(const void *xml, size_t length, x3p_document *document, wt_error *err)
@@ -178,12 +179,15 @@ wt_status x3p_document_parse(const void *xml, size_t length, x3p_document *docum
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
     wt_status status = WT_OK;
+    bool starved = false;
     *document = (x3p_document){.list = NULL};
-    xmlSetStructuredErrorFunc(NULL, keep_quiet);
+    xmlSetStructuredErrorFunc(&starved, note_shortage);
     const xmlDocPtr tree = xmlReadMemory(xml, (int)length, NULL, NULL,
                                          XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
                                              XML_PARSE_NOCDATA);
-    if (tree == NULL) {
+    if (starved) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for main.xml");
+    } else if (tree == NULL) {
         status = wt_fail(err, WT_E_CORRUPT, "main.xml is not well-formed");
     } else if (tree->intSubset != NULL) {
         status = wt_fail(err, WT_E_UNSUPPORTED, "main.xml has a document type or entities");
