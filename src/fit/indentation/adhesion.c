@@ -387,10 +387,10 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
     for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
-        law[i].found =
+        const bool found =
             i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] = (outcome){f->solution, f->kind, law[i].found,
-                           jump > 0 || pull_is_likely(f, &before.solution)};
+        law[i] =
+            (outcome){f->solution, f->kind, found, jump > 0 || pull_is_likely(f, &before.solution)};
         if (better_law(&law[i], best, lossy))
             best = &law[i];
         if (i == CONSTANT_PULL && pull_alone &&

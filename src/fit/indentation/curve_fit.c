@@ -387,7 +387,6 @@ static void fit_below_saturation(const curve_fitting *of, const curve_branch *re
     if (wt_curve_usable(below.verdict)) {
         *f = rest;
         *fit = below;
-        curve_judge_below(limit, fit);
     } else if (limit > 0.0) {
         curve_judge_nothing_below(limit, below.verdict, fit->reason);
     }

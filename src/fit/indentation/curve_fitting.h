@@ -34,7 +34,7 @@ typedef struct curve_fitting {
     bool range_settled;
     bool range_empty;      /* too few samples in it: the fit is that of all */
     bool another_rubber;   /* than that of the spectrum */
-    bool below_saturation; /* all that is fitted */
+    bool below_saturation; /* all that is fitted: up to the limit of the options */
     bool unknown_loss;     /* it loses work, and the law of the fit does not describe it */
     /* Errors of the modulus, over it: by another law of adhesion, by a second contact point. */
     double other_law, other_contact;
@@ -111,9 +111,7 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160]);
 wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit);
 /* Force up to which a saturated curve may be fitted [N]. */
 double curve_linear_to(const curve_fitting *f);
-/* A usable fit of the forces below that is doubtful, and says so; to the reason of a refusal goes
- * what the verdict on them is. */
+/* To the reason of a refusal: what the verdict on the forces below is. */
 void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160]);
-void curve_judge_below(double limit, wt_indent_fit *fit);
 
 #endif

@@ -398,12 +398,32 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         append_note(reason, "; the range of the fit did not settle");
 }
 
+/* Before what else is said of a usable fit: that it is of the forces below a limit alone. */
+static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict verdict,
+                                    char reason[160])
+{
+    static const char doubtful[] = "doubtful: ";
+    char all[160], text[160];
+    memcpy(all, reason, sizeof all);
+    curve_say(reason,
+              "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
+              "gives way",
+              curve_si(f->options->fit_force, "N").words);
+    if (verdict == WT_CURVE_DOUBTFUL) {
+        curve_say(text, "; %s", all + strlen(doubtful));
+        append_note(reason, text);
+    }
+    return WT_CURVE_DOUBTFUL;
+}
+
 wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
 {
     wt_curve_verdict verdict = contact_verdict(f, fit, fit->reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
     verdict = law_verdict(f, fit, fit->reason);
+    if (wt_curve_usable(verdict) && f->below_saturation)
+        verdict = judge_below(f, verdict, fit->reason);
     if (wt_curve_usable(verdict))
         add_notes(f, fit, fit->reason);
     return verdict;
@@ -420,26 +440,4 @@ void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason
     char text[160];
     curve_say(text, "; up to %s: %s", curve_si(limit, "N").words, wt_curve_verdict_text(below));
     append_note(reason, text);
-}
-
-void curve_judge_below(double limit, wt_indent_fit *fit)
-{
-    const char *const word = fit->verdict == WT_CURVE_DOUBTFUL ? "doubtful: " : "accepted; ";
-    char all[160], *part = all;
-    memcpy(all, fit->reason, sizeof all);
-    fit->verdict = WT_CURVE_DOUBTFUL;
-    curve_say(fit->reason,
-              "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
-              "gives way",
-              curve_si(limit, "N").words);
-    if (strncmp(all, word, strlen(word)) != 0)
-        return;
-    for (part += strlen(word); part != NULL && *part != '\0';) { /* what else there is, in order */
-        char text[160], *end = strstr(part, "; ");
-        if (end != NULL)
-            *end = '\0';
-        curve_say(text, "; %s", part);
-        append_note(fit->reason, text);
-        part = end != NULL ? end + 2 : NULL;
-    }
 }
