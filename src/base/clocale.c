@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 #include <stdio.h>
+#include <string.h>
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static locale_t c_locale = (locale_t)0;
@@ -30,6 +31,15 @@ int clocale_vprint(char *buffer, size_t size, const char *format, va_list argume
     const int needed = vsnprintf(buffer, size, format, arguments);
     clocale_leave(previous);
     return needed;
+}
+
+void clocale_append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    (void)clocale_vprint(text + used, size - used, format, arguments);
+    va_end(arguments);
 }
 
 int clocale_print(char *buffer, size_t size, const char *format, ...)

@@ -16,5 +16,7 @@ void clocale_leave(locale_t previous);
 int clocale_print(char *buffer, size_t size, const char *format, ...) WT_PRINTF(3, 4);
 int clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
     WT_PRINTF(3, 0);
+/* Behind what stands in the text; what does not fit is cut. */
+void clocale_append(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
 
 #endif

@@ -135,12 +135,11 @@ const char *wt_door_gaps(void)
     static const char *const words[] = {
         NULL,
         "this system refuses the filter of system calls (seccomp) behind which HDF5 files are "
-        "read: "
-        "a file made to do harm could do what you may; take files that you trust only",
+        "read: a file made to do harm could do what you may; take files that you trust only",
         "without /proc the memory that reading HDF5 files takes has no limit",
         "this system refuses the filter of system calls (seccomp) behind which HDF5 files are "
-        "read, "
-        "and has no /proc, by which their memory is limited: a file made to do harm could do what "
+        "read, and has no /proc, by which their memory is limited: a file made to do harm could do "
+        "what "
         "you may; take files that you trust only"};
     return words[atomic_load(&gaps)];
 }

@@ -111,16 +111,6 @@ static void put_rows(table_writer *t, const char *group, const budget *b)
 
 /* ---- in words -------------------------------------------------------------------------------- */
 
-static void append_words(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
-static void append_words(char *text, size_t size, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    clocale_vprint(text + used, size - used, format, list);
-    va_end(list);
-}
-
 static void say_parts(const budget *b, char *text, size_t size)
 {
     bool said[PARTS] = {false};
@@ -134,8 +124,8 @@ static void say_parts(const budget *b, char *text, size_t size)
         if (largest < 0)
             break;
         said[largest] = true;
-        append_words(text, size, "%s%.2g %% by the %s", before,
-                     100 * share_of(b, b->part[largest].error), b->part[largest].words);
+        clocale_append(text, size, "%s%.2g %% by the %s", before,
+                       100 * share_of(b, b->part[largest].error), b->part[largest].words);
         before = ", ";
     }
 }
@@ -149,29 +139,29 @@ static void describe_budget(const char *group, const budget *b, char *text, size
     wt_format_si(b->group.geometric_mean * exp(reach), "Pa", 4, high, sizeof high);
     text[0] = '\0';
     if (isnan(b->all.error)) {
-        append_words(text, size, "modulus of the %s %s; its standard error is not known, for %s",
-                     group, value,
-                     b->group.n_spots <= 1 ? "one spot tells nothing of how the sample scatters"
-                     : isnan(b->part[LOSS].error)
-                         ? "nothing says what the loss of its curves does"
-                         : "no curve could be fitted anew with what is stated");
+        clocale_append(text, size, "modulus of the %s %s; its standard error is not known, for %s",
+                       group, value,
+                       b->group.n_spots <= 1 ? "one spot tells nothing of how the sample scatters"
+                       : isnan(b->part[LOSS].error)
+                           ? "nothing says what the loss of its curves does"
+                           : "no curve could be fitted anew with what is stated");
         const char *before = "; what its curves share makes ";
         for (int i = 0; i < SCATTER; i++)
             if (b->part[i].applies && b->part[i].error > 0) {
-                append_words(text, size, "%s%.2g %% (%s)", before, 100 * b->part[i].error,
-                             b->part[i].words);
+                clocale_append(text, size, "%s%.2g %% (%s)", before, 100 * b->part[i].error,
+                               b->part[i].words);
                 before = ", ";
             }
     } else {
-        append_words(text, size,
-                     "modulus of the %s %s, 95 %% interval %s to %s, standard error %.2g %%", group,
-                     value, low, high, 100 * b->all.error);
+        clocale_append(text, size,
+                       "modulus of the %s %s, 95 %% interval %s to %s, standard error %.2g %%",
+                       group, value, low, high, 100 * b->all.error);
         say_parts(b, text, size);
     }
     const char *before = "; no error is stated of: ";
     for (int i = 0; i < WT_COMMON_SOURCES; i++)
         if (b->part[i].applies && !(b->part[i].source_error > 0)) {
-            append_words(text, size, "%s%s", before, b->part[i].words);
+            clocale_append(text, size, "%s%s", before, b->part[i].words);
             before = ", ";
         }
 }

@@ -43,16 +43,6 @@ static double thickness_needed(const wt_tip *tip, double depth)
     return exp(found);
 }
 
-static void append(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
-static void append(char *text, size_t size, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    clocale_vprint(text + used, size - used, format, list);
-    va_end(list);
-}
-
 /* A degree more of the half-angle gives a smaller modulus. */
 static void say_half_angle(const wt_tip *tip, double depth, char *text, size_t size)
 {
@@ -61,10 +51,11 @@ static void say_half_angle(const wt_tip *tip, double depth, char *text, size_t s
     if (!(tip->half_angle > 0) || tip->half_angle_error > 0 || wider.half_angle >= M_PI_2)
         return;
     const double g = contact_values(tip, depth).g, of_wider = contact_values(&wider, depth).g;
-    append(text, size,
-           "half-angle of the tip (a degree wider: a modulus about %.2g %% smaller; state its "
-           "error), ",
-           100 * (1 - g / of_wider));
+    clocale_append(
+        text, size,
+        "half-angle of the tip (a degree wider: a modulus about %.2g %% smaller; state its "
+        "error), ",
+        100 * (1 - g / of_wider));
 }
 
 void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t size)
@@ -78,11 +69,12 @@ void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t
     if (thin > 0) {
         char words[32];
         wt_format_si(thin, "m", 2, words, sizeof words);
-        append(text, size,
-               "a sample on something hard (thinner than %s: a modulus more than %g %% too large; "
-               "--sample-thickness), ",
-               words, 100 * base_share);
+        clocale_append(
+            text, size,
+            "a sample on something hard (thinner than %s: a modulus more than %g %% too large; "
+            "--sample-thickness), ",
+            words, 100 * base_share);
     }
-    append(text, size,
-           "a piezo that bends in contact only (calibrate it, or press on something hard)");
+    clocale_append(text, size,
+                   "a piezo that bends in contact only (calibrate it, or press on something hard)");
 }
