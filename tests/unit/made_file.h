@@ -53,6 +53,26 @@ static inline wt_status open_force(reading *r, const char *name, const wt_read_o
     return wt_force_open(formats, r->input, options, r->log, &r->source, &r->err);
 }
 
+static inline wt_status read_images_of(const void *bytes, size_t length, const char *name,
+                                       wt_parselog *log, wt_image **images, size_t *n,
+                                       wt_error *err)
+{
+    wt_input *input = NULL;
+    *images = NULL;
+    *n = 0;
+    assert_int_equal(wt_input_open_memory(bytes, length, name, &input, NULL), WT_OK);
+    const wt_status status = wt_images_read(formats, input, NULL, log, images, n, err);
+    wt_input_close(input);
+    return status;
+}
+
+static inline void clear_images(wt_image *images, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+}
+
 static inline void close_all(reading *r)
 {
     wt_force_close(r->source);

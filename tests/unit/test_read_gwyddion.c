@@ -98,16 +98,6 @@ static void test_flood_that_goes_on(void **state)
                "more of the file than is read");
 }
 
-static wt_status read_surf(const char *bytes, size_t n, wt_parselog *log, wt_image **images,
-                           size_t *n_images, wt_error *err)
-{
-    wt_input *input = NULL;
-    assert_int_equal(wt_input_open_memory(bytes, n, "b.sur", &input, NULL), WT_OK);
-    const wt_status status = wt_images_read(formats, input, NULL, log, images, n_images, err);
-    wt_input_close(input);
-    return status;
-}
-
 static void test_rubbish(void **state)
 {
     (void)state;
@@ -115,7 +105,8 @@ static void test_rubbish(void **state)
     size_t n = 0;
     wt_error err = WT_ERROR_INIT;
     stand_in("echo GWYPrubbish > converted.gwy");
-    assert_int_equal(read_surf(surf, sizeof surf, NULL, &images, &n, &err), WT_E_CORRUPT);
+    assert_int_equal(read_images_of(surf, sizeof surf, "b.sur", NULL, &images, &n, &err),
+                     WT_E_CORRUPT);
     assert_non_null(strstr(err.message, "what Gwyddion made of the file"));
     assert_string_equal(err.file, "b.sur");
     assert_non_null(strstr(err.found, "Digital Surf"));
@@ -131,7 +122,8 @@ static void test_not_installed(void **state)
     char none[512];
     snprintf(none, sizeof none, "%s/none", (char *)*state);
     assert_int_equal(setenv("PATH", none, 1), 0);
-    assert_int_equal(read_surf(surf, sizeof surf, NULL, &images, &n, &err), WT_E_TOOL);
+    assert_int_equal(read_images_of(surf, sizeof surf, "b.sur", NULL, &images, &n, &err),
+                     WT_E_TOOL);
     assert_non_null(strstr(err.message, "which is missing"));
     assert_non_null(strstr(err.advice, "apt-get install gwyddion"));
     assert_non_null(strstr(err.found, "Digital Surf"));
@@ -204,7 +196,7 @@ static void check_read(const char *bytes, unsigned missing, const char *words)
     stand_in("[ \"$HOME\" = \"$(pwd -P)\" ] || exit 7\n[ -z \"$DISPLAY\" ] || exit 8\n"
              "read x && exit 9\n[ \"$2\" = surface.sur ] && [ -s \"$2\" ] || exit 10\n"
              "cp ../../good.gwy converted.gwy; mkdir -p .gwyddion/a/b; echo > .gwyddion/a/b/c");
-    if (read_surf(bytes, sizeof surf, log, &images, &n, &err) != WT_OK)
+    if (read_images_of(bytes, sizeof surf, "b.sur", log, &images, &n, &err) != WT_OK)
         fail_msg("%s", err.message);
     assert_int_equal(n, 1);
     assert_int_equal(images[0].n_columns, COLUMNS);

@@ -60,31 +60,13 @@ static int height(size_t column, size_t row)
     return (int)(10 * row + column) - 12;
 }
 
-static wt_status read_made(const made *m, wt_image **images, size_t *n, wt_error *err)
-{
-    wt_input *input = NULL;
-    *images = NULL;
-    *n = 0;
-    assert_int_equal(wt_input_open_memory(m->bytes, m->n, "made", &input, NULL), WT_OK);
-    const wt_status status = wt_images_read(formats, input, NULL, NULL, images, n, err);
-    wt_input_close(input);
-    return status;
-}
-
-static void clear(wt_image *images, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_image_clear(&images[i]);
-    free(images);
-}
-
 /* Image `which` of the file has the heights; those of a part of it are refused. */
 static void check(const made *m, size_t n, size_t which, const char *name, double pitch)
 {
     wt_image *images = NULL;
     size_t found = 0;
     wt_error err = WT_ERROR_INIT;
-    if (read_made(m, &images, &found, &err) != WT_OK)
+    if (read_images_of(m->bytes, m->n, "made", NULL, &images, &found, &err) != WT_OK)
         fail_msg("%s; %s; %s", err.message, err.expected, err.found);
     assert_int_equal(found, n);
     const wt_image *image = &images[which];
@@ -97,11 +79,12 @@ static void check(const made *m, size_t n, size_t which, const char *name, doubl
     for (size_t row = 0; row < ROWS; row++)
         for (size_t column = 0; column < COLUMNS; column++)
             assert_near(image->values[row * COLUMNS + column], 1e-9 * height(column, row), 1e-6);
-    clear(images, found);
+    clear_images(images, found);
     for (size_t cut = 1; cut < m->n; cut += 3) {
         made part = *m;
         part.n -= cut;
-        assert_int_not_equal(read_made(&part, &images, &found, NULL), WT_OK);
+        assert_int_not_equal(
+            read_images_of(part.bytes, part.n, "made", NULL, &images, &found, NULL), WT_OK);
         assert_null(images);
     }
 }
@@ -155,17 +138,17 @@ static void nanoscope_image(void **state)
         check(&m, 2, 1, "Height, Trace", 100e-9);
         wt_image *images = NULL;
         size_t n = 0;
-        assert_int_equal(read_made(&m, &images, &n, NULL), WT_OK);
+        assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
         assert_string_equal(images[0].unit, "V");
         assert_near(images[0].values[0], 100 * 6.5536 / (width == 2 ? 65536.0 : 4294967296.0),
                     1e-12);
-        clear(images, n);
+        clear_images(images, n);
         for (size_t i = 0; i < width; i++) /* the least count was not measured */
             m.bytes[DATA + i] = i + 1 < width ? 0 : 0x80;
-        assert_int_equal(read_made(&m, &images, &n, NULL), WT_OK);
+        assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
         assert_true(isnan(images[0].values[0]));
         assert_true(images[0].values[1] > 0);
-        clear(images, n);
+        clear_images(images, n);
     }
 }
 
@@ -287,7 +270,7 @@ static void measured(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         assert_near(images[0].values[(images[0].n_rows - 1 - 50) * images[0].n_columns + i], row[i],
                     1e-11);
-    clear(images, n);
+    clear_images(images, n);
     assert_int_equal(
         wt_input_open(WT_SHARED_DIR "/data/afm-more/ForceCurve_009.tiff", &input, NULL), WT_OK);
     assert_int_equal(wt_images_read(formats, input, NULL, NULL, &images, &n, NULL), WT_OK);
@@ -295,7 +278,7 @@ static void measured(void **state)
     assert_int_equal(images[0].n_columns, 256);
     assert_near(images[0].width, 3.25e-6 * 255 / 256, 1e-12);
     assert_string_equal(images[0].unit, "m");
-    clear(images, n);
+    clear_images(images, n);
 }
 
 /* ---- the list that readers fill -------------------------------------------------------------- */
@@ -339,7 +322,7 @@ static void test_list(void **state)
         assert_int_equal(images[i].n_columns, 2 + i);
         assert_near(images[i].values[5], (double)(10 * i + 5), 0);
     }
-    clear(images, n);
+    clear_images(images, n);
     images = NULL;
     assert_int_equal(images_end(&list, WT_OK, "file", NULL, &images, &n, &err), WT_E_EMPTY);
     assert_string_equal(err.message, "the file holds no image");
@@ -401,7 +384,7 @@ static void test_missing(void **state)
             assert_string_equal(wt_parselog_get(log, said - 1).place, "Z");
         }
         assert_int_equal(isnan(images[0].width) || isnan(images[0].height), unknown);
-        clear(images, n);
+        clear_images(images, n);
         wt_parselog_free(log);
     }
 }

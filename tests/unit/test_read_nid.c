@@ -473,13 +473,6 @@ static wt_image *read_shared(const char *name, size_t *n)
     return images;
 }
 
-static void clear_images(wt_image *images, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_image_clear(&images[i]);
-    free(images);
-}
-
 /* The header of this file calls the peak 772 fm/sqrt(Hz) at 179.8 kHz, in bins of 38.147 Hz. */
 static void measured_thermal_spectrum(void **state)
 {

@@ -48,25 +48,6 @@ static double height(size_t column, size_t row)
     return 1e-9 * ((double)(10 * row + column) - 12);
 }
 
-static wt_status read_bytes_of(const made *m, wt_parselog *log, wt_image **images, size_t *n,
-                               wt_error *err)
-{
-    wt_input *input = NULL;
-    *images = NULL;
-    *n = 0;
-    assert_int_equal(wt_input_open_memory(m->bytes, m->n, "made", &input, NULL), WT_OK);
-    const wt_status status = wt_images_read(formats, input, NULL, log, images, n, err);
-    wt_input_close(input);
-    return status;
-}
-
-static void clear(wt_image *images, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_image_clear(&images[i]);
-    free(images);
-}
-
 static void check_heights(const wt_image *image, double pitch)
 {
     assert_string_equal(image->unit, "m");
@@ -85,7 +66,7 @@ static void refused_as(const made *m, wt_status expected, const char *words)
     size_t n = 0;
     wt_error err = WT_ERROR_INIT;
     char all[1000];
-    const wt_status status = read_bytes_of(m, NULL, &images, &n, &err);
+    const wt_status status = read_images_of(m->bytes, m->n, "made", NULL, &images, &n, &err);
     snprintf(all, sizeof all, "%s; %s; %s", err.message, err.expected, err.found);
     if (status != expected || strstr(all, words) == NULL)
         fail_msg("%d: %s", (int)status, all);
@@ -154,7 +135,7 @@ static void test_gwyddion(void **state)
     wt_image *images = NULL;
     size_t n = 0;
     wt_parselog *log = wt_parselog_new();
-    assert_int_equal(read_bytes_of(&m, log, &images, &n, NULL), WT_OK);
+    assert_int_equal(read_images_of(m.bytes, m.n, "made", log, &images, &n, NULL), WT_OK);
     assert_int_equal(n, 2);
     assert_string_equal(images[0].name, "Z sensor");
     assert_string_equal(images[1].name, "/1/data");
@@ -163,11 +144,12 @@ static void test_gwyddion(void **state)
     assert_int_equal(wt_parselog_count(log), 1);
     assert_non_null(strstr(wt_parselog_get(log, 0).text, "mask"));
     wt_parselog_free(log);
-    clear(images, n);
+    clear_images(images, n);
     for (size_t cut = 1; cut < m.n - 4; cut += 7) {
         made part = m;
         part.n -= cut;
-        assert_int_not_equal(read_bytes_of(&part, NULL, &images, &n, NULL), WT_OK);
+        assert_int_not_equal(read_images_of(part.bytes, part.n, "made", NULL, &images, &n, NULL),
+                             WT_OK);
         assert_null(images);
     }
 }
@@ -269,11 +251,11 @@ static void test_x3p_types(void **state)
         wt_image *images = NULL;
         size_t n = 0;
         wt_error err = WT_ERROR_INIT;
-        if (read_bytes_of(&m, NULL, &images, &n, &err) != WT_OK)
+        if (read_images_of(m.bytes, m.n, "made", NULL, &images, &n, &err) != WT_OK)
             fail_msg("%s %s", err.message, err.found);
         assert_int_equal(n, 1);
         check_heights(&images[0], 2e-6);
-        clear(images, n);
+        clear_images(images, n);
     }
 }
 
@@ -287,10 +269,10 @@ static void test_x3p_missing(void **state)
     const made m = x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .valid = &valid});
     wt_image *images = NULL;
     size_t n = 0;
-    assert_int_equal(read_bytes_of(&m, NULL, &images, &n, NULL), WT_OK);
+    assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
     for (size_t i = 0; i < (size_t)COLUMNS * ROWS; i++)
         assert_int_equal(isnan(images[0].values[i]) != 0, i == 3 || i == 7 || i == 12);
-    clear(images, n);
+    clear_images(images, n);
 
     const made list = x3p_of(&(made_x3p){
         .type = "D",
@@ -299,11 +281,11 @@ static void test_x3p_missing(void **state)
             "<MatrixDimension><SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>",
         .record3 = "<DataList><Datum>1e-6</Datum><Datum/><Datum> -3.5E-0006 </Datum>"
                    "<Datum>0</Datum></DataList>"});
-    assert_int_equal(read_bytes_of(&list, NULL, &images, &n, NULL), WT_OK);
+    assert_int_equal(read_images_of(list.bytes, list.n, "made", NULL, &images, &n, NULL), WT_OK);
     assert_near(images[0].values[0], 1e-6, 1e-12);
     assert_true(isnan(images[0].values[1]));
     assert_near(images[0].values[2], -3.5e-6, 1e-12);
-    clear(images, n);
+    clear_images(images, n);
 }
 
 static void test_x3p_profile(void **state)
@@ -318,11 +300,11 @@ static void test_x3p_profile(void **state)
         .record3 = "<DataList><Datum>1</Datum><Datum>2</Datum><Datum>3</Datum></DataList>"});
     wt_image *images = NULL;
     size_t n = 0;
-    assert_int_equal(read_bytes_of(&m, NULL, &images, &n, NULL), WT_OK);
+    assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
     assert_int_equal(images[0].n_rows, 1);
     assert_near(images[0].width, 4e-6, 1e-12);
     assert_string_equal(images[0].x_unit, "m");
-    clear(images, n);
+    clear_images(images, n);
 }
 
 static void test_x3p_refused(void **state)
@@ -449,7 +431,7 @@ static void test_measured(void **state)
             compare_measured(&images[0], cells, files[i].flipped, files[i].mirrored,
                              files[i].steps);
             wt_input_close(input);
-            clear(images, n);
+            clear_images(images, n);
             n_compared++;
         }
     }
@@ -480,7 +462,7 @@ static void transform_measured(const char *name, bool flipped, double dx, double
     const surface_bins bins = {pow(10, 0.05), 1e-9, fmin(M_PI / dx, M_PI / dy)};
     assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, to, NULL), WT_OK);
     wt_input_close(input);
-    clear(images, n);
+    clear_images(images, n);
     free(z);
 }
 
