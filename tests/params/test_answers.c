@@ -36,6 +36,8 @@ static const struct {
     {"alpha", "0.4"},
     {"layer-thickness", "1um"}, /* these two go together */
     {"modulus-ratio", "1"},
+    {"mass-loss", "3mg"}, /* and so do these */
+    {"density", "1150kg/m^3"},
 };
 
 static const char *good_text(const char *name, const char *tried)

@@ -22,7 +22,7 @@ typedef struct seen {
     uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
 } seen;
 
-enum { MOST = 64 };
+enum { MOST = 96 };
 static seen found[MOST];
 static wt_formats *formats;
 

@@ -15,6 +15,7 @@ static const double shortest = 0.5, longest = 0.25; /* steps; of the series */
 
 scatter_law scatter_law_of(size_t i, size_t n)
 {
+    /* closer at the ends, where a little white or slow scatter changes much */
     static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
     const double most = fmax(longest * (double)n, 2 * shortest),
                  part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);

@@ -28,7 +28,7 @@ size_t wt_change_of_mean(const double *y, size_t n)
 
 size_t wt_mser_5(const double *y, size_t n)
 {
-    enum { BATCH = 5 };
+    enum { BATCH = 5 }; /* of the rule, after which it is called */
     const size_t batches = n / BATCH;
     double sum = 0, squares = 0, least = (double)INFINITY;
     size_t best = 0;
