@@ -463,7 +463,7 @@ static void try_param(const wt_param *p)
     try_value(p, "nan", true, (double)NAN, whole ? -1 : p->unset == NULL || p->kind == PARAM_LIST);
     try_value(p, "inf", true, (double)INFINITY, whole ? -1 : 1);
     try_value(p, "", true, 0, -1);
-    try_value(p, "1kg", true, 0, -1);
+    try_value(p, "1cd", true, 0, -1); /* of no quantity */
     if (p->kind == PARAM_NUMBER || whole)
         try_value(p, "0.3 +- 0.1", true, 0, -1); /* an error that nothing would use, or no unit */
 }
