@@ -131,7 +131,7 @@ static void say_step(const wt_job *work, const wt_cycles *cycles, const record_r
     add_note(note, size, r->steady.note);
     if (periodic && cycles->samples < fewest_samples)
         add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (strcmp(r->end_note, "it does not become steady before the last tenth") == 0) {
+    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end, and yet not all of it */
         add_note(note, size, "not steady: the last tenth is told");
         wt_parselog_add(work->log, WT_WARNING, r->file, NULL,
                         "friction does not become steady before the last tenth of step %zu, whose "
