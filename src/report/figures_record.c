@@ -36,6 +36,16 @@ static void caption_record(figure_drawing *d)
         text_format(&d->caption, " Without an end of the running-in: %zu.", without);
 }
 
+/* In degrees Celsius, which a description of a curve cannot say: value, its error, the interval. */
+static void draw_temperature(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    plot_item(d, d->data[0], "($1+x_offset):2:4:5 with yerrorbars ls 1 notitle");
+    plot_end(d);
+}
+
 #define AGAINST(which, column, scale, label, words_)                                               \
     {                                                                                              \
         .name = "record_" which, .title = "Friction as measured, against " which,                  \
@@ -66,8 +76,16 @@ const figure_description figures_record[] = {
     AGAINST("load", RECORD_NORMAL_FORCE, AXIS_LINEAR, "Normal force",
             "Friction coefficient of the steady part of every step against the load of the step, "
             "with its interval of 95 %."),
-    AGAINST("temperature", RECORD_TEMPERATURE, AXIS_LINEAR, "Temperature",
-            "Friction coefficient of the steady part of every step against the temperature of the "
-            "step, with its interval of 95 %."),
+    {.name = "record_temperature",
+     .title = "Friction as measured, against temperature",
+     .table = &record_schema,
+     .data_title = "steady part",
+     .x = {RECORD_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(RECORD_FRICTION, OWN, .with_errors = true)},
+     .words =
+         "Friction coefficient of the steady part of every step against the temperature of the "
+         "step, with its interval of 95 %.",
+     .draw = draw_temperature},
     {.name = NULL},
 };
