@@ -317,6 +317,28 @@ static inline void fixture_payne(void)
     wt_formats_free(formats);
 }
 
+/* A disc at four velocities and temperatures, with what was worn. */
+static inline void fixture_record(void)
+{
+    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/record/steps.csv"};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_record_job job = wt_record_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_record_tables tables = {0};
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.track_radius.value = 12e-3;
+    job.track_area = (wt_estimate){3e-11, 6e-12, 0, "m^2"};
+    fixture_check(wt_record_make(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.record, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.record_cycles, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.wear, NULL));
+    wt_formats_free(formats);
+}
+
 /* What a case does not give unless it is asked for by name, and what needs no case. */
 static inline void fixture_accuracy(wt_case *read)
 {
@@ -370,6 +392,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_ramp();
         fixture_materials();
         fixture_payne();
+        fixture_record();
         fixture_common_law();
         fixture_softening();
         fixture_spot();

@@ -203,7 +203,16 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "Pa",                             \
       "shear relaxation modulus G(t)")                                                             \
     X(WT_Q_CREEP_COMPLIANCE, "creep_compliance", "1/Pa", "tensile creep compliance D(t)")          \
-    X(WT_Q_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "1/Pa", "shear creep compliance J(t)")
+    X(WT_Q_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "1/Pa",                               \
+      "shear creep compliance J(t)")                                                               \
+    X(WT_Q_FRICTION_COEFFICIENT, "friction_coefficient", "1", "friction coefficient mu")           \
+    X(WT_Q_FRICTION_FORCE, "friction_force", "N", "friction force, with its sign")                 \
+    X(WT_Q_NORMAL_FORCE, "normal_force", "N", "load of a contact")                                 \
+    X(WT_Q_SLIDING_DISTANCE, "sliding_distance", "m", "distance slid since the start")             \
+    X(WT_Q_LAPS, "laps", "1", "revolutions or double strokes since the start")                     \
+    X(WT_Q_WEAR_DEPTH, "wear_depth", "m", "depth that a contact has sunk in")                      \
+    X(WT_Q_AREA, "area", "m^2", "area")                                                            \
+    X(WT_Q_MASS, "mass", "kg", "mass")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

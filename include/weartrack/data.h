@@ -218,6 +218,34 @@ typedef struct wt_noise_spectrum {
 } wt_noise_spectrum;
 WT_API void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum);
 
+/* ---- friction record ---------------------------------------------------------------------- */
+
+typedef enum wt_record_channel {
+    WT_RECORD_TIME,           /* [s]; runs on from step to step */
+    WT_RECORD_DISTANCE,       /* [m] slid since the start */
+    WT_RECORD_LAPS,           /* revolutions or double strokes since the start */
+    WT_RECORD_POSITION,       /* [m] along the stroke */
+    WT_RECORD_FRICTION_FORCE, /* [N], with the sign of the file */
+    WT_RECORD_NORMAL_FORCE,   /* [N], positive when pressing */
+    WT_RECORD_COEFFICIENT,    /* mu as the file says it */
+    WT_RECORD_VELOCITY,       /* [m/s] */
+    WT_RECORD_ROTATION,       /* [rad/s] of the disc */
+    WT_RECORD_PRESSURE,       /* [Pa] nominal */
+    WT_RECORD_TEMPERATURE,    /* [K] */
+    WT_RECORD_WEAR_DEPTH,     /* [m] */
+    WT_RECORD_CHANNELS
+} wt_record_channel;
+
+/* What a tribometer recorded, sample by sample. Nothing says that the samples have equal steps of
+ * time. */
+typedef struct wt_record {
+    size_t n;
+    double *channel[WT_RECORD_CHANNELS]; /* [n], NaN: no value; NULL: not recorded */
+    size_t *step;                        /* [n] number of the step of the instrument, from 0 */
+    double radius;                       /* of the track [m] as the file says, NaN */
+} wt_record;
+WT_API void wt_record_clear(wt_record *record);
+
 /* ---- Prony series ------------------------------------------------------------------------- */
 
 /* M(w) = equilibrium + sum_k modulus[k] i w tau[k] / (1 + i w tau[k]) at one temperature. */

@@ -557,6 +557,96 @@ WT_API double wt_student(double freedom);
 WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
                                    size_t *n_units);
 
+/* ---- friction records ------------------------------------------------------------------------ */
+
+/* What friction is averaged over before anything is said of its scatter: a wave of the lap or of
+ * the stroke is no scatter. */
+typedef enum wt_cycle_kind {
+    WT_CYCLE_AUTO,   /* strokes, laps or spans of time, the first that the record tells */
+    WT_CYCLE_STROKE, /* there and back */
+    WT_CYCLE_LAP,    /* whole revolutions */
+    WT_CYCLE_TIME,   /* equal spans of time */
+    WT_CYCLE_SAMPLE  /* none: every sample by itself */
+} wt_cycle_kind;
+
+/* Means over one cycle; what was not recorded is NaN. */
+typedef struct wt_cycle {
+    size_t first, n, step;
+    double time, distance, laps; /* at its middle */
+    double coefficient;
+    double zero;      /* of strokes: mean of there and back, with their signs, as a coefficient */
+    double deviation; /* of its samples */
+    double normal_force, velocity, pressure, temperature, wear_depth;
+} wt_cycle;
+
+typedef struct wt_cycles {
+    wt_cycle_kind kind;
+    size_t n;
+    wt_cycle *cycle;
+    double *friction; /* [samples of the record] coefficient with its sign */
+    double samples;   /* in a cycle, the median */
+    double
+        difference; /* largest of mu and friction force over load, where the file has both; NaN */
+    bool has_zero;  /* there and back have opposite signs */
+} wt_cycles;
+/* `radius` [m] of the track tells laps by the distance, and the velocity by the rotation; NaN: not
+ * known. `load` [N] where none was recorded; NaN. `kind` other than WT_CYCLE_AUTO that the record
+ * does not tell is WT_E_MISSING. */
+WT_API wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double radius,
+                                double load, wt_cycles *cycles, wt_error *err) WT_NODISCARD;
+WT_API void wt_cycles_clear(wt_cycles *cycles);
+
+/* Where a series becomes steady: a line with scatter of its own, then a constant with another. Both
+ * scatters are white beside an autoregression of first order, over whose length and share the
+ * likelihood is averaged, as over the place. */
+typedef struct wt_running_in {
+    bool seen;           /* odds above 20 to 1 over a series without one */
+    wt_interval end;     /* points before the steady part: median and interval of 95 %; NaN */
+    size_t steady_from;  /* first point of the steady part: behind the interval; 0: all is */
+    const char *why_not; /* "", or why there is no end; static */
+} wt_running_in;
+WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in,
+                                    wt_error *err) WT_NODISCARD;
+/* By the rules that others use, as first point of the steady part: one change of the mean by least
+ * squares, at least 2 % from either end; MSER-5 of White, Simulation 69 (1997) 323. */
+WT_API size_t wt_change_of_mean(const double *y, size_t n);
+WT_API size_t wt_mser_5(const double *y, size_t n);
+
+/* Mean and drift of a steady series whose scatter is correlated. Intervals are of 95 %, averaged
+ * over what the series does not tell of the correlation. */
+typedef struct wt_steady {
+    size_t n;
+    wt_interval mean;
+    wt_interval drift;          /* per point */
+    double deviation, min, max; /* of the points */
+    double correlation;         /* variance of the mean over that of as many independent points */
+    const char *note;           /* "", or what is lacking; static */
+} wt_steady;
+WT_API wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady,
+                                wt_error *err) WT_NODISCARD;
+
+/* Falls of the samples that stand out of their scatter and follow slower rises. */
+typedef struct wt_stick_slip {
+    size_t n;              /* slips; 0: none stand out */
+    double amplitude;      /* mean height of the falls; NaN */
+    double standard_error; /* by their scatter */
+} wt_stick_slip;
+WT_API wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips,
+                                    wt_error *err) WT_NODISCARD;
+
+/* A wear track in a profile across it: heights over a line through the outer quarters. */
+typedef struct wt_track {
+    bool found; /* two samples in a row lie deeper than 3 standard deviations of the outer quarters
+                 */
+    double slope, intercept, scatter; /* of the line, and about it */
+    double depth, at, from, to;       /* deepest point; where the track begins and ends */
+    wt_estimate area;                 /* below the line between them; error by the line's scatter */
+    double ridges;                    /* area above the line between them */
+} wt_track;
+/* Positions x rising, heights z, both [m]. WT_E_RANGE of fewer than 40 points. */
+WT_API wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *track,
+                               wt_error *err) WT_NODISCARD;
+
 /* ---- thermal noise of a lever ---------------------------------------------------------------- */
 
 /* Thermal tune: a simple harmonic oscillator (of a lever: Butt and Jaschke, Nanotechnology 6 (1995)

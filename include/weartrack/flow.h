@@ -294,6 +294,46 @@ WT_API const wt_params *wt_thermal_job_params(void);
 WT_API wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 
+/* How the end of the running-in is found. */
+typedef enum wt_running_in_rule {
+    WT_RUNNING_IN_LIKELIHOOD, /* wt_running_in_find */
+    WT_RUNNING_IN_STEP,       /* wt_change_of_mean */
+    WT_RUNNING_IN_MSER,       /* wt_mser_5 */
+    WT_RUNNING_IN_NONE        /* all is steady */
+} wt_running_in_rule;
+
+/* Records of friction: running-in, friction when it is over, wear. A step is where the instrument
+ * says so, or where velocity, load, pressure or temperature change to another value. */
+typedef struct wt_record_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_cycle_kind cycle;
+    wt_running_in_rule running_in;
+    wt_estimate load;         /* [N] where the record says none; NaN: none */
+    wt_estimate track_radius; /* [m] instead of that of the file; NaN: that */
+    /* Wear, NaN: not known; one of the first three, else the depth of the record under a ball. */
+    wt_estimate track_area;   /* cross-section that is missing [m^2] */
+    wt_estimate mass_loss;    /* [kg], with */
+    wt_estimate density;      /* [kg/m^3] */
+    wt_estimate track_length; /* [m]; NaN: circumference of the track */
+    wt_estimate ball_radius;  /* [m] */
+    /* Nominal pressure of the ball. */
+    wt_estimate modulus;  /* Young's, at the frequency of the contact [Pa] */
+    double poisson_ratio; /* of the rubber */
+} wt_record_job;
+WT_API wt_record_job wt_record_job_defaults(void);
+WT_API const wt_params *wt_record_job_params(void);
+/* A mass takes a density. */
+WT_API wt_status wt_record_job_check(const wt_record_job *job, wt_error *err) WT_NODISCARD;
+typedef struct wt_record_tables {
+    wt_table *record, *record_cycles;
+    wt_table *wear; /* NULL: nothing of it was given */
+} wt_record_tables;
+WT_API void wt_record_tables_clear(wt_record_tables *tables);
+/* WT_E_EMPTY if no file has a record. */
+WT_API wt_status wt_record_make(const wt_record_job *job, const wt_job *work,
+                                wt_record_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* What was measured on a curve as one number; 0 = too little for that. */
 typedef struct wt_curve_digest {
     uint64_t digest;

@@ -214,6 +214,19 @@ WT_API void wt_roughness_free(wt_roughness *roughness);
 WT_API double wt_roughness_rms_height(const wt_roughness *roughness); /* [m] */
 WT_API double wt_roughness_rms_slope(const wt_roughness *roughness);  /* 1 */
 
+/* ---- a ball on a rubber -----------------------------------------------------------------------
+ */
+
+/* Hertz: a^3 = 3 F R (1 - nu^2) / (4 E), of a rigid ball on a rubber that is thick against it. */
+typedef struct wt_ball_contact {
+    double contact_radius; /* a [m] */
+    double pressure;       /* F / (pi a^2) [Pa], the nominal one */
+} wt_ball_contact;
+WT_API wt_ball_contact wt_ball_contact_of(double load, double radius, double modulus,
+                                          double poisson_ratio);
+/* The load at which it has that nominal pressure. */
+WT_API double wt_ball_load(double pressure, double radius, double modulus, double poisson_ratio);
+
 #ifdef __cplusplus
 }
 #endif

@@ -50,6 +50,7 @@ WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char
 #define WT_KIND_IMAGE 4u    /* topography and other images */
 #define WT_KIND_SPECTRUM 8u /* power spectra of surfaces */
 #define WT_KIND_NOISE 16u   /* spectra of the thermal noise of a lever */
+#define WT_KIND_RECORD 32u  /* records of friction */
 
 typedef struct wt_format_info {
     const char *id;       /* "jpk", "trios-lims" */
@@ -166,6 +167,10 @@ WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *inp
 WT_API wt_status wt_noise_read(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_noise_spectrum *spectrum, wt_error *err) WT_NODISCARD;
+/* A record of friction. A load that is negative when it presses is turned round. */
+WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
+                                const wt_read_options *options, wt_parselog *log, wt_record *record,
+                                wt_error *err) WT_NODISCARD;
 /* What a file is, for `weartrack info`: rows of (item, value, unit, source), all text. */
 WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
                              const wt_read_options *options, wt_parselog *log, wt_table **facts,

@@ -37,6 +37,7 @@ int cmd_spot(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_ramp(int argc, char **argv);
+int cmd_record(int argc, char **argv);
 int cmd_payne(int argc, char **argv);
 int cmd_psd(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
@@ -138,7 +139,7 @@ bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size
                    wt_file_set *set, int argc, char **argv);
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */
-wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user);
+wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user);
 /* Says what failed, the remarks and, unless `made` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status made);
 /* The same after writing the tables, in this order, and the record behind them, if they were made;

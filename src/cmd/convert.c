@@ -56,7 +56,7 @@ int cmd_convert(int argc, char **argv)
             made = wt_convert_file(&job, s.files[0], &s.work, take_table, store ? take_curve : NULL,
                                    &d, &s.err);
         if (made == WT_OK)
-            made = cmd_record(&s, take_table, &d);
+            made = cmd_give_record(&s, take_table, &d);
         if (d.sink.stream != NULL)
             made = cmd_sink_close(&d.sink, made, &s.err);
         else if (made == WT_OK && d.map != NULL)

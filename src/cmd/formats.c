@@ -10,11 +10,9 @@ static void list_formats(const wt_formats *formats, FILE *out)
         static const struct {
             unsigned bit;
             const char *word;
-        } kinds[] = {{WT_KIND_FORCE, "force curves"},
-                     {WT_KIND_SWEEP, "DMA sweeps"},
-                     {WT_KIND_IMAGE, "images"},
-                     {WT_KIND_SPECTRUM, "spectra"},
-                     {WT_KIND_NOISE, "thermal noise"}};
+        } kinds[] = {{WT_KIND_FORCE, "force curves"},  {WT_KIND_SWEEP, "DMA sweeps"},
+                     {WT_KIND_IMAGE, "images"},        {WT_KIND_SPECTRUM, "spectra"},
+                     {WT_KIND_NOISE, "thermal noise"}, {WT_KIND_RECORD, "records of friction"}};
         char holds[80] = "";
         size_t used = 0;
         for (size_t k = 0; k < COUNT_OF(kinds); k++)

@@ -42,6 +42,7 @@ static const struct {
     const char *next; /* what to do with it if it is the first; NULL: by its kind */
 } telling[] = {{"curves", WT_KIND_FORCE, NULL},
                {"thermal noise", WT_KIND_NOISE, "thermal"},
+               {"record of friction", WT_KIND_RECORD, "record"},
                {"spring constant", 0, NULL},
                {"deflection sensitivity", 0, NULL},
                {"isotherms", WT_KIND_SWEEP, NULL},

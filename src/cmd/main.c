@@ -28,6 +28,7 @@ const cmd_command cmd_commands[] = {
     {"ramp", cmd_ramp, "glass transition and moduli of DMA temperature sweeps"},
     {"payne", cmd_payne, "softening with strain, of DMA strain sweeps"},
     {"psd", cmd_psd, "power spectrum of a measured surface, from height maps and profiles"},
+    {"record", cmd_record, "friction and wear as a tribometer measured them"},
     {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
     {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
     {"Everything", NULL, NULL},

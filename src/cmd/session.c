@@ -93,7 +93,7 @@ static void say_columns(cmd_session *s)
                         "its layout is known without them");
 }
 
-wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user)
+wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user)
 {
     say_columns(s);
     wt_status status = WT_OK;
@@ -149,7 +149,7 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
     }
     if (made == WT_OK) {
         wt_result_remarks(s->result, s->log);
-        made = cmd_record(s, add_table, s->result);
+        made = cmd_give_record(s, add_table, s->result);
     }
     if (made == WT_OK)
         made = cmd_write(s);

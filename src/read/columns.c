@@ -58,6 +58,7 @@ static const base_table *base_of(const given_column *columns, size_t n)
     static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
                                        {WT_KIND_SPECTRUM, "table-spectrum"},
                                        {WT_KIND_NOISE, "table-noise"},
+                                       {WT_KIND_RECORD, "table-record"},
                                        {WT_KIND_SWEEP, "table-units"}};
     const size_t last = sizeof bases / sizeof *bases - 1;
     const wt_quantity_set of_sweeps = quantities_of(bases[last].kind); /* a frequency is of both */

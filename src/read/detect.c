@@ -193,6 +193,8 @@ static const char *kind_words(unsigned kinds)
         return "power spectra";
     case WT_KIND_NOISE:
         return "spectra of thermal noise";
+    case WT_KIND_RECORD:
+        return "records of friction";
     default:
         return "data of the kind asked for";
     }
@@ -207,6 +209,7 @@ static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error 
                              : (held & WT_KIND_SWEEP) != 0    ? "weartrack master"
                              : (held & WT_KIND_IMAGE) != 0    ? "weartrack spot"
                              : (held & WT_KIND_NOISE) != 0    ? "weartrack thermal"
+                             : (held & WT_KIND_RECORD) != 0   ? "weartrack record"
                              : (held & WT_KIND_SPECTRUM) != 0 ? "weartrack friction --roughness"
                                                               : NULL;
     if (fits != NULL)

@@ -1,4 +1,4 @@
-/* DMA sweeps, spectra and images, through the reader that the file belongs to.
+/* DMA sweeps, spectra, records of friction and images, through the reader that the file belongs to.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -44,6 +44,22 @@ wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_rea
         *spectrum = made;
     else
         wt_noise_spectrum_clear(&made);
+    return status;
+}
+
+wt_status wt_record_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_record *record, wt_error *err)
+{
+    reading r;
+    wt_record made = {.n = 0};
+    wt_status status = read_start(formats, input, options, WT_KIND_RECORD, &r, err);
+    if (status == WT_OK)
+        status = r.reader->read_record(r.reader, r.content, &r.options, log, &made, err);
+    status = read_end(input, status, err);
+    if (status == WT_OK)
+        *record = made;
+    else
+        wt_record_clear(&made);
     return status;
 }
 

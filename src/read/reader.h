@@ -60,6 +60,9 @@ typedef struct file_reader {
     wt_status (*read_noise)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log,
                             wt_noise_spectrum *spectrum, wt_error *err);
+    wt_status (*read_record)(const struct file_reader *self, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_record *record,
+                             wt_error *err);
     /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. Fails with
      * what hinders reading. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,

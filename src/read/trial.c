@@ -62,6 +62,11 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
         status = reader->read_noise(reader, sample, options, log, &noise, err);
         wt_noise_spectrum_clear(&noise);
     }
+    if (status == WT_OK && text_has(file, WT_KIND_RECORD)) {
+        wt_record record = {.n = 0};
+        status = reader->read_record(reader, sample, options, log, &record, err);
+        wt_record_clear(&record);
+    }
     if (status == WT_OK && text_has(file, WT_KIND_FORCE)) {
         wt_force_source *source = NULL;
         wt_force_curve curve = {.n_segments = 0};

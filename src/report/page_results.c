@@ -85,7 +85,7 @@ void page_results(page_writer *page)
         &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
         &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
         &t->coverage,         &t->work_precision, &t->directions, &t->softening,
-        &t->common_law,       &t->modulus_budget};
+        &t->common_law,       &t->modulus_budget, &t->record,     &t->wear};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -121,6 +121,9 @@ void page_results(page_writer *page)
     page_keys(page, &t->roughness, "Counter surface");
     friction_table(page);
     page_keys(page, &t->friction, "Conditions of the friction");
+    page_whole_table(page, &t->record, "Friction as measured, by the steps of the records", NULL,
+                     0);
+    page_whole_table(page, &t->wear, "Wear as measured", NULL, 0);
     page_keys(page, &t->directions, "What the directions of the material do");
     page_keys(page, &t->softening, "What softening with strain does");
     page_keys(page, &t->layer, "Balance of the modified layer");

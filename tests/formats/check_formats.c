@@ -324,6 +324,34 @@ static void check_noise(reading *r, const wt_formats *formats, wt_input *input)
     wt_noise_spectrum_clear(&p);
 }
 
+static void check_record(reading *r, const wt_formats *formats, wt_input *input)
+{
+    static const char *const names[WT_RECORD_CHANNELS] = {
+        "time", "distance", "laps",     "position", "friction_force", "normal_force",
+        "mu",   "velocity", "rotation", "pressure", "temperature",    "wear_depth"};
+    wt_record record = {.n = 0};
+    wt_error err = WT_ERROR_INIT;
+    const wt_status status = wt_record_read(formats, input, &r->options, NULL, &record, &err);
+    if (!has_status(r, status, &err))
+        return;
+    for (size_t i = 0; i < r->n; i++) {
+        const char *key = r->keys[i], *value = r->values[i];
+        if (strcmp(key, "samples") == 0)
+            is(r, key, (double)record.n, value);
+        else if (strcmp(key, "steps") == 0)
+            is(r, key, (double)record.step[record.n - 1] + 1, value);
+        else if (strcmp(key, "radius") == 0)
+            is(r, key, record.radius, value);
+        for (int c = 0; c < WT_RECORD_CHANNELS; c++) {
+            const size_t n = strlen(names[c]);
+            const double *const x = record.channel[c];
+            if (strncmp(key, names[c], n) == 0 && (key[n] == '\0' || strcmp(key + n, "_last") == 0))
+                is(r, key, x == NULL ? (double)NAN : x[key[n] == '\0' ? 0 : record.n - 1], value);
+        }
+    }
+    wt_record_clear(&record);
+}
+
 static void check_spectrum(reading *r, const wt_formats *formats, wt_input *input)
 {
     wt_power_spectrum p = {.n = 0};
@@ -387,6 +415,8 @@ static void check(reading *r, const wt_formats *formats, const char *fixtures)
         check_force(r, formats, input);
     else if (strcmp(r->kind, "noise") == 0)
         check_noise(r, formats, input);
+    else if (strcmp(r->kind, "record") == 0)
+        check_record(r, formats, input);
     else if (strcmp(r->kind, "spectrum") == 0)
         check_spectrum(r, formats, input);
     else

@@ -6,6 +6,27 @@
 #include "read/text/text.h"
 #include "read_all.h"
 
+/* Friction in every sample, and time that does not fall within the record. */
+static void read_record(const file_reader *reader, wt_input *input, const wt_read_options *options)
+{
+    wt_record record = {.n = 0};
+    wt_error err = WT_ERROR_INIT;
+    const bool read = reader->read_record(reader, input, options, NULL, &record, &err) == WT_OK;
+    const double *const mu = record.channel[WT_RECORD_COEFFICIENT],
+                        *const force = record.channel[WT_RECORD_FRICTION_FORCE],
+                        *const time = record.channel[WT_RECORD_TIME];
+    for (size_t i = 0; read && i < record.n; i++) {
+        if (!(mu != NULL && isfinite(mu[i])) && !(force != NULL && isfinite(force[i])))
+            abort();
+        if (i > 0 &&
+            ((time != NULL && time[i] < time[i - 1]) || record.step[i] < record.step[i - 1]))
+            abort();
+    }
+    if (read && record.n == 0)
+        abort();
+    wt_record_clear(&record);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 #define TEXT_OF(id) #id
@@ -93,6 +114,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     file_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
     (void)reader->detect(reader, &peek);
     read_as(reader, input, &options);
+    if (reader->read_record != NULL)
+        read_record(reader, input, &options);
     if (reader->force != NULL)
         read_curves(reader, data, size, &options);
     describe(reader, data, size, &options);

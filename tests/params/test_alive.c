@@ -94,6 +94,14 @@ static const struct {
     {"peak-points", "5", NULL, NULL},
     {"c1", "9", NULL, NULL},
     {"c2", "110K", NULL, NULL},
+    {"load", "6N", NULL, NULL},
+    {"track-radius", "13mm", NULL, NULL},
+    {"track-area", "4e-11m^2", NULL, NULL},
+    {"mass-loss", "4mg", NULL, NULL},
+    {"density", "1200kg/m^3", NULL, NULL},
+    {"track-length", "80mm", NULL, NULL},
+    {"ball-radius", "4mm", NULL, NULL},
+    {"modulus", "25MPa", NULL, NULL},
 };
 
 static const struct {
@@ -217,6 +225,10 @@ static const struct {
      "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|replicates 4|"
      "specific-wear-rate 1e-12m^2/N|critical-energy 2e10J/m^3|sliding-temperature 30degC",
      ""},
+    {"record",
+     "load 5N|track-radius 12mm|track-area 3e-11m^2+-20%|mass-loss 3mg+-0.2mg|density "
+     "1150kg/m^3|ball-radius 3mm|modulus 20MPa",
+     CASE "../record/disc.csv"},
     {"run", "replicates 4|no-report", "run.xml"},
 };
 enum { N_SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
@@ -227,7 +239,7 @@ static const wt_params *(*const tables[])(void) = {
     wt_compare_job_params,    wt_master_job_params, wt_layer_known_params,
     wt_sliding_params,        wt_layer_job_params,  wt_job_params,
     wt_report_params,         wt_read_params,       wt_transverse_params,
-    wt_rubber_options_params, wt_reduction_params,
+    wt_rubber_options_params, wt_reduction_params,  wt_record_job_params,
 };
 
 static char *read_file(const char *name, size_t *length)
@@ -411,6 +423,11 @@ static const struct {
      "<specific-wear-rate>1e-12m^2/N</specific-wear-rate>"
      "<critical-energy>2e10J/m^3</critical-energy><modulus-ratio>0.6+-0.05</modulus-ratio>",
      "<layer>", "</layer>"},
+    {"record",
+     "<load>5N</load><track-radius>12mm</track-radius><track-area>3e-11m^2+-20%</track-area>"
+     "<mass-loss>3mg+-0.2mg</mass-loss><density>1150kg/m^3</density>"
+     "<ball-radius>3mm</ball-radius><modulus>20MPa</modulus>",
+     "<record>", "<files>../record/disc.csv</files></record>"},
 };
 enum { N_FRAMES = sizeof frames / sizeof frames[0] };
 

@@ -36,6 +36,8 @@ static const struct {
     {"alpha", "0.4"},
     {"layer-thickness", "1um"}, /* these two go together */
     {"modulus-ratio", "1"},
+    {"mass-loss", "3mg"}, /* and so do these */
+    {"density", "1150kg/m^3"},
 };
 
 static const char *good_text(const char *name, const char *tried)
@@ -123,6 +125,7 @@ static const struct {
     {"self-affine", "<roughness><self-affine>", "</self-affine></roughness>"},
     {"sliding", "<sliding><strain-softening><file>x</file></strain-softening>", "</sliding>"},
     {"spectrum", "<roughness><spectrum><file>x</file>", "</spectrum></roughness>"},
+    {"record", "<record>", "<files>x</files></record>"},
 };
 
 static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text)
@@ -460,7 +463,7 @@ static void try_param(const wt_param *p)
     try_value(p, "nan", true, (double)NAN, whole ? -1 : p->unset == NULL || p->kind == PARAM_LIST);
     try_value(p, "inf", true, (double)INFINITY, whole ? -1 : 1);
     try_value(p, "", true, 0, -1);
-    try_value(p, "1kg", true, 0, -1);
+    try_value(p, "1cd", true, 0, -1); /* of no quantity */
     if (p->kind == PARAM_NUMBER || whole)
         try_value(p, "0.3 +- 0.1", true, 0, -1); /* an error that nothing would use, or no unit */
 }

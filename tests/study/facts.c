@@ -30,4 +30,8 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_HURST] = {"hurst", false},
     [Q_ROLL_OFF] = {"roll_off", true},
     [Q_C0] = {"c0", true},
+    [Q_STEADY] = {"steady_friction", true},
+    [Q_RUNNING_IN] = {"running_in", false},
+    [Q_DRIFT] = {"drift", false},
+    [Q_WEAR_RATE] = {"wear_rate", true},
 };

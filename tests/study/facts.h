@@ -37,6 +37,10 @@ typedef enum quantity {
     Q_HURST,
     Q_ROLL_OFF,
     Q_C0,
+    Q_STEADY,     /* friction coefficient behind a running-in */
+    Q_RUNNING_IN, /* cycles before it */
+    Q_DRIFT,
+    Q_WEAR_RATE,
     Q_COUNT
 } quantity;
 

@@ -43,6 +43,14 @@ const place place_hurst = {surface, "hurst", "standard_error", NULL, NULL};
 const place place_roll_off = {surface, "roll_off", "standard_error", NULL, NULL};
 const place place_c0 = {surface, "c0", "standard_error", NULL, NULL};
 
+static const char record[] = "record";
+const place place_steady = {record, "friction_coefficient", NULL, "friction_coefficient_low",
+                            "friction_coefficient_high"};
+const place place_running_in = {record, "running_in", NULL, "running_in_low", "running_in_high"};
+const place place_drift = {record, "drift", NULL, "drift_low", "drift_high"};
+const place place_wear_rate = {"wear", "specific_wear_rate", NULL, "specific_wear_rate_low",
+                               "specific_wear_rate_high"};
+
 static const double normal95 = 1.959963984540054;
 
 /* Low and high where they stand, else the standard error to both sides. */

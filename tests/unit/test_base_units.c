@@ -146,7 +146,7 @@ static void every_si_unit_is_itself(void **state)
         assert_int_equal(found, q);
     }
     wt_quantity q = WT_Q_FORCE;
-    assert_false(wt_quantity_find("mass", &q));
+    assert_false(wt_quantity_find("colour", &q));
     assert_int_equal(q, WT_Q_FORCE);
 }
 

@@ -22,7 +22,7 @@ typedef struct seen {
     uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
 } seen;
 
-enum { MOST = 64 };
+enum { MOST = 96 };
 static seen found[MOST];
 static wt_formats *formats;
 
@@ -743,6 +743,62 @@ static void test_thermal(void **state)
     (void)remove(path);
 }
 
+/* There and back with all channels, then a disc that sticks and slips, once with all that is known
+ * of its wear and once with nothing. */
+static void test_record(void **state)
+{
+    (void)state;
+    static const char strokes[] = "test_tables_put_strokes.csv",
+                      disc[] = "test_tables_put_disc.csv";
+    uint64_t seed = 4;
+    FILE *out = fopen(strokes, "w");
+    assert_non_null(out);
+    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),T (degC),pressure (MPa),"
+                 "Ff (N),Fn (N),mu,wear depth (um)\n");
+    for (int i = 0; i < 40 * 60; i++) {
+        const double phase = 2 * M_PI * (i + 0.5) / 40, way = sin(phase) > 0 ? 1 : -1,
+                     lap = i / 40.0, force = (lap < 20 ? 6 : 5) + 0.1 * truth_normal(&seed);
+        fprintf(out, "%g,%g,%g,%g,%g,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap, -5 * cos(phase),
+                25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001, 1 + 0.01 * i);
+    }
+    fclose(out);
+    out = fopen(disc, "w");
+    assert_non_null(out);
+    fprintf(out, "time (s),laps,mu\n");
+    for (int i = 0; i < 50 * 60; i++)
+        fprintf(out, "%g,%g,%g\n", 0.02 * i, i / 50.0,
+                0.5 + 0.01 * (i % 25) + 0.001 * truth_normal(&seed));
+    fclose(out);
+    for (int known = 0; known < 2; known++) {
+        const char *const patterns[] = {known ? strokes : disc};
+        const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+        wt_job common = wt_job_defaults();
+        wt_record_job job = wt_record_job_defaults();
+        wt_record_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.ball_radius.value = 3e-3;
+        if (known) {
+            job.track_length = (wt_estimate){10e-3, 0, 0, "m"};
+            job.track_radius = (wt_estimate){12e-3, 0, 0, "m"};
+            job.track_area = (wt_estimate){1e-10, 1e-11, 0, "m^2"};
+            job.mass_loss = (wt_estimate){1e-6, 1e-7, 0, "kg"};
+            job.density = (wt_estimate){1150, 0, 0, "kg/m^3"};
+            job.modulus.value = 20e6;
+        }
+        if (wt_record_make(&job, &common, &tables, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        see(tables.record);
+        see(tables.record_cycles);
+        see(tables.wear);
+        wt_record_tables_clear(&tables);
+    }
+    (void)remove(strokes);
+    (void)remove(disc);
+}
+
 /* Curves that are held at their end. */
 static void test_dwell(void **state)
 {
@@ -964,10 +1020,11 @@ int main(void)
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
         cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_spot),          cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_record),
+        cmocka_unit_test(test_dwell),         cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),    cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),       cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

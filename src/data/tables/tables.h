@@ -20,6 +20,7 @@
 #include "data/tables/materials.h"
 #include "data/tables/measured.h"
 #include "data/tables/ramp.h"
+#include "data/tables/record.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
 #include "data/tables/spot.h"
@@ -93,6 +94,9 @@
     X(moduli_at, MODULI_AT, "moduli_at", "Moduli at temperatures", "ramp")                         \
     X(payne_sweep, PAYNE_SWEEP, "payne_sweep", "Moduli against strain amplitude", "payne")         \
     X(payne, PAYNE, "payne", "Softening with strain (Payne effect)", "payne")                      \
+    X(record, RECORD, "record", "Friction as measured", "record")                                  \
+    X(record_cycles, RECORD_CYCLES, "record_cycles", "Friction of every cycle", "record")          \
+    X(wear, WEAR, "wear", "Wear as measured", "record")                                            \
     X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
       "psd")                                                                                       \
     X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \

@@ -32,6 +32,7 @@ wt_case *case_new(void)
     c->surface = flow_surface_defaults();
     c->sliding = wt_sliding_defaults();
     c->layer = wt_layer_job_defaults();
+    c->records = wt_record_job_defaults();
     c->report = wt_report_defaults();
     return c;
 }

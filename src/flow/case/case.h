@@ -70,6 +70,10 @@ struct wt_case {
     bool has_modulus_ratio; /* given instead of measured */
     wt_layer_known known;
 
+    case_files record;
+    wt_record_job records;
+    bool has_wear; /* what is worn is given */
+
     bool has_compare; /* the next three say what; else all that is possible */
     bool compare_groups, compare_rates, compare_dma;
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case_sections.h"
 #include "flow/materials/rubber.h"
+#include "flow/record/record.h"
 #include "flow/sliding/counter_surface.h"
 
 #include "flow/work/inputs.h"
@@ -235,6 +236,19 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
         wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");
         return case_at(ratio, WT_E_ARG, err);
     }
+    return status;
+}
+
+/* ---- record ---------------------------------------------------------------------------------- */
+
+wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    wt_status status = case_read_params(c, section, wt_record_job_params(), &c->records, err);
+    if (status == WT_OK)
+        status = case_at_param(section, wt_record_job_check(&c->records, err), err);
+    if (status == WT_OK)
+        status = case_read_files(c, section, "files", &c->record, err);
+    c->has_wear = wear_is_asked(&c->records);
     return status;
 }
 

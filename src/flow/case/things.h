@@ -25,7 +25,12 @@
       c->softening.n > 0)                                                                          \
     X(ASKED_SOFTENING, "softening by strain sweeps",                                               \
       "no softening by strain sweeps (<sweeps> in <strain-softening>)",                            \
-      c->softens && c->softening.n == 0)
+      c->softens && c->softening.n == 0)                                                           \
+    X(RECORD_FILES, "records of friction", "no records of friction (<files> in <record>)",         \
+      c->record.n > 0)                                                                             \
+    X(GIVEN_WEAR, "what was worn",                                                                 \
+      "nothing that was worn (<track-area>, <mass-loss> or <ball-radius> in <record>)",            \
+      c->has_wear)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -53,6 +58,9 @@
     X(MODULI_AT, "moduli_at", &moduli_at_schema, "")                                               \
     X(PAYNE, "payne", &payne_schema, "")                                                           \
     X(PAYNE_SWEEP, "payne_sweep", &payne_sweep_schema, "")                                         \
+    X(RECORD, "record", &record_schema, "")                                                        \
+    X(RECORD_CYCLES, "record_cycles", &record_cycles_schema, "")                                   \
+    X(WEAR, "wear", &wear_schema, "")                                                              \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \

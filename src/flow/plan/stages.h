@@ -47,6 +47,10 @@ typedef enum flow_extra {
     X(DMA_COMPARISON, dma_comparison, "Indentation against DMA, bulk",                             \
       B(INDENTATION_BULK) | B(RUBBER), 0, FLOW_AND_TRACK, B(DMA_COMPARISON),                       \
       flow_step_dma_comparison)                                                                    \
+    X(WEAR, wear, "Friction and wear as measured", B(RECORD_FILES) | B(GIVEN_WEAR), 0,             \
+      FLOW_NO_MORE, B(RECORD) | B(RECORD_CYCLES) | B(WEAR), flow_step_wear)                        \
+    X(RECORD, record, "Friction as measured", B(RECORD_FILES), 0, FLOW_NO_MORE,                    \
+      B(RECORD) | B(RECORD_CYCLES), flow_step_record)                                              \
     X(ROUGHNESS, roughness, "Power spectrum of the counter surface", B(COUNTER_SURFACE), 0,        \
       FLOW_NO_MORE, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                \
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO), 0,           \

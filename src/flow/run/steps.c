@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
 #include "flow/materials/rubber.h"
+#include "flow/record/record.h"
 #include "flow/sliding/counter_surface.h"
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
@@ -338,6 +339,30 @@ wt_status flow_step_given_material(flow_run *run, wt_error *err)
     if (status == WT_OK)
         wt_rubber_cost(&run->rubber, &run->job);
     return status;
+}
+
+/* ---- records --------------------------------------------------------------------------------- */
+
+static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
+{
+    wt_record_tables tables = {0};
+    job.sets = run->c->record.sets;
+    job.n_sets = run->c->record.n;
+    const wt_status status = wt_record_make(&job, &run->job, &tables, err);
+    keep_table(run, FLOW_RECORD, &tables.record);
+    keep_table(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
+    keep_table(run, FLOW_WEAR, &tables.wear);
+    return status;
+}
+
+wt_status flow_step_wear(flow_run *run, wt_error *err)
+{
+    return make_record(run, run->c->records, err);
+}
+
+wt_status flow_step_record(flow_run *run, wt_error *err)
+{
+    return make_record(run, wear_left_out(run->c->records), err);
 }
 
 /* ---- counter surface ------------------------------------------------------------------------- */

@@ -45,7 +45,8 @@ header_value header_of(wt_quantity quantity)
         [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE, [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
         [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY, [HEADER_POSITION_X] = WT_Q_POSITION_X,
         [HEADER_POSITION_Y] = WT_Q_POSITION_Y,   [HEADER_VELOCITY] = WT_Q_VELOCITY,
-        [HEADER_DURATION] = WT_Q_TIME,           [HEADER_SETPOINT] = WT_Q_FORCE};
+        [HEADER_DURATION] = WT_Q_TIME,           [HEADER_SETPOINT] = WT_Q_FORCE,
+        [HEADER_LOAD] = WT_Q_NORMAL_FORCE,       [HEADER_RADIUS] = WT_Q_LENGTH};
     header_value value = HEADER_TEMPERATURE;
     while (value < HEADER_COUNT && held[value] != quantity)
         value++;
@@ -121,6 +122,10 @@ static const struct {
      "columns of frequency and of the spectral density of deflection or of the detector",
      {Q(FREQUENCY),
       Q(SPECTRAL_DENSITY) | Q(DEFLECTION_NOISE) | Q(VOLTAGE_DENSITY) | Q(VOLTAGE_NOISE)}},
+    {WT_KIND_RECORD,
+     "record",
+     "columns of time, distance or laps, and of friction force or coefficient",
+     {Q(TIME) | Q(SLIDING_DISTANCE) | Q(LAPS), Q(FRICTION_COEFFICIENT) | Q(FRICTION_FORCE)}},
 };
 enum { N_NEEDS = sizeof needs / sizeof *needs, N_GROUPS = 3 };
 

@@ -80,6 +80,8 @@ typedef enum header_value {
     HEADER_VELOCITY,
     HEADER_DURATION,
     HEADER_SETPOINT,
+    HEADER_LOAD,
+    HEADER_RADIUS,
     HEADER_COUNT
 } header_value;
 

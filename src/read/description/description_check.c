@@ -33,7 +33,7 @@ wt_status description_check_whole(const text_description *d, const char *name, w
     wt_quantity_set set = 0;
     for (size_t i = 0; i < d->n_rules; i++)
         set |= WT_Q_BIT(d->rules[i].quantity);
-    for (unsigned kind = 1; kind <= WT_KIND_NOISE; kind *= 2)
+    for (unsigned kind = 1; kind <= WT_KIND_RECORD; kind *= 2)
         if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
             wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
             wt_error_expected(err, "%s", quantities_needed(kind));
@@ -60,8 +60,9 @@ wt_status description_check_whole(const text_description *d, const char *name, w
         wt_error_expected(err, "kinds with sweep in it");
         return fail_element(err, name, "isotherms");
     }
-    if ((d->kinds & WT_KIND_FORCE) == 0 &&
-        (d->n_markers > 0 || d->n_values > 0 || d->curve_column != NULL || d->turning_point)) {
+    if (((d->kinds & WT_KIND_FORCE) == 0 &&
+         (d->n_markers > 0 || d->n_values > 0 || d->turning_point)) ||
+        ((d->kinds & (WT_KIND_FORCE | WT_KIND_RECORD)) == 0 && d->curve_column != NULL)) {
         wt_fail(err, WT_E_SCHEMA, "segments without a force curve");
         wt_error_expected(err, "kinds with force in it");
         return fail_element(err, name, "segments");

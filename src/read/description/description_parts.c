@@ -136,7 +136,7 @@ static void read_header(description_parser *p, const xmlNode *node)
             parse_complain(
                 p, c, "a header line cannot give this quantity",
                 "temperature, spring_constant, sensitivity, position_x, position_y, velocity, "
-                "time (duration) or force (set-point)",
+                "time (duration), force (set-point), normal_force or length (radius)",
                 wt_quantity_id(field->quantity));
         check_unit(p, c, field->unit, field->quantity);
         if ((field->unit != NULL) == (field->unit_group > 0))
@@ -287,6 +287,7 @@ unsigned parse_kinds(const char *words)
     kinds |= strstr(words, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
     kinds |= strstr(words, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
     kinds |= strstr(words, "noise") != NULL ? WT_KIND_NOISE : 0u;
+    kinds |= strstr(words, "record") != NULL ? WT_KIND_RECORD : 0u;
     return kinds;
 }
 

@@ -283,6 +283,8 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              wt_power_spectrum *spectrum, wt_error *err);
 wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err);
+wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_parselog *log, wt_record *record, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts);
 /* The same of a reader with `as_text`, whose text is made once. */

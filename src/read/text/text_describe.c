@@ -280,6 +280,19 @@ static void add_noise(const file_reader *self, wt_input *input, const wt_read_op
     wt_noise_spectrum_clear(&noise);
 }
 
+static void add_record(const file_reader *self, wt_input *input, const wt_read_options *options,
+                       table_writer *facts)
+{
+    wt_record record = {.n = 0};
+    wt_error problem = WT_ERROR_INIT;
+    if (text_read_record(self, input, options, NULL, &record, &problem) == WT_OK)
+        facts_add(facts, "record of friction", "", "", "%zu samples in %zu step%s", record.n,
+                  record.step[record.n - 1] + 1, record.step[record.n - 1] == 0 ? "" : "s");
+    else
+        add_problem(&problem, facts);
+    wt_record_clear(&record);
+}
+
 /* The sweep of all tables, which are read again where they are no longer at hand. */
 static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_parselog *log,
                               table_writer *facts)
@@ -301,7 +314,8 @@ static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_p
 static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog *log, unsigned *has,
                                 table_writer *facts)
 {
-    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_SPECTRUM, WT_KIND_NOISE};
+    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
+                                      WT_KIND_RECORD};
     const text_file *const file = text_parts_file(parts);
     wt_error problem = WT_ERROR_INIT;
     wt_status status = WT_OK;
@@ -345,6 +359,8 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         add_spectrum(self, input, options, facts);
     if ((has & WT_KIND_NOISE) != 0)
         add_noise(self, input, options, facts);
+    if ((has & WT_KIND_RECORD) != 0)
+        add_record(self, input, options, facts);
     return status;
 }
 

@@ -1,0 +1,156 @@
+/* Likelihood of slow scatter by Kalman's filter, and what is left when it is averaged.
+ *
+ * Harvey, Forecasting, structural time series models and the Kalman filter (1989), chapter 3.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/record/slow_scatter.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double shortest = 0.5, longest = 0.25; /* steps; of the series */
+
+scatter_law scatter_law_of(size_t i, size_t n)
+{
+    /* closer at the ends, where a little white or slow scatter changes much */
+    static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
+    const double most = fmax(longest * (double)n, 2 * shortest),
+                 part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);
+    const double length = shortest * pow(most / shortest, part);
+    return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
+}
+
+scatter_sums scatter_begin(scatter_law law)
+{
+    return (scatter_sums){.law = law, .variance = law.share};
+}
+
+void scatter_add(scatter_sums *s, double y)
+{
+    const double value[3] = {1, (double)s->n, y};
+    const double spread = s->variance + (1 - s->law.share), gain = s->variance / spread;
+    double off[3];
+    for (int i = 0; i < 3; i++) {
+        off[i] = value[i] - s->state[i];
+        s->state[i] = s->law.memory * (s->state[i] + gain * off[i]);
+    }
+    s->product[0] += off[0] * off[0] / spread;
+    s->product[1] += off[0] * off[1] / spread;
+    s->product[2] += off[1] * off[1] / spread;
+    s->product[3] += off[0] * off[2] / spread;
+    s->product[4] += off[1] * off[2] / spread;
+    s->product[5] += off[2] * off[2] / spread;
+    s->log_det += log(spread);
+    s->variance = s->law.memory * s->law.memory * s->variance * (1 - gain) +
+                  s->law.share * (1 - s->law.memory * s->law.memory);
+    s->n++;
+}
+
+scatter_fit scatter_solve(const scatter_sums *s, bool line)
+{
+    const double *const p = s->product;
+    const double mean = p[3] / p[0], about = p[5] - p[3] * mean;
+    if (!line)
+        return (scatter_fit){about, log(p[0]), mean, 1 / p[0]};
+    const double tt = p[2] - p[1] * p[1] / p[0], slope = (p[4] - p[1] * mean) / tt;
+    return (scatter_fit){about - slope * slope * tt, log(p[0]) + log(tt), slope, 1 / tt};
+}
+
+double scatter_likelihood(const scatter_sums *s, bool line, double least)
+{
+    const scatter_fit f = scatter_solve(s, line);
+    const double df = (double)s->n - (line ? 2 : 1);
+    const double squares = fmax(f.squares, df * least);
+    /* a slope over the whole of the points, so that it has the unit of y however many they are */
+    const double information = f.log_information - (line ? 2 * log((double)s->n) : 0);
+    return gsl_sf_lngamma(df / 2) - 0.5 * (df * log(M_PI * squares) + s->log_det + information);
+}
+
+double scatter_of_mean(scatter_law law, size_t n)
+{
+    const double r = law.memory, m = (double)n;
+    const double slow =
+        (m * (1 + r) / (1 - r) - 2 * r * (1 - pow(r, m)) / ((1 - r) * (1 - r))) / (m * m);
+    return law.share * slow + (1 - law.share) / m;
+}
+
+bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **room)
+{
+    const size_t length = (n + SCATTER_MOST - 1) / SCATTER_MOST;
+    *parts = (scatter_parts){y, n, 1, 0};
+    *room = NULL;
+    if (length <= 1)
+        return true;
+    *parts = (scatter_parts){NULL, n / length, length, n % length};
+    parts->y = *room = calloc(parts->n, sizeof **room);
+    for (size_t i = 0; *room != NULL && i < parts->n * length; i++)
+        (*room)[i / length] += y[parts->rest + i] / (double)length;
+    return *room != NULL;
+}
+
+double log_add(double a, double b)
+{
+    const double large = fmax(a, b);
+    return isinf(large) ? large : large + log1p(exp(fmin(a, b) - large));
+}
+
+void mixture_normalise(t_mixture *m)
+{
+    double all = -(double)INFINITY;
+    for (size_t i = 0; i < m->n; i++)
+        all = log_add(all, m->log_weight[i]);
+    for (size_t i = 0; i < m->n; i++)
+        m->log_weight[i] -= all;
+}
+
+double mixture_mean(const t_mixture *m)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++)
+        sum += exp(m->log_weight[i]) * m->centre[i];
+    return sum;
+}
+
+static double mixture_deviation(const t_mixture *m)
+{
+    const double mean = mixture_mean(m), wide = m->df > 2 ? m->df / (m->df - 2) : (double)NAN;
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++) {
+        const double off = m->centre[i] - mean;
+        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] * wide + off * off);
+    }
+    return sqrt(sum);
+}
+
+static double mixture_below(const t_mixture *m, double x)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++)
+        if (m->log_weight[i] > -40) /* what is lighter is below the digits of the sum */
+            sum += exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df);
+    return sum;
+}
+
+double mixture_quantile(const t_mixture *m, double p)
+{
+    enum { HALVINGS = 60 }; /* to the digits of a double */
+    const double centre = mixture_mean(m);
+    double step = mixture_deviation(m);
+    step = step > 0 ? step : fabs(centre) + 1;
+    double low = centre - step, high = centre + step;
+    for (int i = 0; i < HALVINGS && mixture_below(m, low) > p; i++)
+        low = centre - (step *= 2);
+    for (int i = 0; i < HALVINGS && mixture_below(m, high) < p; i++)
+        high = centre + (step *= 2);
+    for (int i = 0; i < HALVINGS && low < high; i++) {
+        const double middle = 0.5 * (low + high);
+        if (mixture_below(m, middle) < p)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}

@@ -1,0 +1,79 @@
+/* Scatter of a series that is partly slow: an autoregression of first order beside white scatter,
+ * of equal steps. What a series does not tell of the two is averaged over. Internal to fit.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FIT_RECORD_SLOW_SCATTER_H
+#define WEARTRACK_FIT_RECORD_SLOW_SCATTER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Squares of a point are at least those of the last of four digits, with which files are written:
+ * of the standard deviation of a series. */
+#define SCATTER_DIGITS 1e-4
+
+/* One law of unit variance. */
+typedef struct scatter_law {
+    double memory; /* autocorrelation of the slow part over one step */
+    double share;  /* of the variance that is slow */
+} scatter_law;
+
+/* The laws of a series of n points. Lengths go from half a step, below which slow scatter is white,
+ * to a quarter of the series, beyond which it cannot be told from drift, in equal ratios; shares
+ * stand closer at the ends, where a little white or slow scatter changes much. Each is taken for as
+ * likely as the others before the series is seen. */
+enum { SCATTER_LENGTHS = 16, SCATTER_SHARES = 10 };
+enum { SCATTER_LAWS = SCATTER_LENGTHS * SCATTER_SHARES };
+scatter_law scatter_law_of(size_t i, size_t n);
+
+/* Sums of generalised least squares over points taken one after the other, from either end: V is
+ * the covariance of unit variance, the columns of X are 1 and the number of the point. */
+typedef struct scatter_sums {
+    scatter_law law;
+    double variance;   /* of the slow part as predicted */
+    double state[3];   /* prediction of: 1, number, y */
+    double log_det;    /* of V */
+    double product[6]; /* 1 V 1, 1 V t, t V t, 1 V y, t V y, y V y, V for its inverse */
+    size_t n;
+} scatter_sums;
+scatter_sums scatter_begin(scatter_law law);
+void scatter_add(scatter_sums *s, double y);
+
+/* Of the points so far about a constant, or about a line with `line`: the squares left, and the
+ * coefficient asked for (the constant, or the slope) with its variance by unit variance. */
+typedef struct scatter_fit {
+    double squares, log_information; /* ln of the determinant of X V X */
+    double coefficient, variance;
+} scatter_fit;
+scatter_fit scatter_solve(const scatter_sums *s, bool line);
+/* ln of the likelihood, averaged over the coefficients and the variance; `least` is what the
+ * squares of a point are at least: the digits of the numbers. */
+double scatter_likelihood(const scatter_sums *s, bool line, double least);
+/* Variance of the plain mean of n points by unit variance. */
+double scatter_of_mean(scatter_law law, size_t n);
+
+/* A series of more points is judged by the means of so many equal parts of it, which bounds the
+ * work; what does not fill a part is left out in front. */
+enum { SCATTER_MOST = 4000 };
+typedef struct scatter_parts {
+    const double *y;        /* [n] */
+    size_t n, length, rest; /* points in a part; left out */
+} scatter_parts;
+/* `room` is what is to be freed, NULL where the series stands for itself; false without memory. */
+bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **room);
+
+/* ln (exp a + exp b), of which either may be of nothing, -INFINITY. */
+double log_add(double a, double b);
+
+/* Laws of Student's t, weighed: of what several laws of the scatter say. */
+typedef struct t_mixture {
+    size_t n;
+    double df;
+    double log_weight[SCATTER_LAWS], centre[SCATTER_LAWS], scale[SCATTER_LAWS];
+} t_mixture;
+/* Weights become those of a sum of 1. */
+void mixture_normalise(t_mixture *m);
+double mixture_mean(const t_mixture *m);
+double mixture_quantile(const t_mixture *m, double p);
+
+#endif

@@ -1,0 +1,91 @@
+/* Mean and drift of a steady series with correlated scatter.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/record/slow_scatter.h"
+
+#include "fit/students_t.h"
+#include "weartrack/fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { FEWEST = 4 };                               /* two more than a line has constants */
+static const double normal_95 = 1.959963984540054; /* 97.5 % of the normal law */
+static const double tail = 0.025;                  /* on each side of an interval of 95 % */
+/* Fewer independent points than these do not tell how far they scatter. */
+static const double least_independent = 8;
+
+static wt_interval interval_of(t_mixture *m, double value)
+{
+    mixture_normalise(m);
+    const double low = mixture_quantile(m, tail), high = mixture_quantile(m, 1 - tail);
+    return (wt_interval){value, (high - low) / (2 * normal_95), low, high};
+}
+
+/* Mean, drift and correlation by all laws, each as heavy as it is likely. */
+static void average_laws(const scatter_parts *parts, moments m, wt_steady *steady)
+{
+    const size_t n = parts->n;
+    const double least = SCATTER_DIGITS * SCATTER_DIGITS * m.variance,
+                 length = (double)parts->length;
+    t_mixture mean = {.n = SCATTER_LAWS, .df = (double)n - 1},
+              drift = {.n = SCATTER_LAWS, .df = (double)n - 2};
+    double of_mean[SCATTER_LAWS];
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        scatter_sums s = scatter_begin(scatter_law_of(i, n));
+        for (size_t k = 0; k < n; k++)
+            scatter_add(&s, parts->y[k] - m.mean);
+        const scatter_fit constant = scatter_solve(&s, false), line = scatter_solve(&s, true);
+        const double variance = fmax(constant.squares / mean.df, least);
+        of_mean[i] = variance * scatter_of_mean(s.law, n);
+        mean.log_weight[i] = scatter_likelihood(&s, false, least);
+        mean.centre[i] = m.mean;
+        mean.scale[i] = sqrt(of_mean[i]);
+        drift.log_weight[i] = scatter_likelihood(&s, true, least);
+        drift.centre[i] = line.coefficient / length;
+        drift.scale[i] = sqrt(fmax(line.squares / drift.df, least) * line.variance) / length;
+    }
+    steady->mean = interval_of(&mean, m.mean);
+    steady->drift = interval_of(&drift, 0);
+    steady->drift.value = mixture_mean(&drift);
+    steady->correlation = 0;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        steady->correlation += exp(mean.log_weight[i]) * of_mean[i] * m.n / m.variance;
+    steady->note = m.n < least_independent * steady->correlation
+                       ? "the record is short against the correlation of its scatter"
+                       : "";
+}
+
+wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error *err)
+{
+    const double none = (double)NAN;
+    const wt_interval unknown = {none, none, none, none};
+    *steady = (wt_steady){.n = n,
+                          .mean = unknown,
+                          .drift = unknown,
+                          .deviation = none,
+                          .min = none,
+                          .max = none,
+                          .correlation = none,
+                          .note = "too few cycles for an error"};
+    if (n == 0)
+        return wt_fail(err, WT_E_ARG, "a mean of nothing");
+    const moments m = moments_of(y, n);
+    steady->mean.value = m.mean;
+    steady->deviation = sqrt(m.variance);
+    steady->min = steady->max = y[0];
+    for (size_t i = 0; i < n; i++) {
+        steady->min = fmin(steady->min, y[i]);
+        steady->max = fmax(steady->max, y[i]);
+    }
+    if (n < FEWEST || !(m.variance > 0))
+        return WT_OK;
+    scatter_parts parts;
+    double *room;
+    if (!scatter_parts_of(y, n, &parts, &room))
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    average_laws(&parts, m, steady);
+    free(room);
+    return WT_OK;
+}

@@ -1,0 +1,388 @@
+/* The job of friction records: from the samples of a tribometer to friction that a theory can be
+ * held against. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/record/record.h"
+
+#include "flow/work/cost.h"
+
+#include "base/array.h"
+#include "base/clocale.h"
+#include "data/tables/rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Below, the mean of a cycle holds a part of its wave that changes from cycle to cycle. */
+static const double fewest_samples = 20;
+/* The coefficient of a file and its forces agree to the digits of a display. */
+static const double same_friction = 0.01;
+
+void wt_record_tables_clear(wt_record_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->record);
+    wt_table_free(tables->record_cycles);
+    wt_table_free(tables->wear);
+    *tables = (wt_record_tables){0};
+}
+
+/* ---- one step -------------------------------------------------------------------------------- */
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+TABLE_ROW(record, RECORD, double velocity, normal_force, pressure, temperature; wt_steady steady;
+          wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
+          double zero, difference, samples; size_t cycles, step;
+          const char *averaged_over, *note, *file;)
+
+TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
+          const char *file;)
+
+typedef struct found_end {
+    wt_interval cycles;
+    size_t steady_from;
+    const char *why_not;
+} found_end;
+
+static wt_status find_end(const wt_record_job *job, const double *y, size_t n, found_end *end,
+                          wt_error *err)
+{
+    wt_running_in found = {.why_not = ""};
+    wt_status status = WT_OK;
+    *end = (found_end){not_known, 0, "not looked for"};
+    switch (job->running_in) {
+    case WT_RUNNING_IN_LIKELIHOOD:
+        status = wt_running_in_find(y, n, &found, err);
+        *end = (found_end){found.end, found.steady_from, found.why_not};
+        break;
+    case WT_RUNNING_IN_STEP:
+        end->steady_from = wt_change_of_mean(y, n);
+        break;
+    case WT_RUNNING_IN_MSER:
+        end->steady_from = wt_mser_5(y, n);
+        break;
+    default:
+        break;
+    }
+    if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
+        end->cycles.value = (double)end->steady_from;
+        end->why_not = "this rule tells no interval";
+    }
+    return status;
+}
+
+static double middle(const wt_cycle *cycle, bool distance)
+{
+    return distance ? cycle->distance : cycle->time;
+}
+
+/* Where a cycle begins, in time or distance from the beginning of the step on: half-way between the
+ * middles. */
+static double begins_at(const wt_cycle *c, size_t n, double number, bool distance)
+{
+    if (isnan(number) || n < 2)
+        return (double)NAN;
+    const size_t k = (size_t)number;
+    const double first = middle(&c[0], distance),
+                 start = first - 0.5 * (middle(&c[1], distance) - first);
+    if (k == 0)
+        return 0;
+    return k < n ? 0.5 * (middle(&c[k - 1], distance) + middle(&c[k], distance)) - start
+                 : middle(&c[n - 1], distance) - start;
+}
+
+static wt_interval in_units(const wt_cycle *c, size_t n, wt_interval cycles, bool distance)
+{
+    const double value = begins_at(c, n, cycles.value, distance),
+                 low = begins_at(c, n, cycles.low, distance),
+                 high = begins_at(c, n, cycles.high, distance);
+    const double per_cycle = cycles.high > cycles.low
+                                 ? (high - low) / (cycles.high - cycles.low)
+                                 : begins_at(c, n, fmin(cycles.value, 1), distance);
+    return (wt_interval){value, cycles.standard_error * per_cycle, low, high};
+}
+
+static wt_interval times(wt_interval i, double factor)
+{
+    return (wt_interval){i.value * factor, i.standard_error * factor, i.low * factor,
+                         i.high * factor};
+}
+
+static const char *kind_words(wt_cycle_kind kind)
+{
+    static const char *const words[] = {"", "double stroke", "lap", "span of time", "sample"};
+    return words[kind];
+}
+
+static void add_note(char *note, size_t size, const char *words)
+{
+    const size_t used = strlen(note);
+    if (words[0] != '\0')
+        snprintf(note + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+}
+
+/* What a person should know of a step. */
+static void say_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
+                     size_t size)
+{
+    char words[160];
+    const bool periodic = cycles->kind == WT_CYCLE_LAP || cycles->kind == WT_CYCLE_STROKE;
+    add_note(note, size, r->steady.note);
+    if (periodic && cycles->samples < fewest_samples)
+        add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
+    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end, and yet not all of it */
+        add_note(note, size, "not steady: the last tenth is told");
+        wt_parselog_add(work->log, WT_WARNING, r->file, NULL,
+                        "friction does not become steady before the last tenth of step %zu, whose "
+                        "mean is told",
+                        r->step);
+    }
+    if (r->drift.low * r->drift.high > 0) {
+        clocale_print(words, sizeof words, "drifts by %.2g over the steady part", r->drift.value);
+        add_note(note, size, words);
+    }
+    if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
+        add_note(note, size, "friction has no sign, so that its zero is not known");
+}
+
+static double mean_zero(const wt_cycle *cycles, size_t n)
+{
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(cycles[i].zero)) {
+            sum += cycles[i].zero;
+            count++;
+        }
+    return count > 0 ? sum / count : (double)NAN;
+}
+
+static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
+                              size_t n, record_row *r, size_t *steady_from, wt_error *err)
+{
+    found_end end = {not_known, 0, ""};
+    double *const y = malloc((n + 1) * sizeof *y);
+    if (y == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++)
+        y[i] = cycle[i].coefficient;
+    wt_status status = find_end(job, y, n, &end, err);
+    const size_t from = end.steady_from < n ? end.steady_from : 0;
+    const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
+    if (status == WT_OK)
+        status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    r->slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
+    if (status == WT_OK && all->kind != WT_CYCLE_STROKE)
+        status = wt_stick_slip_find(all->friction + steady->first,
+                                    last->first + last->n - steady->first, &r->slips, err);
+    free(y);
+    const record_conditions at = conditions_of(steady, n - from);
+    r->velocity = at.velocity;
+    r->normal_force = at.normal_force;
+    r->pressure = at.pressure;
+    r->temperature = at.temperature;
+    r->drift = times(r->steady.drift, (double)(n - from) - 1);
+    r->end = end.cycles;
+    r->end_time = in_units(cycle, n, end.cycles, false);
+    r->end_distance = in_units(cycle, n, end.cycles, true);
+    r->end_note = end.why_not;
+    r->zero = mean_zero(steady, n - from);
+    r->cycles = n;
+    *steady_from = from;
+    return status;
+}
+
+/* ---- one file -------------------------------------------------------------------------------- */
+
+/* Rows so far, for what they have in common. */
+typedef struct together {
+    double n, sum, own, squares;
+    record_conditions first;
+    bool alike;
+} together;
+
+typedef struct writers {
+    table_writer record, cycles, wear;
+    together all;
+    wear_rates rates;
+    size_t n_files;
+} writers;
+
+static void count_row(together *all, const record_row *r)
+{
+    const record_conditions at = {r->velocity, r->normal_force, r->pressure, r->temperature};
+    const double mu = r->steady.mean.value, error = r->steady.mean.standard_error;
+    if (all->n == 0) {
+        all->first = at;
+        all->alike = true;
+    }
+    all->alike = all->alike && conditions_alike(all->first, at);
+    all->n++;
+    all->sum += mu;
+    all->squares += mu * mu;
+    all->own += error * error;
+}
+
+static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
+                           const char *file, writers *w, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t step = 0;
+    for (size_t first = 0, n; first < cycles->n && status == WT_OK; first += n) {
+        char note[512] = "";
+        size_t from = 0;
+        record_row r = {.difference = cycles->difference,
+                        .samples = cycles->samples,
+                        .averaged_over = kind_words(cycles->kind),
+                        .step = ++step,
+                        .note = note,
+                        .file = file};
+        const wt_cycle *const cycle = cycles->cycle + first;
+        n = conditions_step(cycle, cycles->n - first);
+        status = measure_step(job, cycles, cycle, n, &r, &from, err);
+        if (status != WT_OK)
+            return status;
+        say_step(work, cycles, &r, note, sizeof note);
+        record_add_row(&w->record, &r);
+        count_row(&w->all, &r);
+        table_block(&w->cycles);
+        for (size_t i = 0; i < n; i++)
+            TABLE_ADD(record_cycles, &w->cycles, cycle[i], i + 1, i >= from, step, file);
+    }
+    return status;
+}
+
+static void say_difference(const wt_job *work, const wt_cycles *cycles, const char *file)
+{
+    double sum = 0;
+    for (size_t i = 0; i < cycles->n; i++)
+        sum += cycles->cycle[i].coefficient;
+    if (cycles->difference > same_friction * sum / (double)cycles->n)
+        wt_parselog_add(work->log, WT_WARNING, file, NULL,
+                        "the friction coefficient of the file and its friction force over its load "
+                        "differ by up to %.3g; the first is used",
+                        cycles->difference);
+}
+
+static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
+                              writers *w, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_record record = {.n = 0};
+    wt_cycles cycles = {.n = 0};
+    wt_status status = flow_open(work, file, "record", WT_KIND_RECORD, &input, err);
+    const wt_read_options read = flow_read_options(file);
+    if (status == WT_OK)
+        status = wt_record_read(work->formats, input, &read, work->log, &record, err);
+    wt_input_close(input);
+    wt_estimate radius = job->track_radius;
+    if (isnan(radius.value))
+        radius = (wt_estimate){record.radius, 0, 0, "m"};
+    if (status == WT_OK)
+        status = wt_cycles_make(&record, job->cycle, radius.value, job->load.value, &cycles, err);
+    if (status == WT_OK && cycles.n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
+    if (status == WT_OK) {
+        say_difference(work, &cycles, file->name);
+        status = put_steps(job, work, &cycles, file->name, w, err);
+    }
+    if (status == WT_OK && wear_is_asked(job))
+        status = wear_add(job, &record, &cycles, radius, file->name, &w->wear, &w->rates, err);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    wt_cycles_clear(&cycles);
+    wt_record_clear(&record);
+    w->n_files += status == WT_OK;
+    return status;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* Of several rows the mean, with their scatter where that is more than their errors. */
+static wt_estimate mean_friction(const together *all)
+{
+    const double mean = all->sum / all->n,
+                 between = all->n > 1
+                               ? (all->squares - all->n * mean * mean) / (all->n * (all->n - 1))
+                               : 0;
+    return (wt_estimate){mean, sqrt(fmax(all->own / (all->n * all->n), between)), 0, "1"};
+}
+
+static wt_status end_tables(writers *w, bool wear, wt_status status, wt_record_tables *made)
+{
+    record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
+    if (w->all.n > 0 && w->all.alike)
+        record_set(&w->record, RECORD_KEY_FRICTION, mean_friction(&w->all));
+    if (wear)
+        wear_set_keys(&w->rates, &w->wear);
+    const wt_status written[] = {table_end(&w->record, &made->record),
+                                 table_end(&w->cycles, &made->record_cycles),
+                                 wear ? table_end(&w->wear, &made->wear) : WT_OK};
+    for (size_t i = 0; i < COUNT_OF(written); i++)
+        status = status != WT_OK ? status : written[i];
+    return status;
+}
+
+static wt_status make_tables(const wt_record_job *job, const wt_job *work, const flow_files *files,
+                             wt_record_tables *made, wt_error *err)
+{
+    const bool wear = wear_is_asked(job);
+    wt_status status = WT_OK;
+    size_t n_failed = 0;
+    writers w = {.record = table_begin(&record_schema, err),
+                 .cycles = table_begin(&record_cycles_schema, err)};
+    if (wear)
+        w.wear = table_begin(&wear_schema, err);
+    record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
+                           job->cycle == WT_CYCLE_AUTO ? "what each record tells"
+                                                       : kind_words(job->cycle));
+    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
+        wt_error failure = WT_ERROR_INIT;
+        status = measure_file(job, work, &files->file[i], &w, &failure);
+        if (status != WT_OK && flow_leave_out(work, &files->file[i], &failure)) {
+            status = WT_OK;
+        } else if (status != WT_OK) {
+            n_failed++;
+            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+        }
+    }
+    if (status == WT_OK && w.n_files == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no record of friction could be read");
+        flow_tell_files(files, n_failed, err);
+    }
+    cost_say(work, (cost_summary){.items = (double)w.n_files});
+    return end_tables(&w, wear, status, made);
+}
+
+wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)
+{
+    if (isnan(job->mass_loss.value) == isnan(job->density.value))
+        return WT_OK;
+    const char *const lacks = isnan(job->density.value) ? "density" : "mass-loss";
+    const wt_status status = wt_fail(err, WT_E_ARG, "no %s, and a volume takes both", lacks);
+    wt_error_advice(err, "give mass-loss, such as 3mg, and density, such as 1150kg/m^3");
+    return status;
+}
+
+wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record_tables *tables,
+                         wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of records");
+    flow_files files = {NULL, 0, NULL};
+    wt_record_tables made = {0};
+    wt_status status = param_check(wt_record_job_params(), job, err);
+    if (status == WT_OK)
+        status = wt_record_job_check(job, err);
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    if (status == WT_OK)
+        status = make_tables(job, work, &files, &made, err);
+    flow_files_clear(&files);
+    if (status == WT_OK) {
+        *tables = made;
+        made = (wt_record_tables){0};
+    }
+    wt_record_tables_clear(&made);
+    return status;
+}

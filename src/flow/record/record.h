@@ -1,0 +1,32 @@
+/* Parts of the job of friction records. Internal to flow/record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_RECORD_RECORD_H
+#define WEARTRACK_FLOW_RECORD_RECORD_H
+
+#include "flow/work/inputs.h"
+
+#include "data/tables/tables.h"
+
+/* What a file was recorded at; the first two members of each may be NaN. */
+typedef struct record_conditions {
+    double velocity, normal_force, pressure, temperature;
+} record_conditions;
+/* Means over cycles. */
+record_conditions conditions_of(const wt_cycle *cycles, size_t n);
+bool conditions_alike(record_conditions a, record_conditions b);
+/* The number of cycles from the first on that belong to one step. */
+size_t conditions_step(const wt_cycle *cycles, size_t n);
+
+/* Whether anything of the wear was given. */
+bool wear_is_asked(const wt_record_job *job);
+wt_record_job wear_left_out(wt_record_job job);
+/* Rows of a file for the table of the wear. `radius` [m] of the track, NaN: not known. */
+typedef struct wear_rates {
+    double sum, own, squares, n; /* of the rates: sum, sum of squared errors, sum of squares */
+} wear_rates;
+wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
+                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
+                   wt_error *err);
+void wear_set_keys(const wear_rates *rates, table_writer *t);
+
+#endif

@@ -1,0 +1,17 @@
+/* Nominal pressure of a ball. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/model.h"
+
+#include <math.h>
+
+wt_ball_contact wt_ball_contact_of(double load, double radius, double modulus, double poisson_ratio)
+{
+    const double a = cbrt(0.75 * load * radius * (1 - poisson_ratio * poisson_ratio) / modulus);
+    return (wt_ball_contact){a, load / (M_PI * a * a)};
+}
+
+double wt_ball_load(double pressure, double radius, double modulus, double poisson_ratio)
+{
+    const double a =
+        0.75 * M_PI * pressure * radius * (1 - poisson_ratio * poisson_ratio) / modulus;
+    return M_PI * a * a * pressure;
+}

@@ -1,0 +1,180 @@
+/* Tables of a text export to a record of friction: the tables of a file are its steps, and so are
+ * the blocks of a table.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The column of a channel, and the line above the table that stands for one that is not there. */
+static const struct {
+    wt_quantity quantity;
+    header_value header;
+} sources[WT_RECORD_CHANNELS] = {
+    [WT_RECORD_TIME] = {WT_Q_TIME, HEADER_COUNT},
+    [WT_RECORD_DISTANCE] = {WT_Q_SLIDING_DISTANCE, HEADER_COUNT},
+    [WT_RECORD_LAPS] = {WT_Q_LAPS, HEADER_COUNT},
+    [WT_RECORD_POSITION] = {WT_Q_POSITION_X, HEADER_COUNT},
+    [WT_RECORD_FRICTION_FORCE] = {WT_Q_FRICTION_FORCE, HEADER_COUNT},
+    [WT_RECORD_NORMAL_FORCE] = {WT_Q_NORMAL_FORCE, HEADER_LOAD},
+    [WT_RECORD_COEFFICIENT] = {WT_Q_FRICTION_COEFFICIENT, HEADER_COUNT},
+    [WT_RECORD_VELOCITY] = {WT_Q_VELOCITY, HEADER_VELOCITY},
+    [WT_RECORD_ROTATION] = {WT_Q_ANGULAR_FREQUENCY, HEADER_COUNT},
+    [WT_RECORD_PRESSURE] = {WT_Q_PRESSURE, HEADER_COUNT},
+    [WT_RECORD_TEMPERATURE] = {WT_Q_TEMPERATURE, HEADER_TEMPERATURE},
+    [WT_RECORD_WEAR_DEPTH] = {WT_Q_WEAR_DEPTH, HEADER_COUNT},
+};
+
+static double header_value_of(const text_table *t, int channel)
+{
+    const header_value h = sources[channel].header;
+    return h < HEADER_COUNT ? t->header.value[h] : (double)NAN;
+}
+
+static wt_status make_room(const text_file *file, wt_record *record, wt_error *err)
+{
+    size_t rows = 0;
+    bool whole = true;
+    for (size_t i = 0; i < file->n_tables; i++)
+        rows += file->tables[i].n_rows;
+    record->step = malloc((rows + 1) * sizeof *record->step);
+    for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+        for (size_t i = 0; i < file->n_tables && record->channel[c] == NULL; i++) {
+            const text_table *t = &file->tables[i];
+            if (text_table_column(t, sources[c].quantity, -1) == NULL &&
+                isnan(header_value_of(t, c)))
+                continue;
+            record->channel[c] = malloc((rows + 1) * sizeof *record->channel[c]);
+            whole = whole && record->channel[c] != NULL;
+        }
+    return whole && record->step != NULL ? WT_OK
+                                         : wt_fail(err, WT_E_MEMORY, "no memory for the record");
+}
+
+static bool is_known(const wt_record *record, wt_record_channel c, size_t i)
+{
+    return record->channel[c] != NULL && isfinite(record->channel[c][i]);
+}
+
+/* Friction, at a time or a lap where these are recorded. */
+static bool is_sample(const wt_record *record, size_t i)
+{
+    return (is_known(record, WT_RECORD_COEFFICIENT, i) ||
+            is_known(record, WT_RECORD_FRICTION_FORCE, i)) &&
+           (record->channel[WT_RECORD_TIME] == NULL || is_known(record, WT_RECORD_TIME, i)) &&
+           (record->channel[WT_RECORD_LAPS] == NULL || is_known(record, WT_RECORD_LAPS, i));
+}
+
+/* Other rows are left out; *n_left_out counts them. */
+static void add_table(const text_table *t, wt_record *record, size_t *step, size_t *n_left_out)
+{
+    const text_column *column[WT_RECORD_CHANNELS];
+    for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+        column[c] = text_table_column(t, sources[c].quantity, -1);
+    for (size_t r = 0; r < t->n_rows; r++) {
+        for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+            if (record->channel[c] != NULL)
+                record->channel[c][record->n] =
+                    column[c] != NULL ? text_table_value(t, r, column[c]) : header_value_of(t, c);
+        *step += r > 0 && t->blocks[r] != t->blocks[r - 1];
+        record->step[record->n] = *step;
+        if (is_sample(record, record->n))
+            record->n++;
+        else
+            ++*n_left_out;
+    }
+}
+
+/* Time, distance and laps that begin anew in a step run on; within a step time and laps must not
+ * fall, while a distance that is measured scatters. */
+static wt_status run_on(const text_file *file, wt_record *record, wt_record_channel c,
+                        const char *what, wt_error *err)
+{
+    double *const x = record->channel[c];
+    double shift = 0, last = (double)NAN;
+    for (size_t i = 0; x != NULL && i < record->n; i++) {
+        const bool begins = i > 0 && record->step[i] != record->step[i - 1];
+        if (begins && x[i] + shift < last)
+            shift = last - x[i];
+        x[i] += shift;
+        if (x[i] < last && c != WT_RECORD_DISTANCE) {
+            const wt_status status = wt_fail(err, WT_E_CORRUPT, "%s falls within a step", what);
+            wt_error_expected(err, "samples in the order in which they were taken");
+            wt_error_found(err, "%g behind %g at sample %zu", x[i], last, i + 1);
+            wt_error_file(err, file->name);
+            return status;
+        }
+        last = isnan(x[i]) ? last : x[i];
+    }
+    return WT_OK;
+}
+
+/* Many instruments count a force that presses as negative. */
+static void turn_load(const text_file *file, wt_record *record, wt_parselog *log)
+{
+    double *const load = record->channel[WT_RECORD_NORMAL_FORCE];
+    size_t negative = 0, positive = 0;
+    for (size_t i = 0; load != NULL && i < record->n; i++) {
+        negative += load[i] < 0;
+        positive += load[i] > 0;
+    }
+    if (negative <= positive)
+        return;
+    for (size_t i = 0; i < record->n; i++)
+        load[i] = -load[i];
+    wt_parselog_add(log, WT_NOTE, file->name, NULL,
+                    "the normal force is negative when it presses; it is turned round");
+}
+
+static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log, wt_error *err)
+{
+    size_t step = 0, left_out = 0;
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
+        const text_table *t = &file->tables[i];
+        const size_t before = record->n;
+        status = text_table_require(t, WT_KIND_RECORD, err);
+        if (status == WT_OK)
+            add_table(t, record, &step, &left_out);
+        if (isnan(record->radius))
+            record->radius = t->header.value[HEADER_RADIUS];
+        step += record->n > before;
+    }
+    if (status == WT_OK && record->n == 0)
+        status = text_fail_empty(file, "record of friction", err);
+    if (left_out > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, NULL,
+                        "%zu row%s without friction or without a time left out", left_out,
+                        left_out == 1 ? "" : "s");
+    return status;
+}
+
+wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_parselog *log, wt_record *record, wt_error *err)
+{
+    text_file file;
+    wt_record made = {.radius = (double)NAN};
+    wt_status status = text_scan(self, input, WT_KIND_RECORD, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    text_log_columns(&file, log);
+    status = make_room(&file, &made, err);
+    if (status == WT_OK)
+        status = fill(&file, &made, log, err);
+    if (status == WT_OK)
+        status = run_on(&file, &made, WT_RECORD_TIME, "time", err);
+    if (status == WT_OK)
+        status = run_on(&file, &made, WT_RECORD_DISTANCE, "distance", err);
+    if (status == WT_OK)
+        status = run_on(&file, &made, WT_RECORD_LAPS, "the number of laps", err);
+    if (status == WT_OK) {
+        turn_load(&file, &made, log);
+        *record = made;
+    } else {
+        wt_record_clear(&made);
+    }
+    text_file_free(&file);
+    return status;
+}

@@ -1,0 +1,538 @@
+/* Friction records: cycles, running-in, steady mean, stick-slip, wear track, ball.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/record/slow_scatter.h"
+#include "near.h"
+#include "weartrack/fit.h"
+#include "weartrack/read.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FRICTION WT_SHARED_DIR "/data/friction/"
+#define TOPOGRAPHY WT_SHARED_DIR "/data/topography/"
+
+static double uniform(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return ((double)(*state >> 11) + 0.5) / 9007199254740992.0;
+}
+
+static double normal(uint64_t *state)
+{
+    return sqrt(-2 * log(uniform(state))) * cos(2 * M_PI * uniform(state));
+}
+
+/* ---- measured records ------------------------------------------------------------------------ */
+
+static wt_record read_record(const char *path)
+{
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    wt_record record = {.n = 0};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_formats_new(NULL, &formats, NULL, &err) != WT_OK ||
+        wt_input_open(path, &input, &err) != WT_OK ||
+        wt_record_read(formats, input, NULL, NULL, &record, &err) != WT_OK)
+        fail_msg("%s: %s %s", path, err.message, err.found);
+    wt_input_close(input);
+    wt_formats_free(formats);
+    return record;
+}
+
+/* A row of friction-steady.csv: what it is of by its second and third columns. */
+typedef struct expected {
+    double n, k, x, kept, mean, deviation, tau, window, se_tau, se_bartlett, se_batch, min, max;
+} expected;
+
+static expected reference_row(const char *file, const char *quantity, const char *method)
+{
+    char line[4096], start[256];
+    expected e = {0};
+    const int length = snprintf(start, sizeof start, "%s,%s,%s,", file, quantity, method);
+    FILE *table = fopen(FRICTION "friction-steady.csv", "r");
+    bool found = false;
+    assert_non_null(table);
+    while (!found && fgets(line, sizeof line, table) != NULL)
+        found = strncmp(line, start, (size_t)length) == 0 &&
+                sscanf(line + length, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &e.n,
+                       &e.k, &e.x, &e.kept, &e.mean, &e.deviation, &e.tau, &e.window, &e.se_tau,
+                       &e.se_bartlett, &e.se_batch, &e.min, &e.max) == 13;
+    (void)fclose(table);
+    assert_true(found);
+    return e;
+}
+
+static void check_kept(const double *y, size_t n, size_t first, const expected *e, bool periodic)
+{
+    wt_steady s;
+    assert_int_equal(n, (size_t)e->n);
+    assert_int_equal(first, (size_t)e->k);
+    assert_int_equal(wt_steady_mean(y + first, n - first, &s, NULL), WT_OK);
+    assert_near(s.mean.value, e->mean, 1e-11);
+    assert_near(s.deviation, e->deviation, 1e-8);
+    assert_near(s.min, e->min, 1e-12);
+    assert_near(s.max, e->max, 1e-12);
+    if (periodic) /* the wave of the lap is no scatter */
+        return;
+    /* the reference's own estimates are no closer to one another */
+    assert_true(s.mean.standard_error > 0.5 * fmin(e->se_bartlett, e->se_batch));
+    assert_true(s.mean.standard_error < 2 * fmax(e->se_tau, e->se_batch));
+}
+
+static void check_reference(const char *file, const char *quantity, wt_cycle_kind kind)
+{
+    char path[512];
+    wt_cycles cycles;
+    const bool raw = kind == WT_CYCLE_SAMPLE && strncmp(file, "trib", 4) == 0;
+    (void)snprintf(path, sizeof path, FRICTION "%s", file);
+    wt_record record = read_record(path);
+    assert_int_equal(wt_cycles_make(&record, kind, (double)NAN, (double)NAN, &cycles, NULL), WT_OK);
+    double *y = malloc(cycles.n * sizeof *y);
+    assert_non_null(y);
+    for (size_t i = 0; i < cycles.n; i++)
+        y[i] = cycles.cycle[i].coefficient;
+    const expected all = reference_row(file, quantity, "all"),
+                   step = reference_row(file, quantity, "LS1"),
+                   mser = reference_row(file, quantity, "MSER-5");
+    check_kept(y, cycles.n, 0, &all, true);
+    check_kept(y, cycles.n, wt_change_of_mean(y, cycles.n), &step, raw);
+    check_kept(y, cycles.n, wt_mser_5(y, cycles.n), &mser, raw);
+    free(y);
+    wt_cycles_clear(&cycles);
+    wt_record_clear(&record);
+}
+
+static void test_of_the_reference(void **state)
+{
+    (void)state;
+    if (access(FRICTION "friction-steady.csv", R_OK) != 0)
+        skip();
+    check_reference("trib-c1.csv", "mu", WT_CYCLE_SAMPLE);
+    check_reference("trib-c1.csv", "mu mean per complete lap floor(Laps) (x = lap)", WT_CYCLE_LAP);
+    check_reference("velstep4_BRAVA_expb819_basalt.txt", "mu", WT_CYCLE_SAMPLE);
+}
+
+/* 3 N in every row, 7.6 samples in a lap, and a running-in that ends where the rules say, too. */
+static void test_of_a_measured_disc(void **state)
+{
+    (void)state;
+    if (access(FRICTION "trib-c1.csv", R_OK) != 0)
+        skip();
+    wt_cycles cycles;
+    wt_running_in end;
+    wt_record record = read_record(FRICTION "trib-c1.csv");
+    assert_int_equal(
+        wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &cycles, NULL), WT_OK);
+    assert_int_equal(cycles.kind, WT_CYCLE_LAP);
+    assert_near(cycles.cycle[1000].normal_force, 3, 1e-4);
+    assert_true(cycles.samples >= 7 && cycles.samples <= 8);
+    assert_true(cycles.difference < 2e-5 || isnan(cycles.difference));
+    double *y = malloc(cycles.n * sizeof *y);
+    assert_non_null(y);
+    for (size_t i = 0; i < cycles.n; i++)
+        y[i] = cycles.cycle[i].coefficient;
+    assert_int_equal(wt_running_in_find(y, cycles.n, &end, NULL), WT_OK);
+    assert_true(end.seen && end.end.low >= 270 && end.end.high <= 310);
+    free(y);
+    wt_cycles_clear(&cycles);
+    wt_record_clear(&record);
+}
+
+/* ---- scatter --------------------------------------------------------------------------------- */
+
+/* The filter against the covariance itself, which is inverted by elimination. */
+static void test_of_the_likelihood(void **state)
+{
+    (void)state;
+    enum { N = 9 };
+    const scatter_law law = {0.7, 0.6};
+    const double y[N] = {1, 3, 2, 5, 4, 4, 6, 5, 8};
+    double v[N][N + 3];
+    for (int i = 0; i < N; i++) {
+        for (int k = 0; k < N; k++)
+            v[i][k] = law.share * pow(law.memory, abs(i - k)) + (i == k ? 1 - law.share : 0);
+        v[i][N] = 1;
+        v[i][N + 1] = i;
+        v[i][N + 2] = y[i];
+    }
+    double log_det = 0, expected_product[6] = {0};
+    for (int p = 0; p < N; p++) {
+        log_det += log(v[p][p]);
+        for (int i = 0; i < N; i++)
+            for (int k = N + 2; i != p && k >= p; k--)
+                v[i][k] -= v[i][p] / v[p][p] * v[p][k];
+    }
+    for (int i = 0; i < N; i++) {
+        const double left[3] = {1, i, y[i]};
+        static const int pair[6][2] = {{0, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}, {2, 2}};
+        for (int c = 0; c < 6; c++)
+            expected_product[c] += left[pair[c][0]] * v[i][N + pair[c][1]] / v[i][i];
+    }
+    scatter_sums s = scatter_begin(law);
+    for (int i = 0; i < N; i++)
+        scatter_add(&s, y[i]);
+    assert_near(s.log_det, log_det, 1e-12);
+    for (int c = 0; c < 6; c++)
+        assert_near(s.product[c], expected_product[c], 1e-12);
+}
+
+static void test_of_the_mean_of_a_law(void **state)
+{
+    (void)state;
+    enum { N = 37 };
+    for (size_t i = 0; i < SCATTER_LAWS; i += 7) {
+        const scatter_law law = scatter_law_of(i, N);
+        double sum = 0;
+        for (int a = 0; a < N; a++)
+            for (int b = 0; b < N; b++)
+                sum += law.share * pow(law.memory, abs(a - b)) + (a == b ? 1 - law.share : 0);
+        assert_near(scatter_of_mean(law, N), sum / N / N, 1e-10);
+    }
+}
+
+/* White scatter: an interval hardly wider than Student's. Slow scatter: about as much wider as the
+ * law says. */
+static void test_of_the_error_of_a_mean(void **state)
+{
+    (void)state;
+    enum { N = 600, DRAWS = 40 };
+    static double y[N];
+    uint64_t seed = 5;
+    double white = 0, slow = 0;
+    for (int d = 0; d < DRAWS; d++) {
+        wt_steady s;
+        double x = normal(&seed);
+        for (int i = 0; i < N; i++)
+            y[i] = 0.5 + 0.01 * normal(&seed);
+        assert_int_equal(wt_steady_mean(y, N, &s, NULL), WT_OK);
+        white += s.mean.standard_error / (0.01 / sqrt(N)) / DRAWS;
+        for (int i = 0; i < N; i++) {
+            y[i] = 0.5 + 0.01 * x;
+            x = 0.9 * x + sqrt(1 - 0.81) * normal(&seed);
+        }
+        assert_int_equal(wt_steady_mean(y, N, &s, NULL), WT_OK);
+        slow += s.mean.standard_error / (0.01 * sqrt(19.0 / N)) / DRAWS;
+        assert_true(s.correlation > 5 && s.correlation < 80);
+    }
+    print_message("error over that of white scatter %.3f, of slow scatter %.3f\n", white, slow);
+    assert_true(white > 0.95 && white < 1.4); /* that slow scatter may be there costs this */
+    assert_true(slow > 0.85 && slow < 1.25);
+}
+
+static void test_of_few_points(void **state)
+{
+    (void)state;
+    const double y[3] = {1, 2, 3}, same[50] = {0};
+    wt_steady s;
+    wt_running_in r;
+    assert_int_equal(wt_steady_mean(y, 3, &s, NULL), WT_OK);
+    assert_near(s.mean.value, 2, 1e-15);
+    assert_true(isnan(s.mean.standard_error) && s.note[0] != '\0');
+    assert_int_equal(wt_steady_mean(y, 0, &s, NULL), WT_E_ARG);
+    assert_int_equal(wt_steady_mean(same, 50, &s, NULL), WT_OK);
+    assert_true(isnan(s.mean.standard_error));
+    assert_int_equal(wt_running_in_find(y, 3, &r, NULL), WT_OK);
+    assert_true(!r.seen && isnan(r.end.value) && r.steady_from == 0);
+    assert_int_equal(wt_running_in_find(same, 50, &r, NULL), WT_OK);
+    assert_false(r.seen);
+}
+
+/* One that never ends, one that is not there, one that is a jump without scatter. */
+static void test_of_the_end_of_a_running_in(void **state)
+{
+    (void)state;
+    enum { N = 300 };
+    static double y[N];
+    uint64_t seed = 11;
+    wt_running_in r;
+    for (int i = 0; i < N; i++)
+        y[i] = 1 - 0.002 * i + 0.002 * normal(&seed);
+    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    assert_false(r.seen);
+    assert_non_null(strstr(r.why_not, "does not become steady"));
+    for (int i = 0; i < N; i++)
+        y[i] = 1 + 0.002 * normal(&seed);
+    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    assert_true(!r.seen && r.steady_from == 0);
+    for (int i = 0; i < N; i++)
+        y[i] = i < 100 ? 1.5 : 1;
+    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    assert_true(r.seen);
+    assert_near(r.end.value, 100, 1e-12);
+    assert_near(r.end.low, 100, 1e-12);
+    assert_near(r.end.high, 100, 1e-12);
+}
+
+/* ---- stick-slip ------------------------------------------------------------------------------ */
+
+static void test_of_stick_slip(void **state)
+{
+    (void)state;
+    enum { N = 2000, PERIOD = 20 };
+    static double y[N];
+    uint64_t seed = 3;
+    wt_stick_slip s;
+    for (int i = 0; i < N; i++)
+        y[i] = 0.5 + 0.1 * (i % PERIOD) / (PERIOD - 1) + 0.001 * normal(&seed);
+    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    assert_true(s.n >= N / PERIOD - 2 && s.n <= N / PERIOD);
+    assert_near(s.amplitude, 0.1, 0.02);
+    assert_true(s.standard_error > 0 && s.standard_error < 1e-3);
+    for (int i = 0; i < N; i++) /* up and down alike: a wave */
+        y[i] = 0.5 + 0.1 * sin(2 * M_PI * i / PERIOD) + 0.001 * normal(&seed);
+    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    assert_true(s.n == 0 && isnan(s.amplitude));
+    for (int i = 0; i < N; i++)
+        y[i] = 0.5 + 0.001 * normal(&seed);
+    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    assert_int_equal(s.n, 0);
+    assert_int_equal(wt_stick_slip_find(y, 3, &s, NULL), WT_OK);
+    assert_int_equal(s.n, 0);
+}
+
+/* ---- cycles ---------------------------------------------------------------------------------- */
+
+enum { SAMPLES = 4000 };
+static double channel[WT_RECORD_CHANNELS][SAMPLES];
+static size_t steps[SAMPLES];
+
+static wt_record empty_record(void)
+{
+    memset(steps, 0, sizeof steps);
+    return (wt_record){.n = SAMPLES, .step = steps, .radius = (double)NAN};
+}
+
+static double *with(wt_record *record, wt_record_channel c)
+{
+    return record->channel[c] = channel[c];
+}
+
+/* A zero of 0.7 N does not reach the coefficient; turning round does not either. */
+static void test_of_strokes(void **state)
+{
+    (void)state;
+    for (int by_position = 0; by_position < 2; by_position++) {
+        wt_record record = empty_record();
+        double *position = by_position ? with(&record, WT_RECORD_POSITION) : NULL,
+               *time = with(&record, WT_RECORD_TIME),
+               *force = with(&record, WT_RECORD_FRICTION_FORCE),
+               *load = with(&record, WT_RECORD_NORMAL_FORCE);
+        for (int i = 0; i < SAMPLES; i++) {
+            const double phase = 2 * M_PI * (i + 0.5) / 100, side = sin(phase);
+            time[i] = 0.01 * i;
+            load[i] = 10;
+            /* at the very ends friction is on its way to the other side */
+            force[i] = 0.7 + 4 * (fabs(side) < 0.1 ? 10 * side : side > 0 ? 1 : -1);
+            if (position != NULL)
+                position[i] = -5e-3 * cos(phase);
+        }
+        wt_cycles c;
+        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL),
+                         WT_OK);
+        assert_int_equal(c.kind, WT_CYCLE_STROKE);
+        assert_true(c.n >= 37 && c.n <= 40 && c.has_zero);
+        for (size_t i = 0; i < c.n; i++) {
+            assert_near(c.cycle[i].coefficient, 0.4, by_position ? 1e-9 : 0.01);
+            assert_near(c.cycle[i].zero, 0.07, by_position ? 1e-9 : 0.02);
+        }
+        wt_cycles_clear(&c);
+    }
+}
+
+/* Laps by a column, and by distance and radius; whole ones alone. */
+static void test_of_laps(void **state)
+{
+    (void)state;
+    for (int by_distance = 0; by_distance < 2; by_distance++) {
+        wt_record record = empty_record();
+        double *laps = with(&record, by_distance ? WT_RECORD_DISTANCE : WT_RECORD_LAPS),
+               *mu = with(&record, WT_RECORD_COEFFICIENT);
+        for (int i = 0; i < SAMPLES; i++) {
+            const double lap = 0.4 + i / 37.3;
+            laps[i] = by_distance ? 2 * M_PI * 0.02 * lap : lap;
+            mu[i] = 0.5 + 0.2 * sin(2 * M_PI * lap);
+        }
+        wt_cycles c;
+        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, 0.02, (double)NAN, &c, NULL),
+                         WT_OK);
+        assert_int_equal(c.kind, WT_CYCLE_LAP);
+        assert_int_equal(c.n, (size_t)floor(0.4 + (SAMPLES - 1) / 37.3) - 1);
+        for (size_t i = 0; i < c.n; i++)
+            assert_near(c.cycle[i].coefficient, 0.5, 0.01);
+        wt_cycles_clear(&c);
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_STROKE, 0.02, (double)NAN, &c, &err),
+                         WT_E_MISSING);
+        if (by_distance)
+            assert_int_equal(
+                wt_cycles_make(&record, WT_CYCLE_LAP, (double)NAN, (double)NAN, &c, &err),
+                WT_E_MISSING);
+    }
+}
+
+/* A rate of sampling that is a hundred times higher in the second half gives it no more weight, and
+ * a step is no cycle of two. */
+static void test_of_spans_of_time(void **state)
+{
+    (void)state;
+    wt_record record = empty_record();
+    double *time = with(&record, WT_RECORD_TIME), *mu = with(&record, WT_RECORD_COEFFICIENT), t = 0;
+    size_t slow = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        time[i] = t;
+        mu[i] = t < 39.95 ? 1 : 2;
+        slow += t < 39.95;
+        t += t < 39.95 ? 1 : 0.01;
+        steps[i] = t > 60;
+    }
+    wt_cycles c;
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL),
+                     WT_OK);
+    assert_int_equal(c.kind, WT_CYCLE_TIME);
+    assert_int_equal(slow, 40);
+    size_t n = 0;
+    for (size_t i = 0; i < c.n; i++) {
+        n += c.cycle[i].coefficient < 1.5;
+        assert_true(c.cycle[i].n <= 101);
+        assert_int_equal(steps[c.cycle[i].first + c.cycle[i].n - 1], c.cycle[i].step);
+    }
+    assert_int_equal(n, 40);
+    assert_true(c.n >= 79 && c.n <= 82);
+    wt_cycles_clear(&c);
+}
+
+static void test_of_a_force_without_a_load(void **state)
+{
+    (void)state;
+    wt_record record = empty_record();
+    wt_cycles c;
+    wt_error err = WT_ERROR_INIT;
+    for (int i = 0; i < SAMPLES; i++) {
+        with(&record, WT_RECORD_TIME)[i] = i;
+        with(&record, WT_RECORD_FRICTION_FORCE)[i] = -3;
+    }
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, &err),
+                     WT_E_MISSING);
+    assert_non_null(strstr(err.advice, "--load"));
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, 6, &c, &err), WT_OK);
+    assert_near(c.cycle[0].coefficient, 0.5, 1e-15); /* on the positive side */
+    wt_cycles_clear(&c);
+    /* both told: they are compared */
+    for (int i = 0; i < SAMPLES; i++)
+        with(&record, WT_RECORD_COEFFICIENT)[i] = i == 7 ? 0.53 : 0.5;
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
+    assert_near(c.difference, 0.03, 1e-12);
+    wt_cycles_clear(&c);
+}
+
+/* ---- wear ------------------------------------------------------------------------------------ */
+
+static void test_of_a_made_track(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    static double x[N], z[N];
+    uint64_t seed = 9;
+    wt_track t;
+    double hits = 0;
+    for (int draw = 0; draw < 40; draw++) {
+        for (int i = 0; i < N; i++) { /* a parabola of 200 um, 4 um deep: area 2/3 of the box */
+            const double at = (i - 500) * 1e-6, part = at / 100e-6;
+            x[i] = i * 1e-6;
+            z[i] = 3e-6 + 0.002 * x[i] - (fabs(part) < 1 ? 4e-6 * (1 - part * part) : 0) +
+                   2e-8 * normal(&seed);
+        }
+        assert_int_equal(wt_track_find(x, z, N, &t, NULL), WT_OK);
+        assert_true(t.found);
+        assert_near(t.slope, 0.002, 0.01);
+        assert_near(t.depth, 4e-6, 0.02);
+        assert_near(t.area.value, 2.0 / 3 * 200e-6 * 4e-6, 0.01);
+        hits += fabs(t.area.value - 2.0 / 3 * 200e-6 * 4e-6) < 3 * t.area.standard_error;
+    }
+    assert_true(hits >= 36);
+    for (int i = 0; i < N; i++)
+        z[i] = 3e-6 + 2e-8 * sin(i * 0.7);
+    assert_int_equal(wt_track_find(x, z, N, &t, NULL), WT_OK);
+    assert_true(!t.found && isnan(t.area.value));
+    assert_int_equal(wt_track_find(x, z, 39, &t, NULL), WT_E_RANGE);
+}
+
+/* The profile by its two columns, in mm and um; the reference by the same rule. */
+static void test_of_a_measured_track(void **state)
+{
+    (void)state;
+    enum { MOST = 10000 };
+    static double x[MOST], z[MOST];
+    char line[1024];
+    double n, e[12];
+    size_t rows = 0;
+    FILE *profile = fopen(TOPOGRAPHY "wear-track-C1.csv", "r"),
+         *table = fopen(TOPOGRAPHY "wear-track.csv", "r");
+    bool found = false;
+    if (profile == NULL || table == NULL)
+        skip();
+    while (fgets(line, sizeof line, profile) != NULL) {
+        for (char *c = line; *c != '\0'; c++) /* decimal commas, and quotes around the numbers */
+            *c = *c == '"' || (*c == ',' && c[1] == '"') ? ' ' : *c == ',' ? '.' : *c;
+        double a, b;
+        if (sscanf(line, "%lf %lf", &a, &b) == 2 && rows < MOST) {
+            x[rows] = 1e-3 * a;
+            z[rows++] = 1e-6 * b;
+        }
+    }
+    while (!found && fgets(line, sizeof line, table) != NULL)
+        found = sscanf(line, "wear-track-C1.csv,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf",
+                       &n, &e[0], &e[1], &e[2], &e[3], &e[4], &e[5], &e[6], &e[7], &e[8], &e[9],
+                       &e[10]) == 12;
+    (void)fclose(profile);
+    (void)fclose(table);
+    assert_true(found);
+    assert_int_equal(rows, (size_t)n);
+    wt_track t;
+    assert_int_equal(wt_track_find(x, z, rows, &t, NULL), WT_OK);
+    assert_near(t.slope, e[0], 1e-7);
+    assert_near(t.scatter, e[2], 1e-8);
+    assert_near(t.depth, e[3], 1e-8);
+    assert_near(t.at, e[4], 1e-9);
+    assert_near(t.from, e[5], 1e-9);
+    assert_near(t.to, e[6], 1e-9);
+    assert_near(t.area.value, e[9], 1e-8);
+    assert_near(t.ridges, e[10], 1e-8);
+    print_message("area %.3g +- %.2g um^2\n", 1e12 * t.area.value, 1e12 * t.area.standard_error);
+}
+
+/* Hertz: the load of a sphere at the depth a^2 / R, and the pressure back to its load. */
+static void test_of_a_ball(void **state)
+{
+    (void)state;
+    const double radius = 3e-3, modulus = 20e6, nu = 0.49, load = 2;
+    const wt_ball_contact c = wt_ball_contact_of(load, radius, modulus, nu);
+    const double depth = c.contact_radius * c.contact_radius / radius;
+    assert_near(4.0 / 3 * modulus / (1 - nu * nu) * sqrt(radius) * pow(depth, 1.5), load, 1e-12);
+    assert_near(c.pressure, load / (M_PI * c.contact_radius * c.contact_radius), 1e-12);
+    assert_near(wt_ball_load(c.pressure, radius, modulus, nu), load, 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_of_the_reference),
+        cmocka_unit_test(test_of_a_measured_disc),
+        cmocka_unit_test(test_of_the_likelihood),
+        cmocka_unit_test(test_of_the_mean_of_a_law),
+        cmocka_unit_test(test_of_the_error_of_a_mean),
+        cmocka_unit_test(test_of_few_points),
+        cmocka_unit_test(test_of_the_end_of_a_running_in),
+        cmocka_unit_test(test_of_stick_slip),
+        cmocka_unit_test(test_of_strokes),
+        cmocka_unit_test(test_of_laps),
+        cmocka_unit_test(test_of_spans_of_time),
+        cmocka_unit_test(test_of_a_force_without_a_load),
+        cmocka_unit_test(test_of_a_made_track),
+        cmocka_unit_test(test_of_a_measured_track),
+        cmocka_unit_test(test_of_a_ball),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,210 @@
+/* The job of friction records on files with a known truth, and what is said of files that lack
+ * something. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "all_formats.h"
+#include "cells.h"
+#include "near.h"
+
+#include "weartrack/flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RECORDS WT_SOURCE_DIR "/fixtures/record/"
+#define FIXTURES WT_SOURCE_DIR "/fixtures/formats/"
+
+static wt_status make(const wt_record_job *options, const char *const *paths, size_t n,
+                      wt_parselog *log, wt_record_tables *tables, wt_error *err)
+{
+    wt_file_set set = {.patterns = paths, .n_patterns = n, .read = wt_read_defaults()};
+    wt_record_job job = *options;
+    wt_job work = wt_job_defaults();
+    work.formats = formats;
+    work.log = log;
+    job.sets = &set;
+    job.n_sets = 1;
+    return wt_record_make(&job, &work, tables, err);
+}
+
+static wt_record_tables made(const wt_record_job *job, const char *path, wt_parselog *log)
+{
+    wt_record_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (make(job, &path, 1, log, &tables, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    return tables;
+}
+
+static wt_record_job disc_job(void)
+{
+    wt_record_job job = wt_record_job_defaults();
+    job.load = (wt_estimate){5, 0.05, 0, "N"};
+    job.track_radius.value = 12e-3;
+    return job;
+}
+
+/* 4 N under 5 N behind a running-in of 20 laps. */
+static void test_disc(void **state)
+{
+    (void)state;
+    const wt_record_job job = disc_job();
+    wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
+    assert_null(t.wear);
+    assert_int_equal(wt_table_n_rows(t.record), 1);
+    assert_int_equal(wt_table_n_rows(t.record_cycles), 79); /* the last one is not whole */
+    assert_string_equal(text_cell(t.record, 0, "averaged_over"), "lap");
+    assert_true(number_cell(t.record, 0, "friction_coefficient_low") < 0.8);
+    assert_true(number_cell(t.record, 0, "friction_coefficient_high") > 0.8);
+    assert_true(number_cell(t.record, 0, "running_in_low") <= 20);
+    assert_true(number_cell(t.record, 0, "running_in_high") >= 20);
+    const double end = number_cell(t.record, 0, "running_in");
+    assert_near(number_cell(t.record, 0, "running_in_time"), 0.6 * end, 0.01);
+    assert_near(number_cell(t.record, 0, "running_in_distance"), 2 * M_PI * 0.012 * end, 0.01);
+    assert_near(number_cell(t.record, 0, "velocity"), 2 * M_PI * 0.012 / 0.6, 1e-3);
+    assert_true(strstr(text_cell(t.record, 0, "note"), "few samples") != NULL);
+    for (size_t i = 0; i < 79; i++) {
+        const double steady = number_cell(t.record_cycles, i, "steady");
+        assert_true((steady > 0) == ((double)i >= number_cell(t.record, 0, "running_in_high")));
+    }
+    wt_estimate key;
+    assert_true(wt_table_estimate(t.record, "friction_coefficient", &key));
+    assert_near(key.value, number_cell(t.record, 0, "friction_coefficient"), 1e-12);
+    wt_record_tables_clear(&t);
+}
+
+/* Each velocity has a row, and together there is no one coefficient. */
+static void test_steps(void **state)
+{
+    (void)state;
+    const wt_record_job job = wt_record_job_defaults();
+    wt_record_tables t = made(&job, RECORDS "steps.csv", NULL);
+    assert_int_equal(wt_table_n_rows(t.record), 4);
+    for (size_t i = 0; i < 4; i++) {
+        assert_near(number_cell(t.record, i, "velocity"), 0.01 * pow(3, (double)i), 1e-9);
+        assert_near(number_cell(t.record, i, "temperature"), 296.15 + 10 * (double)i, 1e-9);
+        assert_near(number_cell(t.record, i, "normal_force"), i % 2 ? 10 : 5, 1e-9);
+        assert_near(number_cell(t.record, i, "friction_coefficient"), 0.8 * pow(1.15, (double)i),
+                    0.05);
+        assert_int_equal((int)number_cell(t.record, i, "step"), (int)i + 1);
+        assert_int_equal((int)number_cell(t.record, i, "cycles"), 40);
+    }
+    wt_estimate key;
+    assert_false(wt_table_estimate(t.record, "friction_coefficient", &key));
+    wt_record_tables_clear(&t);
+}
+
+/* The signs of two directions do not cancel; forces are of grams. */
+static void test_two_directions(void **state)
+{
+    (void)state;
+    wt_record_job job = wt_record_job_defaults();
+    job.cycle = WT_CYCLE_SAMPLE;
+    wt_record_tables t = made(&job, FIXTURES "cetr-viewer/two-directions.csv", NULL);
+    assert_int_equal(wt_table_n_rows(t.record), 2);
+    assert_near(number_cell(t.record, 0, "friction_coefficient"), 0.301397, 1e-5);
+    assert_near(number_cell(t.record, 1, "friction_coefficient"), 0.321357, 1e-5);
+    assert_near(number_cell(t.record, 0, "normal_force"), 100.2 * 9.80665e-3, 1e-9);
+    assert_true(number_cell(t.record, 0, "difference") < 1e-6);
+    wt_record_tables_clear(&t);
+}
+
+/* k = V / (F s) by all ways, and the ball. */
+static void test_wear(void **state)
+{
+    (void)state;
+    wt_record_job job = disc_job();
+    const double round = 2 * M_PI * 12e-3, distance = round * (79 + 5.0 / 6);
+    job.track_area = (wt_estimate){3e-11, 6e-12, 0, "m^2"};
+    job.mass_loss = (wt_estimate){3e-9, 3e-10, 0, "kg"};
+    job.density.value = 1150;
+    job.ball_radius.value = 3e-3;
+    job.modulus.value = 20e6;
+    wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
+    assert_int_equal(wt_table_n_rows(t.wear), 3);
+    const double by_mass = 3e-9 / 1150 / (5 * distance), by_area = 3e-11 * round / (5 * distance);
+    assert_near(number_cell(t.wear, 0, "specific_wear_rate"), by_mass, 1e-4);
+    assert_near(number_cell(t.wear, 1, "specific_wear_rate"), by_area, 1e-4);
+    assert_near(number_cell(t.wear, 1, "specific_wear_rate_standard_error"),
+                by_area * hypot(0.2, 0.01), 1e-4);
+    assert_near(number_cell(t.wear, 1, "specific_wear_rate_high") /
+                    number_cell(t.wear, 1, "specific_wear_rate"),
+                exp(1.959963984540054 * hypot(0.2, 0.01)), 1e-6);
+    /* 4 um deep by 0.05 um a lap, between the means of the ends */
+    const double h = number_cell(t.wear, 2, "depth");
+    assert_near(h, 0.05e-6 * 75, 0.05);
+    const double cap = 3e-3 * 3e-3 * acos(1 - h / 3e-3) - (3e-3 - h) * sqrt(h * (6e-3 - h));
+    assert_near(number_cell(t.wear, 2, "volume"), cap * round, 1e-9);
+    const wt_ball_contact ball = wt_ball_contact_of(5, 3e-3, 20e6, 0.5);
+    assert_near(number_cell(t.wear, 0, "pressure"), ball.pressure, 1e-12);
+    assert_near(number_cell(t.wear, 0, "duty"), 3 * ball.contact_radius / (8 * 12e-3), 1e-12);
+    wt_record_tables_clear(&t);
+    /* what was given without an error has none */
+    job = disc_job();
+    job.load.standard_error = 0;
+    job.track_area = (wt_estimate){3e-11, 0, 0, "m^2"};
+    t = made(&job, RECORDS "disc.csv", NULL);
+    assert_near(number_cell(t.wear, 0, "specific_wear_rate"), by_area, 1e-4);
+    assert_true(isnan(number_cell(t.wear, 0, "specific_wear_rate_low")));
+    wt_record_tables_clear(&t);
+}
+
+static void test_what_is_lacking(void **state)
+{
+    (void)state;
+    wt_record_job job = wt_record_job_defaults();
+    wt_record_tables t = {0};
+    wt_error err = WT_ERROR_INIT;
+    const char *const disc = RECORDS "disc.csv";
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_MISSING);
+    assert_non_null(strstr(err.advice, "--load"));
+    assert_true(t.record == NULL && t.record_cycles == NULL && t.wear == NULL);
+    job.mass_loss = (wt_estimate){1e-6, 0, 0, "kg"};
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_ARG);
+    assert_non_null(strstr(err.advice, "density"));
+    job = wt_record_job_defaults();
+    job.poisson_ratio = 0.6;
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_RANGE);
+    job = wt_record_job_defaults();
+    job.cycle = WT_CYCLE_STROKE;
+    job.load.value = 5;
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_MISSING);
+    assert_non_null(strstr(err.message, "double strokes"));
+}
+
+/* A coefficient that is not that of its forces is said. */
+static void test_a_contradiction(void **state)
+{
+    (void)state;
+    static const char path[] = "test_flow_record.csv";
+    const wt_record_job job = wt_record_job_defaults();
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(out, "time (s),mu,Ff (N),Fn (N)\n");
+    for (int i = 0; i < 100; i++)
+        fprintf(out, "%d,%g,%g,10\n", i, 0.5 + 0.001 * (i % 7), 6 + 0.01 * (i % 7));
+    fclose(out);
+    wt_parselog *log = wt_parselog_new();
+    wt_record_tables t = made(&job, path, log);
+    bool said = false;
+    for (size_t i = 0; i < wt_parselog_count(log); i++)
+        said = said || strstr(wt_parselog_get(log, i).text, "differ by up to 0.1") != NULL;
+    assert_true(said);
+    assert_near(number_cell(t.record, 0, "difference"), 0.1, 1e-9);
+    assert_near(number_cell(t.record, 0, "friction_coefficient"), 0.503, 1e-3);
+    wt_record_tables_clear(&t);
+    wt_parselog_free(log);
+    (void)remove(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_two_directions),
+        cmocka_unit_test(test_wear),
+        cmocka_unit_test(test_what_is_lacking),
+        cmocka_unit_test(test_a_contradiction),
+    };
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
+}
