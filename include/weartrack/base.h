@@ -354,6 +354,8 @@ WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
                                            char *const argv[]) WT_NODISCARD;
 WT_API wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
     WT_NODISCARD;                                                 /* copied */
+/* Of the program that made it: of this one, unless a file was read. Borrowed. */
+WT_API const char *wt_provenance_version(const wt_provenance *p);
 WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */
 WT_API size_t wt_provenance_n_inputs(const wt_provenance *p);
 WT_API const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i);

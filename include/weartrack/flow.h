@@ -947,6 +947,13 @@ WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NO
  * table of what was asked for the result is one nevertheless, and says WT_ANSWERED_NOTHING. */
 WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
+/* Whether `result`, read from its file, is what the case would give again by `command` (as
+ * wt_provenance_command tells it): *current is false, and `why` says what differs first, if version,
+ * command line, case or a file that was read is another, a file is new or gone, or it was answered in
+ * part. What nothing asked for is not looked at, descriptions of --formats are not either. */
+WT_API wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
+                                   bool *current, char *why, size_t size,
+                                   wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct wt_provenance {
-    char *command;
+    char *version, *command; /* NULL: of this program; not set */
     wt_provenance_input *inputs;
     size_t n;
 };
@@ -41,6 +41,7 @@ void wt_provenance_free(wt_provenance *p)
     for (size_t i = p->n; i > 0; i--)
         input_free(&p->inputs[i - 1], i > 1 ? &p->inputs[i - 2] : NULL);
     free(p->inputs);
+    free(p->version);
     free(p->command);
     free(p);
 }
@@ -90,13 +91,21 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     return WT_OK;
 }
 
-wt_status provenance_restore_command(wt_provenance *p, const char *command)
+wt_status provenance_restore(wt_provenance *p, const char *version_and_command)
 {
-    char *const copy = strdup(command);
-    if (copy == NULL)
+    const size_t length = strcspn(version_and_command, "\n");
+    const char *const rest = version_and_command + length;
+    char *const version = strndup(version_and_command, length);
+    char *const command = strdup(rest[0] != '\0' ? rest + 1 : rest);
+    if (version == NULL || command == NULL) {
+        free(version);
+        free(command);
         return WT_E_MEMORY;
+    }
+    free(p->version);
     free(p->command);
-    p->command = copy;
+    p->version = version;
+    p->command = command;
     return WT_OK;
 }
 
@@ -118,6 +127,11 @@ wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *i
     copy.sha256[sizeof copy.sha256 - 1] = '\0';
     p->inputs[p->n++] = copy;
     return WT_OK;
+}
+
+const char *wt_provenance_version(const wt_provenance *p)
+{
+    return p->version != NULL ? p->version : wt_version();
 }
 
 const char *wt_provenance_command(const wt_provenance *p)

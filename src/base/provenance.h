@@ -4,7 +4,7 @@
 
 #include "weartrack/base.h"
 
-/* As wt_provenance_command gave it. */
-wt_status provenance_restore_command(wt_provenance *p, const char *command) WT_NODISCARD;
+/* As wt_provenance_version and wt_provenance_command gave them, with a line end between. */
+wt_status provenance_restore(wt_provenance *p, const char *version_and_command) WT_NODISCARD;
 
 #endif

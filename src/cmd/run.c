@@ -1,7 +1,11 @@
 /* weartrack run: a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "cmd/cmd.h"
+#include "cmd/tables.h"
 #include "data/tables/tables.h"
 
 static bool any_stage(const wt_table *plan)
@@ -49,7 +53,7 @@ static void print_answer(const wt_result *result)
 }
 
 typedef struct own_options {
-    bool plan, no_report;
+    bool plan, no_report, keep;
     const char *report;
 } own_options;
 
@@ -67,6 +71,10 @@ static const wt_param own_rows[] = {
      .unset = "the name of the case with -report, in the current folder",
      .help = "where the report goes; a report that is there is replaced, another folder is not"},
     {PARAM_FLAG_OF("no-report", own_options, no_report), .help = "write no report"},
+    {PARAM_FLAG_OF("keep", own_options, keep),
+     .help = "do not run again what would give the same: the result is there, and neither version, "
+             "command line, case nor any file that was read has changed; nothing was missing, and "
+             "--formats is not used"},
 };
 CMD_OPTIONS(own_params, own_options, own_rows)
 
@@ -125,6 +133,50 @@ static wt_status compute_run(run_call *r)
     return status;
 }
 
+/* Whether the result that is there stands; it is the result of the session then. */
+static bool is_kept(run_call *r)
+{
+    wt_result *before = NULL;
+    wt_provenance *now = NULL;
+    bool current = false;
+    char why[256] = "";
+    cmd_session *s = &r->s;
+    if (!r->own.keep || access(r->result_name, F_OK) != 0)
+        return false;
+    if (s->common.formats != NULL) /* whose descriptions are not among the inputs */
+        snprintf(why, sizeof why, "--formats");
+    else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
+        snprintf(why, sizeof why, "it cannot be read");
+    else if ((now = wt_provenance_new()) == NULL ||
+             wt_provenance_set_command(now, cmd_full_argc, cmd_full_argv) != WT_OK ||
+             wt_run_is_current(r->the_case, before, wt_provenance_command(now), &current, why,
+                               sizeof why, NULL) != WT_OK)
+        snprintf(why, sizeof why, "out of memory");
+    if (!current && !s->common.quiet)
+        cmd_say("%s: made again: %s\n", r->result_name, why);
+    if (current) {
+        s->result = before;
+        before = NULL;
+    }
+    wt_result_free(before);
+    wt_provenance_free(now);
+    return current;
+}
+
+/* A page that is older than the result was not finished. */
+static bool is_page_kept(const run_call *r)
+{
+    struct stat page, result;
+    char *name = NULL;
+    const bool kept = asprintf(&name, "%s/index.html", r->folder_name) >= 0 &&
+                      stat(name, &page) == 0 && stat(r->result_name, &result) == 0 &&
+                      (page.st_mtim.tv_sec > result.st_mtim.tv_sec ||
+                       (page.st_mtim.tv_sec == result.st_mtim.tv_sec &&
+                        page.st_mtim.tv_nsec >= result.st_mtim.tv_nsec));
+    free(name);
+    return kept;
+}
+
 static wt_status draw_page(run_call *r)
 {
     r->report.threads = r->run.threads;
@@ -153,15 +205,19 @@ static wt_status run_case(run_call *r, bool style_given)
         status = prepare_run(r);
     if (status == WT_OK)
         status = cmd_try_output(r->result_name, &r->s.err);
-    if (status == WT_OK)
+    const bool kept = status == WT_OK && is_kept(r);
+    if (kept)
+        cmd_tables_remarks(&r->s, r->result_name, r->s.result);
+    else if (status == WT_OK)
         status = compute_run(r);
     if (status != WT_OK)
         return status;
     print_answer(r->s.result);
     fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!r->s.common.quiet)
-        cmd_say("result: %s\n", r->result_name);
-    return r->own.no_report ? WT_OK : draw_page(r);
+        cmd_say("result: %s%s\n", r->result_name,
+                kept ? " (kept: nothing that it was made of has changed)" : "");
+    return r->own.no_report || (kept && is_page_kept(r)) ? WT_OK : draw_page(r);
 }
 
 static bool check_output(run_call *r)

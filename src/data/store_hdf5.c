@@ -433,7 +433,7 @@ static bool check_format(reader *r)
 typedef struct store_words {
     char **tables, **digests;
     size_t n_tables, n_digests;
-    char *command; /* or NULL */
+    char *version, *command; /* or NULL */
 } store_words;
 
 static bool read_store_words(reader *r, store_words *w)
@@ -441,7 +441,8 @@ static bool read_store_words(reader *r, store_words *w)
     bool good = check_format(r) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX,
                                               &w->tables, &w->n_tables);
     if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
-        good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL;
+        good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL &&
+               (w->version = read_text(r, r->file, STORE_VERSION_ATTRIBUTE)) != NULL;
     good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
                               &w->digests, &w->n_digests);
     const size_t n = w->n_tables + (w->command != NULL) +
@@ -472,7 +473,7 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     good = good && (!tail.has_origin || pass_table(r, STORE_INPUTS_TABLE)) &&
            (wanted != NULL || pass_case(r, &tail.case_length));
     if (good && tail.has_origin)
-        tail.command_length = fwrite(w.command, 1, strlen(w.command), r->out);
+        tail.origin_length = (uint64_t)fprintf(r->out, "%s\n%s", w.version, w.command);
     for (size_t i = 0; good && i < w.n_digests; i++)
         if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
             pass_digest(r, w.digests[i]);
@@ -480,6 +481,7 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
         (void)fwrite(&tail, sizeof tail, 1, r->out);
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
+    free(w.version);
     free(w.command);
     return r->status;
 }

@@ -20,12 +20,11 @@ static wt_status corrupt(wt_error *err, const char *place, const char *message)
     return WT_E_CORRUPT;
 }
 
-static wt_status take_command(const char *text, size_t length, wt_provenance *provenance)
+static wt_status take_origin(const char *text, size_t length, wt_provenance *provenance)
 {
-    char *const command = strndup(text, length);
-    const wt_status status =
-        command != NULL ? provenance_restore_command(provenance, command) : WT_E_MEMORY;
-    free(command);
+    char *const origin = strndup(text, length);
+    const wt_status status = origin != NULL ? provenance_restore(provenance, origin) : WT_E_MEMORY;
+    free(origin);
     return status;
 }
 
@@ -41,7 +40,7 @@ static wt_status check_digest(const char *bytes, const char *end, const char *ex
 
 /* The parts of what came through the door. */
 typedef struct store_parts {
-    const char *tables, *case_file, *command, *digests; /* each ends where the next begins */
+    const char *tables, *case_file, *origin, *digests; /* each ends where the next begins */
     store_tail tail;
 } store_parts;
 
@@ -55,13 +54,12 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
     const size_t n = t->n_tables + t->has_origin + (t->case_length > 0);
     const size_t digests = n * STORE_DIGEST_SIZE;
     if (t->n_tables > RESULT_TABLES_MAX || digests > length ||
-        t->command_length > length - digests ||
-        t->case_length > length - digests - t->command_length)
+        t->origin_length > length - digests || t->case_length > length - digests - t->origin_length)
         return false;
     p->tables = bytes;
     p->digests = bytes + length - digests;
-    p->command = p->digests - t->command_length;
-    p->case_file = p->command - t->case_length;
+    p->origin = p->digests - t->origin_length;
+    p->case_file = p->origin - t->case_length;
     return true;
 }
 
@@ -88,7 +86,7 @@ static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *
     if (status == WT_E_ARG)
         status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
     if (status == WT_OK && p->tail.case_length > 0)
-        status = check_digest(p->case_file, p->command, digest, STORE_CASE_DATASET, err);
+        status = check_digest(p->case_file, p->origin, digest, STORE_CASE_DATASET, err);
     return status;
 }
 
@@ -99,7 +97,7 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
         return corrupt(err, "", "the content is not whole");
     wt_status status = take_tables(&p, result, err);
     if (status == WT_OK && p.tail.has_origin)
-        status = take_command(p.command, p.tail.command_length, wt_result_provenance(result));
+        status = take_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
     if (status == WT_OK)
         status = wt_result_set_case(result, p.case_file, p.tail.case_length, err);
     return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;

@@ -132,6 +132,7 @@ static const struct {
     {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
+    {"run", "keep", "the result that is there, of the same command: cli_keep"},
     {NULL, "style", "of the pictures: test_report"},
     {"compare", "at-temperature", "of materials: unit_truth_materials, tests/cli/materials.txt"},
     {"compare", "at-frequency", "the same"},
