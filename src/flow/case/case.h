@@ -15,6 +15,7 @@ typedef struct case_files {
     wt_estimate spring_constant, sensitivity; /* of the group; value NaN = as in the files */
     double lever_error, sensitivity_error; /* relative, the largest that its files state; NaN: one
                                               of them states none */
+    struct case_files *next;               /* of another role */
 } case_files;
 
 /* Constants at the reference temperature of the DMA. */
@@ -33,6 +34,7 @@ typedef struct case_setting {
 struct wt_case {
     pool memory;            /* of everything the case owns */
     case_setting *settings; /* the last one first */
+    case_files *roles;      /* that have files, likewise */
     const char *path, *folder;
     const char *xml; /* the file as it was read */
     size_t xml_length;

@@ -70,6 +70,8 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     case_files group = no_files();
     wt_status status = read_attributes(c, parent, common, &group, err);
     files->n = n;
+    files->next = c->roles;
+    c->roles = files;
     const xmlNode *node = case_child(parent, name);
     for (size_t i = 0; status == WT_OK && i < n; i++, node = case_next(node, name)) {
         wt_file_set *set = &files->sets[i];

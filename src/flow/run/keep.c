@@ -113,13 +113,11 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
 
 static wt_status compare_inputs(comparison *k, wt_error *err)
 {
-    const wt_case *const c = k->c;
-    const case_files *const roles[] = {&c->bulk,   &c->track,    &c->dma,
-                                       &c->points, &c->spectrum, &c->softening};
     size_t seen = 1; /* the case itself */
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && !k->differs && i < COUNT_OF(roles); i++)
-        status = compare_files(k, roles[i], &seen, err);
+    for (const case_files *role = k->c->roles; status == WT_OK && !k->differs && role != NULL;
+         role = role->next)
+        status = compare_files(k, role, &seen, err);
     if (seen < wt_provenance_n_inputs(k->made_of))
         differs(k, "a file that it was made of is gone");
     return status;
