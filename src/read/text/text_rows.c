@@ -124,6 +124,10 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
+            if (!isfinite(values[c])) { /* in a unit that is too large for it */
+                values[c] = (double)NAN;
+                warn_of_cell(s, column);
+            }
             break;
         case CELL_MISSING:
             break;
