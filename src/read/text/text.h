@@ -133,8 +133,8 @@ typedef struct text_table {
     size_t n_columns;
     text_column *problems; /* columns with a problem */
     size_t n_problems;
-    wt_quantity_set quantities;                               /* of `columns` */
-    size_t group_cell, segment_cell, curve_cell, sample_cell; /* SIZE_MAX if not there */
+    wt_quantity_set quantities;                                            /* of `columns` */
+    size_t group_cell, segment_cell, curve_cell, sample_cell, number_cell; /* SIZE_MAX: none */
     double *values;       /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] number that changes where a block begins */
     unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
