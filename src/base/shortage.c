@@ -21,12 +21,15 @@ wt_status shortage_fail(int number, wt_error *err)
     shortage_note(number);
     if (number == ENOMEM)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (number == EMFILE || number == ENFILE) {
+        (void)wt_fail(err, WT_E_INTERNAL, "a file that reading needs cannot be opened: %s",
+                      strerror(number));
+        wt_error_advice(err, MORE_FILES_ADVICE);
+        return WT_E_INTERNAL;
+    }
     (void)wt_fail(err, WT_E_INTERNAL, "the units database of UDUNITS-2 cannot be read%s%s",
                   number > 0 ? ": " : "", number > 0 ? strerror(number) : "");
-    wt_error_advice(err, "%s",
-                    number == EMFILE || number == ENFILE
-                        ? MORE_FILES_ADVICE
-                        : "install it, or name it in the variable UDUNITS2_XML_PATH");
+    wt_error_advice(err, "install it, or name it in the variable UDUNITS2_XML_PATH");
     return WT_E_INTERNAL;
 }
 

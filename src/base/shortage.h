@@ -12,7 +12,8 @@
     "more files must be open at once than the system lets: allow more, as by ulimit -n 256"
 
 void shortage_forget(void);
-/* ENOMEM, or why the units database of UDUNITS-2 cannot be read, as errno has it; -1: not known. */
+/* ENOMEM, or why the units database of UDUNITS-2 or, for want of descriptors, what converts letters
+ * cannot be read, as errno has it; -1: not known. */
 void shortage_note(int number);
 /* Notes it and says so. */
 wt_status shortage_fail(int number, wt_error *err);

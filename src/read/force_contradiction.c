@@ -22,13 +22,13 @@ static double fitted_slope(const double *x, const double *y, size_t n, double *s
 {
     double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, m = 0;
     for (size_t i = 0; i < n; i++)
-        if (!isnan(x[i]) && !isnan(y[i])) {
+        if (isfinite(x[i]) && isfinite(y[i])) {
             sx += x[i];
             sy += y[i];
             m++;
         }
     for (size_t i = 0; i < n; i++)
-        if (!isnan(x[i]) && !isnan(y[i])) {
+        if (isfinite(x[i]) && isfinite(y[i])) {
             sxx += (x[i] - sx / m) * (x[i] - sx / m);
             sxy += (x[i] - sx / m) * (y[i] - sy / m);
             syy += (y[i] - sy / m) * (y[i] - sy / m);

@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "base/shortage.h"
 #include "data/force_curve.h"
+#include "read/bytes/samples.h"
 #include "read/facts.h"
 #include "read/force_contradiction.h"
 
@@ -303,6 +304,20 @@ static bool is_wanted(const wt_read_options *options, const force_facts *facts,
            sensor->problem != NULL;
 }
 
+/* Of every format: what is no finite number, as it was stored or by its scaling, is missing. The
+ * words are without a count, so that the log has one line for a map. */
+static wt_status fill_channel(wt_force_source *source, const force_facts *facts,
+                              const force_column *column, size_t n, double *values, wt_error *err)
+{
+    const wt_status status =
+        source->stream->decode(source, column->signal, column->scaling, n, values, err);
+    if (status == WT_OK && samples_mend(values, n) > 0)
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                        "samples of %s are missing: not measured, or no finite number",
+                        column->signal->name);
+    return status;
+}
+
 wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
                             wt_force_curve *curve, wt_error *err)
 {
@@ -338,6 +353,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
     segment->frequency = facts->frequency > 0 ? facts->frequency : (double)NAN;
     segment->setpoint = facts->setpoint * deflection_factor(facts->setpoint_quantity, WT_Q_FORCE,
                                                             &facts->cantilever, &used);
+    (void)samples_mend(&segment->setpoint, 1);
     for (size_t i = 0; i < plan.n && status == WT_OK; i++) {
         const force_signal *signal = plan.columns[i].signal;
         wt_channel *channel = &segment->channels[i];
@@ -347,8 +363,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
         if (signal == NULL)
             sample_times(facts->start, facts->duration, n, channel->values);
         else
-            status = source->stream->decode(source, signal, plan.columns[i].scaling, n,
-                                            channel->values, err);
+            status = fill_channel(source, facts, &plan.columns[i], n, channel->values, err);
     }
     if (status == WT_OK)
         contradiction_heights(source, facts, segment);

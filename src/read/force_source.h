@@ -55,7 +55,8 @@ typedef struct force_stream {
                       wt_error *err);
     /* Fills an empty curve. */
     wt_status (*next)(wt_force_source *source, wt_force_curve *curve, wt_error *err);
-    /* values[n] = scaling of the numbers of a channel of the segment that is being read. */
+    /* values[n] = scaling of the numbers of a channel of the segment that is being read. Whether
+     * they are finite is not asked. */
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
     /* Goes on with the curve of this index, which is there. NULL: those before it are read. */

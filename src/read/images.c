@@ -60,17 +60,17 @@ void images_set_name(wt_image *head, const char *name)
 static void note_missing(wt_image *image, const char *file, wt_parselog *log)
 {
     const size_t n = image->n_columns * image->n_rows;
-    size_t missing = 0;
-    for (size_t i = 0; i < n; i++)
-        missing += isfinite(image->values[i]) ? 0 : 1;
+    const size_t missing = samples_mend(image->values, n);
     if (missing > 0)
         wt_parselog_add(log, WT_WARNING, file, image->name,
                         "%zu of %zu pixels are not finite numbers and left out", missing, n);
     /* One line has no height, and one column no width. */
-    if (!(image->width > 0) && image->n_columns > 1)
+    if (isinf(image->width) || (!(image->width > 0) && image->n_columns > 1))
         image->width = (double)NAN;
-    if (!(image->height > 0) && image->n_rows > 1)
+    if (isinf(image->height) || (!(image->height > 0) && image->n_rows > 1))
         image->height = (double)NAN;
+    (void)samples_mend(&image->x_min, 1);
+    (void)samples_mend(&image->y_min, 1);
     if (isnan(image->width) || isnan(image->height))
         wt_parselog_add(log, WT_WARNING, file, image->name, "the size of the image is not known");
 }

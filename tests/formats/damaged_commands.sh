@@ -2,7 +2,7 @@
 # Damaged files (damaged_files.c) through the commands that fit what is in them: none may crash, hang
 # or be stopped by a sanitizer, and what it does ends as one of the four exit statuses says.
 #
-#   damaged_commands.sh DAMAGED_FILES COMMAND FOLDER SEED TRIALS indent|spot|master FILE
+#   damaged_commands.sh DAMAGED_FILES COMMAND FOLDER SEED TRIALS indent|spot|master|psd FILE
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
@@ -11,7 +11,7 @@ tip="--tip pyramid:half-angle=20deg,radius=20nm"
 case $which in
 indent) options="$tip --spring-constant 0.3N/m --sensitivity 80nm/V" ;;
 spot) options="$tip --depth 50nm" ;;
-master) options= ;;
+master | psd) options= ;;
 esac
 rm -rf "$folder"
 mkdir -p "$folder" || exit 2

@@ -14,14 +14,19 @@
 #include <stdlib.h>
 
 /* Never infinite: a sample is a number or missing. */
+static inline void never_infinite(const double *values, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (isinf(values[i]))
+            abort();
+}
+
 static inline void look_at(const wt_force_curve *curve)
 {
     for (size_t s = 0; s < curve->n_segments; s++) {
         const wt_segment *segment = &curve->segments[s];
         for (size_t c = 0; c < segment->n_channels; c++)
-            for (size_t i = 0; i < segment->n_points; i++)
-                if (isinf(segment->channels[c].values[i]))
-                    abort();
+            never_infinite(segment->channels[c].values, segment->n_points);
     }
 }
 
@@ -85,8 +90,13 @@ static inline void read_images(const file_reader *reader, const uint8_t *data, s
     if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
     if (reader->read_images(reader, input, options, NULL, &images, &n, NULL) == WT_OK)
-        for (size_t i = 0; i < n; i++)
+        for (size_t i = 0; i < n; i++) {
+            const double sides[] = {images[i].width, images[i].height, images[i].x_min,
+                                    images[i].y_min};
+            never_infinite(images[i].values, images[i].n_columns * images[i].n_rows);
+            never_infinite(sides, sizeof sides / sizeof *sides);
             wt_image_clear(&images[i]);
+        }
     free(images);
     wt_input_close(input);
 }
@@ -100,7 +110,8 @@ static inline void read_noise(const file_reader *reader, const uint8_t *data, si
         abort();
     if (reader->read_noise(reader, input, options, NULL, &noise, NULL) == WT_OK)
         for (size_t i = 0; i < noise.n; i++)
-            if (!(noise.frequency[i] >= 0) || noise.density[i] < 0)
+            if (!(noise.frequency[i] >= 0) || isinf(noise.frequency[i]) || noise.density[i] < 0 ||
+                isinf(noise.density[i]))
                 abort();
     wt_noise_spectrum_clear(&noise);
     wt_input_close(input);

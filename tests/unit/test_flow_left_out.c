@@ -157,10 +157,18 @@ static atomic_size_t count[N_WORK];
         count[which]++;                                                                            \
         return __real_##name arguments;                                                            \
     }
-COUNTED(size_t, samples_decode, CHANNELS,
-        (sample_type type, bool big_endian, const unsigned char *bytes, size_t n, double multiplier,
-         double offset, double *values),
-        (type, big_endian, bytes, n, multiplier, offset, values))
+
+void __real_samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
+                           double multiplier, double offset, double *values);
+void __wrap_samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
+                           double multiplier, double offset, double *values);
+void __wrap_samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
+                           double multiplier, double offset, double *values)
+{
+    count[CHANNELS]++;
+    __real_samples_decode(type, big_endian, bytes, n, multiplier, offset, values);
+}
+
 COUNTED(wt_status, wt_indent_force_curve, CURVES,
         (const wt_contact_table *contact, const wt_indent_options *options,
          const wt_force_curve *curve, wt_indent_workspace *workspace, wt_indent_fit *fit,

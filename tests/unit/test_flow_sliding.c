@@ -427,13 +427,56 @@ static void test_layer_errors(void **state)
     }
 }
 
+/* Of many velocities the replicates are computed at some: the errors are those that each has when
+ * there are few, and values are not touched. The last one, the reference, is exact. */
+static void test_many_velocities(void **state)
+{
+    enum { MANY = 2400, EVERY = 6, FEW = MANY / EVERY };
+    static const char *const numbers[] = {"friction", "hysteresis", "area_ratio",
+                                          "friction_with_layer"};
+    static double many[MANY], few[FEW];
+    const wt_layer_known layer = {.thickness = {2e-6, 4e-7, 0, "m"},
+                                  .modulus_ratio = {0.7, 0.05, 0, "1"}};
+    (void)state;
+    for (size_t i = 0; i < MANY; i++) {
+        many[i] = 1e-6 * pow(10, 7.0 * (double)i / (MANY - 1));
+        if (i % EVERY == 0)
+            few[i / EVERY] = many[i];
+    }
+    wt_table *tables[2];
+    for (size_t k = 0; k < 2; k++) {
+        sliding_set_up(k == 0 ? many : few, k == 0 ? MANY : FEW);
+        sliding.reference_velocity = 0.1;
+        sliding.pressure.standard_error = 0.02e6;
+        sliding.shear_stress.standard_error = 0.3e6;
+        surface.c0.standard_error = 2e-18;
+        work.replicates = 20;
+        tables[k] = friction(&layer);
+    }
+    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+        char error[48], key[48];
+        snprintf(error, sizeof error, "%s_standard_error", numbers[n]);
+        for (size_t i = 0; i < FEW; i++) {
+            assert_near(cell(tables[0], EVERY * i, numbers[n]), cell(tables[1], i, numbers[n]), 0);
+            assert_near(cell(tables[0], EVERY * i, error), cell(tables[1], i, error), 1e-4);
+        }
+        if (n == 3)
+            continue;
+        snprintf(key, sizeof key, "%s_at_reference", numbers[n]);
+        assert_near(key_estimate(tables[0], key).standard_error,
+                    key_estimate(tables[1], key).standard_error, 0);
+    }
+    wt_table_free(tables[0]);
+    wt_table_free(tables[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_friction),     cmocka_unit_test(test_extrapolated),
         cmocka_unit_test(test_layered),      cmocka_unit_test(test_errors),
         cmocka_unit_test(test_layer),        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_layer_errors),
+        cmocka_unit_test(test_layer_errors), cmocka_unit_test(test_many_velocities),
     };
     return cmocka_run_group_tests_name("friction and layer", tests, NULL, NULL);
 }

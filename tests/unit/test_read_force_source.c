@@ -163,6 +163,32 @@ static void as_the_file_says(void **state)
     done(&m, &curve);
 }
 
+/* A factor beyond all sense: what it makes infinite is missing, and said once for all curves. */
+static void infinite_samples(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    (void)state;
+    add(&m, WT_Q_DEFLECTION_VOLTAGE, 0x1p1022, 0, one);
+    add(&m, WT_Q_HEIGHT, 1e-6, 0, two);
+    for (int curves = 0; curves < 2; curves++) {
+        assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+        const wt_channel *volts = wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE);
+        assert_non_null(volts);
+        for (size_t i = 0; i < N; i++)
+            assert_true(i < 3 ? volts->values[i] == 0x1p1022 * (double)(i + 1)
+                              : isnan(volts->values[i]));
+        assert_column(&curve, WT_Q_HEIGHT, 1e-6, 0);
+    }
+    assert_int_equal(wt_parselog_count(m.base.log), 1);
+    const wt_log_entry said = wt_parselog_get(m.base.log, 0);
+    assert_int_equal(said.severity, WT_WARNING);
+    assert_int_equal(said.count, 2);
+    assert_string_equal(said.place, "there");
+    assert_string_equal(said.text, "samples of one are missing: not measured, or no finite number");
+    done(&m, &curve);
+}
+
 /* Only what is asked for and offered. */
 static void as_asked_for(void **state)
 {
@@ -463,17 +489,12 @@ static void described(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_file_says),
-        cmocka_unit_test(as_asked_for),
-        cmocka_unit_test(given_to_a_chain),
-        cmocka_unit_test(given_to_columns),
-        cmocka_unit_test(contradictions),
-        cmocka_unit_test(from_one_signal),
-        cmocka_unit_test(missing_calibration),
-        cmocka_unit_test(missing_channels),
-        cmocka_unit_test(calibration_of_the_curve),
-        cmocka_unit_test(places),
-        cmocka_unit_test(described),
+        cmocka_unit_test(as_the_file_says), cmocka_unit_test(infinite_samples),
+        cmocka_unit_test(as_asked_for),     cmocka_unit_test(given_to_a_chain),
+        cmocka_unit_test(given_to_columns), cmocka_unit_test(contradictions),
+        cmocka_unit_test(from_one_signal),  cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(missing_channels), cmocka_unit_test(calibration_of_the_curve),
+        cmocka_unit_test(places),           cmocka_unit_test(described),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -359,6 +359,7 @@ static void test_missing(void **state)
         {4, 1, 0, 1, 0, NULL},
         {1, 3, 0, 0, 1, NULL},
         {4, 3, 0, (double)NAN, 1, "the size of the image is not known"},
+        {4, 3, 0, 1, (double)INFINITY, "the size of the image is not known"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         image_list list = {NULL, 0};
@@ -378,6 +379,8 @@ static void test_missing(void **state)
         const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
         const size_t said = (cases[i].missing > 0) + (size_t)unknown;
         assert_int_equal(wt_parselog_count(log), said);
+        for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
+            assert_int_equal(isnan(images[0].values[k]), k < cases[i].missing);
         if (cases[i].words != NULL) {
             assert_string_equal(wt_parselog_get(log, said - 1).text, cases[i].words);
             assert_string_equal(wt_parselog_get(log, said - 1).file, "file");

@@ -180,7 +180,7 @@ static void oddities(void **state)
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     next_curve(&r);
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
-    assert_true(logged(&r, "samples that were not measured are missing"));
+    assert_true(logged(&r, "are missing: not measured"));
     close_all(&r);
     /* Nor does it hide which way the sensor counts, nor what the deflection rises by. */
     f = usual(0, false);

@@ -1,6 +1,7 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/error_nodes.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
@@ -30,6 +31,7 @@ typedef struct friction_task {
     double numerical[2];       /* of the total friction at the reference: without, with the layer */
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
     replicates replicates;
+    size_t drawn; /* velocities of all replicates */
 } friction_task;
 
 static double *numbers_of_kind(double *values, size_t n, int kind)
@@ -316,9 +318,9 @@ static void summarise_friction(const friction_task *task, wt_friction_tables *t)
 {
     const bool total = !isnan(task->sliding->shear_stress.value);
     const int kind = total ? TOTAL : HYSTERESIS;
-    const size_t contacts = (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
+    const size_t contacts = task->layer != NULL ? 2 : 1;
     cost_summary cost = {
-        .items = (double)(task->n * contacts),
+        .items = (double)((task->n + task->drawn) * contacts),
         .tolerance_asked = task->work->tolerance,
         .number = {.value = numbers_of_kind(task->centre, task->n, kind)[task->n - 1],
                    .standard_error =
@@ -370,6 +372,37 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     return status;
 }
 
+/* The replicates, whose errors then stand for all velocities. */
+static wt_status draw_at_nodes(friction_task *task, wt_error *err)
+{
+    replicates *r = &task->replicates;
+    const friction_task all = *task;
+    double *nodes = NULL, *error = NULL;
+    wt_status status = error_nodes_make(all.velocity, all.n, &nodes, &task->n, err);
+    if (status == WT_OK && nodes != NULL) {
+        task->velocity = nodes;
+        error = malloc(N_KINDS * all.n * sizeof *error);
+        if (error == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    if (status == WT_OK)
+        status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+    for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
+        error_nodes_spread(nodes, task->n, numbers_of_kind(r->error, task->n, kind), all.velocity,
+                           all.n, numbers_of_kind(error, all.n, kind));
+    if (status == WT_OK && nodes != NULL) {
+        free(r->error);
+        r->error = error;
+        error = NULL;
+    }
+    task->drawn = r->n * task->n;
+    task->n = all.n;
+    task->velocity = all.velocity;
+    free(error);
+    free(nodes);
+    return status;
+}
+
 /* What varies with the layer alone leaves no error of what is without it. */
 static wt_status draw_replicates(friction_task *task, wt_error *err)
 {
@@ -385,7 +418,7 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
         replicates_add(r, layer->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
                        "modulus ratio of the layer");
     }
-    wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+    wt_status status = draw_at_nodes(task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
         numbers_of_kind(r->error, task->n, HYSTERESIS)[i] =
             numbers_of_kind(r->error, task->n, AREA)[i] =

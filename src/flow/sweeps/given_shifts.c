@@ -1,5 +1,6 @@
 /* Shifts that are given: by a law, or by a table that an earlier fit or another program made.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/nearest.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/inputs.h"
 #include "flow/work/law_text.h"
@@ -53,6 +54,16 @@ static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
                                              .example = "activation-energy=80e3",
                                              .params = arrhenius_params};
 
+static void advise_law(const char *text, wt_error *err)
+{
+    static const flow_law_text *const laws[] = {&wlf_text, &arrhenius_text};
+    nearest_name near = nearest_to(text, strcspn(text, ":"));
+    for (size_t i = 0; i < sizeof laws / sizeof *laws; i++)
+        nearest_try(&near, laws[i]->prefix, strlen(laws[i]->prefix) - 1);
+    if (near.name != NULL)
+        wt_error_advice(err, "did you mean %.*s?", (int)near.name_length, near.name);
+}
+
 wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
 {
     const double unknown = (double)NAN, room = 293.15;
@@ -73,6 +84,7 @@ wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
         status = wt_fail(err, WT_E_ARG, "\"%s\" is no law of shifts", text);
         wt_error_expected(err, "%s%s or %s%s", wlf_text.prefix, wlf_text.example,
                           arrhenius_text.prefix, arrhenius_text.example);
+        advise_law(text, err);
     }
     return status;
 }

@@ -55,7 +55,7 @@ size_t samples_mend(double *values, size_t n)
         LOOP(width, number(le##order(b)))                                                          \
     break
 
-WIDE_REGISTERS static void convert(sample_type type, bool big_endian, const unsigned char *bytes,
+WIDE_REGISTERS void samples_decode(sample_type type, bool big_endian, const unsigned char *bytes,
                                    size_t n, double multiplier, double offset,
                                    double *restrict values)
 {
@@ -73,12 +73,4 @@ WIDE_REGISTERS static void convert(sample_type type, bool big_endian, const unsi
     case SAMPLE_FLOAT64:
         DECODE(8, float64, 64);
     }
-}
-
-size_t samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
-                      double multiplier, double offset, double *values)
-{
-    const double most = fabs(multiplier) * 0x1p32 + fabs(offset); /* of an integer */
-    convert(type, big_endian, bytes, n, multiplier, offset, values);
-    return type <= SAMPLE_UINT32 && isfinite(most) ? 0 : samples_mend(values, n);
 }

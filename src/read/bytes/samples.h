@@ -20,10 +20,9 @@ typedef enum sample_type {
 size_t sample_width(sample_type type); /* [byte] */
 /* What is not finite becomes NaN; returns how many. */
 size_t samples_mend(double *values, size_t n);
-/* values[n] = multiplier * sample + offset, mended. The caller has checked that the bytes are
- * there.
- */
-size_t samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
-                      double multiplier, double offset, double *values);
+/* values[n] = multiplier * sample + offset, as they come. The caller has checked that the bytes are
+ * there. */
+void samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
+                    double multiplier, double offset, double *values);
 
 #endif

@@ -200,6 +200,8 @@ typedef struct text_description {
     units_where units;
     line_pattern units_line; /* of UNITS_LINE; group 1 is the units row */
     char *row_prefix;        /* normalised */
+    char **row_numbers;      /* normalised names of the column that numbers the rows */
+    size_t n_row_numbers;
     bool blank_is_block;
 
     char *group;    /* normalised name of the column that parts isotherms */

@@ -83,6 +83,15 @@ static void read_list(description_parser *p, const xmlNode *node, const char *na
         (*items)[(*n)++] = word;
 }
 
+/* Names of columns. */
+static void read_names(description_parser *p, const xmlNode *node, const char *name, char ***items,
+                       size_t *n)
+{
+    read_list(p, node, name, items, n);
+    for (size_t i = 0; i < *n; i++)
+        (*items)[i] = parse_normalised(p, (*items)[i]);
+}
+
 static void read_text(description_parser *p, const xmlNode *node)
 {
     static const char *const encodings[] = {"auto", "utf-8", "latin-1", "utf-16"};
@@ -209,6 +218,7 @@ static void read_table(description_parser *p, const xmlNode *table)
         parse_complain(p, table, "a line of units goes with a line of names", "an attribute names",
                        NULL);
     d->row_prefix = parse_normalised(p, parse_attribute(p, table, "row-prefix"));
+    read_names(p, table, "row-number", &d->row_numbers, &d->n_row_numbers);
     d->blank_is_block = parse_one_of(p, table, "blank", blanks, 2, 0) == 1;
     d->steps = parse_room(p, table, "step", sizeof *d->steps);
     d->ends = parse_room(p, table, "end", sizeof *d->ends);
@@ -241,9 +251,7 @@ static void read_isotherms(description_parser *p, const xmlNode *node)
 {
     const char *jump = parse_attribute(p, node, "temperature-jump");
     p->d->group = parse_normalised(p, parse_attribute(p, node, "group"));
-    read_list(p, node, "sample", &p->d->samples, &p->d->n_samples);
-    for (size_t i = 0; i < p->d->n_samples; i++)
-        p->d->samples[i] = parse_normalised(p, p->d->samples[i]);
+    read_names(p, node, "sample", &p->d->samples, &p->d->n_samples);
     if (jump != NULL && (wt_quantity_parse(jump, WT_Q_TEMPERATURE_DIFFERENCE,
                                            &p->d->temperature_jump, NULL) != WT_OK ||
                          !(p->d->temperature_jump > 0)))

@@ -149,8 +149,8 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
         status =
             window_bytes(&window, h.data + 4 * h.n_columns * row, 4 * h.n_columns, &bytes, err);
         if (status == WT_OK)
-            (void)samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
-                                 values + (h.n_rows - 1 - row) * h.n_columns);
+            samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
+                           values + (h.n_rows - 1 - row) * h.n_columns);
     }
     window_close(&window);
     return images_end(&list, status, wt_input_name(input), log, images, n_images, err);

@@ -74,7 +74,7 @@ static wt_status take_mask(wt_image *image, gwy_bytes container, unsigned long n
         data.n != n)
         status = corrupt(err, key, "a mask of another size than its field");
     else
-        (void)samples_decode(SAMPLE_FLOAT64, false, data.value.at, n, 1, 0, set);
+        samples_decode(SAMPLE_FLOAT64, false, data.value.at, n, 1, 0, set);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         if (set[i] > 0) {
             const size_t row = image->n_rows - 1 - i / image->n_columns;
@@ -104,9 +104,9 @@ static wt_status add_field(image_list *list, gwy_bytes field, const char *key, c
     images_set_name(&head, title[0] != '\0' ? title : key);
     const wt_status status = images_add(list, &head, &values, err);
     for (size_t row = 0; status == WT_OK && row < head.n_rows; row++)
-        (void)samples_decode(SAMPLE_FLOAT64, false,
-                             data.value.at + sizeof(double) * head.n_columns * row, head.n_columns,
-                             factor, 0, values + (head.n_rows - 1 - row) * head.n_columns);
+        samples_decode(SAMPLE_FLOAT64, false, data.value.at + sizeof(double) * head.n_columns * row,
+                       head.n_columns, factor, 0,
+                       values + (head.n_rows - 1 - row) * head.n_columns);
     return status;
 }
 

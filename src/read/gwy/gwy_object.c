@@ -4,6 +4,7 @@
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 
+#include <math.h>
 #include <string.h>
 
 static size_t left(const gwy_bytes *b)
@@ -121,13 +122,13 @@ bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *t
 double gwy_double(const gwy_component *component)
 {
     double value;
-    (void)samples_decode(SAMPLE_FLOAT64, false, component->value.at, 1, 1, 0, &value);
-    return value;
+    samples_decode(SAMPLE_FLOAT64, false, component->value.at, 1, 1, 0, &value);
+    return isfinite(value) ? value : (double)NAN;
 }
 
 size_t gwy_count(const gwy_component *component)
 {
     double value;
-    (void)samples_decode(SAMPLE_INT32, false, component->value.at, 1, 1, 0, &value);
+    samples_decode(SAMPLE_INT32, false, component->value.at, 1, 1, 0, &value);
     return value > 0 ? (size_t)value : 0;
 }

@@ -141,13 +141,9 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     const ibw_channel *channel = signal->channel;
     const size_t width = sample_width(file->type);
     (void)err;
-    const size_t missing = samples_decode(file->type, file->big_endian,
-                                          file->bytes + file->data +
-                                              width * (channel->number * file->n + source->from),
-                                          n, scaling.multiplier, scaling.offset, values);
-    if (missing > 0)
-        wt_parselog_add(base->log, WT_WARNING, file->name, channel->name,
-                        "%zu samples are not finite numbers and left out", missing);
+    samples_decode(file->type, file->big_endian,
+                   file->bytes + file->data + width * (channel->number * file->n + source->from), n,
+                   scaling.multiplier, scaling.offset, values);
     return WT_OK;
 }
 

@@ -47,9 +47,9 @@ wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_opt
         status = images_add(&list, &head, &values, err);
         if (status != WT_OK)
             break;
-        (void)samples_decode(file.type, file.big_endian,
-                             file.bytes + file.data + sample_width(file.type) * c * file.n, file.n,
-                             1, 0, values);
+        samples_decode(file.type, file.big_endian,
+                       file.bytes + file.data + sample_width(file.type) * c * file.n, file.n, 1, 0,
+                       values);
     }
     return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }

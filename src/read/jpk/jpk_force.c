@@ -50,23 +50,15 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     const force_linear inner = lcd->raster ? channel->raster : lcd->encoder;
     const double multiplier = scaling.multiplier * inner.multiplier;
     const double offset = scaling.multiplier * inner.offset + scaling.offset;
-    size_t missing = 0;
     if (lcd->raster) {
         for (size_t i = 0; i < n; i++)
             values[i] = multiplier * (double)i + offset;
-        missing = samples_mend(values, n);
-    } else {
-        wt_status status = source->loaded != channel ? load_channel(source, channel, err) : WT_OK;
-        if (status != WT_OK)
-            return status;
-        missing =
-            samples_decode(lcd->encoding, true, file->buffer.data, n, multiplier, offset, values);
+        return WT_OK;
     }
-    if (missing > 0)
-        wt_parselog_add(file->log, WT_WARNING, file->name,
-                        archive_name(file->archive, source->ref->entry),
-                        "%zu samples of %s are not numbers", missing, channel->name);
-    return WT_OK;
+    const wt_status status = source->loaded != channel ? load_channel(source, channel, err) : WT_OK;
+    if (status == WT_OK)
+        samples_decode(lcd->encoding, true, file->buffer.data, n, multiplier, offset, values);
+    return status;
 }
 
 static wt_status add_segment(jpk_source *source, double start, wt_force_curve *curve, wt_error *err)

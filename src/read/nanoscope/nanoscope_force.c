@@ -84,10 +84,6 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
             scaling.multiplier *
             (is_ramp ? ramp_height(f, at) : nanoscope_count(f, signal->channel, stored, at));
     }
-    /* The same words for each curve, so that the log counts them in one line. */
-    if (samples_mend(values, n) > 0)
-        wt_parselog_add(base->log, WT_WARNING, base->name, signal->name,
-                        "samples that were not measured are missing");
     return WT_OK;
 }
 

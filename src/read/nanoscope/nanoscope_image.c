@@ -103,8 +103,7 @@ static wt_status read_block(const nanoscope_header *h, size_t section, input_win
         status = window_bytes(w, offset, bytes, &data, err);
     const size_t n = head.n_columns * head.n_rows;
     if (status == WT_OK)
-        (void)samples_decode(width == 2 ? SAMPLE_INT16 : SAMPLE_INT32, false, data, n, scale, 0,
-                             values);
+        samples_decode(width == 2 ? SAMPLE_INT16 : SAMPLE_INT32, false, data, n, scale, 0, values);
     for (size_t i = 0; status == WT_OK && i < n; i++) /* the least count was not measured */
         if (width == 2 ? le16(data + 2 * i) == 0x8000u : le32(data + 4 * i) == 0x80000000u)
             values[i] = (double)NAN;

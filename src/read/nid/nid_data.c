@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/samples.h"
+#include "read/images.h"
 #include "read/nid/nid.h"
 
 #include <math.h>
@@ -184,11 +185,9 @@ wt_status nid_decode(const nid_file *file, const nid_channel *c, size_t line, si
     if (status != WT_OK)
         return status;
     const double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
-    (void)samples_decode(type, false, bytes, n, 1, half, values);
+    samples_decode(type, false, bytes, n, 1, half, values);
     for (size_t i = 0; i < n; i++)
         values[i] = factor * (c->minimum + c->range * (values[i] / whole));
-    /* Only a range beyond all sense overflows: then nothing is known. */
-    (void)samples_mend(values, n);
     return WT_OK;
 }
 
@@ -260,31 +259,25 @@ static void warn_stopped(const nid_file *file, const nid_channel *c, wt_parselog
 }
 
 static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
-                            wt_image *image, wt_error *err)
+                            image_list *list, wt_error *err)
 {
-    double factor = 1;
+    wt_image head = {.n_columns = c->points, .n_rows = c->lines};
+    double factor = 1, *values = NULL;
     const char *unit = nid_si_unit(c->unit, &factor);
     if (unit[0] == '\0' && c->unit[0] != '\0') {
         unit = c->unit;
         wt_parselog_add(log, WT_NOTE, file->name, c->section, "unit %s is kept as it is", c->unit);
     }
-    image->values = malloc(c->points * c->lines * sizeof *image->values);
-    if (image->values == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for an image of %zu x %zu points", c->points,
-                       c->lines);
-    snprintf(image->name, sizeof image->name, "%s: %s", c->group_name, c->name);
-    snprintf(image->unit, sizeof image->unit, "%s", unit[0] != '\0' ? unit : "1");
-    image->n_columns = c->points;
-    image->n_rows = c->lines;
-    read_axis(&file->header, c->section, 0, &image->width, &image->x_min, image->x_unit,
-              sizeof image->x_unit);
-    read_axis(&file->header, c->section, 1, &image->height, &image->y_min, NULL, 0);
-    wt_status status = WT_OK;
+    snprintf(head.name, sizeof head.name, "%s: %s", c->group_name, c->name);
+    snprintf(head.unit, sizeof head.unit, "%s", unit[0] != '\0' ? unit : "1");
+    read_axis(&file->header, c->section, 0, &head.width, &head.x_min, head.x_unit,
+              sizeof head.x_unit);
+    read_axis(&file->header, c->section, 1, &head.height, &head.y_min, NULL, 0);
+    wt_status status = images_add(list, &head, &values, err);
     for (size_t line = 0; status == WT_OK && line < c->lines; line++)
-        status =
-            nid_decode(file, c, line, c->points, factor, image->values + line * c->points, err);
+        status = nid_decode(file, c, line, c->points, factor, values + line * c->points, err);
     if (status == WT_OK)
-        warn_stopped(file, c, log, image);
+        warn_stopped(file, c, log, &list->images[list->n - 1]);
     return status;
 }
 
@@ -294,26 +287,14 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
     (void)self;
     (void)options;
     nid_file file = {0};
-    size_t n = 0;
+    image_list list = {.n = 0};
     wt_status status = nid_file_open(input, &file, err);
     if (status != WT_OK)
         return status;
-    wt_image *list = calloc(file.n, sizeof *list);
-    if (list == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the images");
     for (size_t i = 0; i < file.n && status == WT_OK; i++)
         if (!nid_is_spectroscopy(&file.channels[i]))
-            status = read_image(&file, &file.channels[i], log, &list[n++], err);
-    if (status == WT_OK && n == 0)
-        status = wt_fail(err, WT_E_EMPTY, "the file holds force curves but no image");
-    if (status == WT_OK) {
-        *images = list;
-        *n_images = n;
-        list = NULL;
-    }
-    for (size_t i = 0; list != NULL && i < n; i++)
-        wt_image_clear(&list[i]);
-    free(list);
+            status = read_image(&file, &file.channels[i], log, &list, err);
+    status = images_end(&list, status, file.name, log, images, n_images, err);
     nid_file_close(&file);
     return status;
 }

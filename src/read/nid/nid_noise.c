@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "read/bytes/samples.h"
 #include "read/nid/nid.h"
 
 #include <math.h>
@@ -52,14 +53,15 @@ const nid_channel *nid_tune(const nid_file *file)
 }
 
 /* What it took stands in the spectrum, also on failure. */
-static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_noise_spectrum *spectrum,
-                           wt_error *err)
+static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_parselog *log,
+                           wt_noise_spectrum *spectrum, wt_error *err)
 {
     const nid_header *const h = &file->header;
     const double range = nid_number(h, c->section, "Dim0Range"),
                  first = nid_number(h, c->section, "Dim0Min");
     const char *unit = nid_get(h, c->section, "Dim0Unit");
-    if (!(range > 0) || !(first >= 0) || unit == NULL || strcmp(unit, "Hz") != 0) {
+    if (!(range > 0) || !(first >= 0) || !isfinite(first + range * (double)c->points) ||
+        unit == NULL || strcmp(unit, "Hz") != 0) {
         wt_fail(err, WT_E_CORRUPT, "the frequencies of the spectrum are not known");
         wt_error_place(err, "[%s]", c->section);
         wt_error_expected(err, "Dim0Range above 0, Dim0Min and Dim0Unit=Hz");
@@ -76,6 +78,9 @@ static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_noise_
         made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
         made.density[i] *= made.density[i];
     }
+    if (status == WT_OK && samples_mend(made.density, made.n) > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, c->section,
+                        "densities that are no finite numbers are missing");
     spectrum->averages = value_of(h, "Averages", WT_Q_NONE);
     spectrum->temperature = temperature_of(h);
     spectrum->spring_constant = value_of(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
@@ -90,12 +95,11 @@ wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read
 {
     (void)self;
     (void)options;
-    (void)log;
     nid_file file = {0};
     wt_status status = nid_file_open(input, &file, err);
     const nid_channel *const c = status == WT_OK ? nid_tune(&file) : NULL;
     if (c != NULL) {
-        status = read_tune(&file, c, spectrum, err);
+        status = read_tune(&file, c, log, spectrum, err);
     } else if (status == WT_OK) {
         status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
         wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "

@@ -7,6 +7,7 @@
  */
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/shortage.h"
 #include "read/bytes/bytes.h"
 #include "read/packed/compound.h"
 #include "read/packed/packed.h"
@@ -481,7 +482,9 @@ static wt_status open_converters(xls_book *book, wt_error *err)
         book->narrow = iconv_open("UTF-8", "ISO-8859-1");
     if (book->wide == (iconv_t)-1)
         book->wide = iconv_open("UTF-8", "UTF-16LE");
-    return book->narrow != (iconv_t)-1 && book->wide != (iconv_t)-1 ? WT_OK : no_memory(err);
+    if (book->narrow != (iconv_t)-1 && book->wide != (iconv_t)-1)
+        return WT_OK;
+    return errno == EMFILE || errno == ENFILE ? shortage_fail(errno, err) : no_memory(err);
 }
 
 /* The records of the book: first what the texts are written in and those that sheets share (sheet

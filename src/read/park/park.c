@@ -343,12 +343,8 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 {
     const park_source *s = (const park_source *)base;
     (void)err;
-    const size_t missing =
-        samples_decode(SAMPLE_FLOAT32, false, samples_of(&s->file, signal->channel, s->from), n,
-                       scaling.multiplier, scaling.offset, values);
-    if (missing > 0)
-        wt_parselog_add(base->log, WT_WARNING, base->name, signal->name,
-                        "%zu samples are not finite numbers and left out", missing);
+    samples_decode(SAMPLE_FLOAT32, false, samples_of(&s->file, signal->channel, s->from), n,
+                   scaling.multiplier, scaling.offset, values);
     return WT_OK;
 }
 
@@ -480,8 +476,7 @@ static wt_status read_picture(input_window *w, const park_tags *tags, image_list
     if (status == WT_OK)
         status = window_bytes(w, tags->picture.from, tags->picture.n, &data, err);
     if (status == WT_OK)
-        (void)samples_decode(type, false, data, head.n_columns * head.n_rows, scale, offset,
-                             values);
+        samples_decode(type, false, data, head.n_columns * head.n_rows, scale, offset, values);
     return status;
 }
 

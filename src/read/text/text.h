@@ -133,8 +133,8 @@ typedef struct text_table {
     size_t n_columns;
     text_column *problems; /* columns with a problem */
     size_t n_problems;
-    wt_quantity_set quantities;                               /* of `columns` */
-    size_t group_cell, segment_cell, curve_cell, sample_cell; /* SIZE_MAX if not there */
+    wt_quantity_set quantities;                                            /* of `columns` */
+    size_t group_cell, segment_cell, curve_cell, sample_cell, number_cell; /* SIZE_MAX: none */
     double *values;       /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] number that changes where a block begins */
     unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
@@ -273,6 +273,10 @@ extern const struct force_stream text_force;
 /* The same without reading to the end first: how many curves there are is not known. Not for a
  * reader that makes a text (as_text). */
 extern const struct force_stream text_force_first;
+/* Warns where steps of time or height that are all equal have a gap within the rows of a segment.
+ */
+void text_check_steps(const text_file *file, const text_table *t, wt_segment_kind kind,
+                      size_t first, size_t end, wt_parselog *log);
 /* Curves of the tables at hand that have what a file of one of the kinds needs; kinds 0: of all, as
  * they are read, also those that turn out to be errors. */
 size_t text_count_curves(const text_file *file, unsigned kinds);

@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include "base/shortage.h"
 #include "base/utf8.h"
 
 #include <errno.h>
@@ -101,6 +102,8 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
     const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
     char *text = malloc(capacity);
     iconv_t converter = iconv_open("UTF-8", c->iconv);
+    if (converter == (iconv_t)-1 && (errno == EMFILE || errno == ENFILE))
+        shortage_note(errno);
     bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = length, room = capacity - 1;

@@ -207,6 +207,15 @@ static size_t find_cell(const resolver *r, const char *name)
     return SIZE_MAX;
 }
 
+/* The first of the names that there is. */
+static size_t find_any_cell(const resolver *r, char *const *names, size_t n)
+{
+    size_t cell = SIZE_MAX;
+    for (size_t i = 0; i < n && cell == SIZE_MAX; i++)
+        cell = find_cell(r, names[i]);
+    return cell;
+}
+
 /* The column that is read by such a rule; NULL. */
 static const text_column *taken_by(const text_table *table, const column_rule *rule)
 {
@@ -355,15 +364,14 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     table->group_cell = find_cell(&r, d->group);
     table->segment_cell = find_cell(&r, d->segment_column);
     table->curve_cell = find_cell(&r, d->curve_column);
-    table->sample_cell = SIZE_MAX;
-    for (size_t i = 0; i < d->n_samples && table->sample_cell == SIZE_MAX; i++)
-        table->sample_cell = find_cell(&r, d->samples[i]);
+    table->sample_cell = find_any_cell(&r, d->samples, d->n_samples);
+    table->number_cell = find_any_cell(&r, d->row_numbers, d->n_row_numbers);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
         const text_span cell = names->names.cells[i];
         known_name known;
         if (!names_known(d, cell, &known)) {
             if (cell.length > 0 && i != table->group_cell && i != table->segment_cell &&
-                i != table->curve_cell && i != table->sample_cell &&
+                i != table->curve_cell && i != table->sample_cell && i != table->number_cell &&
                 !(i == 0 && d->row_prefix != NULL))
                 status = add_unknown(file, cell, err);
             continue;

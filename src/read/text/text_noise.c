@@ -53,7 +53,7 @@ static wt_status collect_points(const text_file *file, wt_parselog *log, point *
         }
         if (spectrum->amplitudes)
             p.density *= p.density;
-        if (p.frequency >= 0 && isfinite(p.frequency)) {
+        if (p.frequency >= 0 && isfinite(p.frequency) && !isinf(p.density)) {
             points[spectrum->n++] = p;
             continue;
         }

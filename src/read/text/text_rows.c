@@ -124,6 +124,10 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
+            if (!isfinite(values[c])) { /* in a unit that is too large for it */
+                values[c] = (double)NAN;
+                warn_of_cell(s, column);
+            }
             break;
         case CELL_MISSING:
             break;
@@ -160,10 +164,25 @@ void scan_bad_row(text_scanner *s, size_t bad)
                       t->decimal == ',' ? "comma" : "point", separator_name(t->separator));
 }
 
+/* Numbers may begin anew within a table, but none is left out. The words are always the same, so
+ * that the log counts them in one line. */
+static void watch_number(text_scanner *s)
+{
+    const text_table *const t = s->table;
+    double number = (double)NAN;
+    if (t->number_cell < s->row.n)
+        (void)cell_read(s->row.cells[t->number_cell], t->decimal, s->d, &number);
+    if (number > s->last_number + 1)
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                        "the number of a row is not the next one: are rows missing before it?");
+    s->last_number = number;
+}
+
 void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
     cut_watch(s);
+    watch_number(s);
     follow_groups(s);
     if (!s->snapshot) {
         t->header = s->header;

@@ -52,6 +52,7 @@ static void new_table(text_scanner *s)
     s->snapshot = false;
     s->blank = false;
     s->last = (last_cells){0};
+    s->last_number = (double)NAN;
     s->unclosed = s->d->end_required;
 }
 

@@ -63,6 +63,7 @@ typedef struct text_scanner {
     size_t sample;         /* of the header, or NO_SAMPLE */
     bool sample_is_told;   /* since the last table */
     last_cells last;       /* of the table */
+    double last_number;    /* of the row before, NaN if it has none */
     bool last_is_short;    /* the line before was a row, the first without all cells */
     cut_row cut;           /* what was done with a last line without its line end */
     bool unclosed;         /* a step or table has not come to the line that must end it */

@@ -120,12 +120,11 @@ bool sweep_is_point(const sweep_builder *b, size_t row)
     /* Some programs part segments by rows of a negative time. */
     const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
     const bool alone = !c->has_storage && !c->has_loss;
-    /* The step itself is at no time, and nothing has crept yet. */
-    if (c->step != NULL && !(isfinite(sweep_angular(b, row)) && isfinite(sweep_storage(b, row))))
-        return false;
-    return !marker && sweep_angular(b, row) > 0 &&
-           !(c->has_storage && isnan(sweep_storage(b, row))) &&
-           !(c->has_loss && isnan(sweep_loss(b, row))) && !(alone && isnan(sweep_factor(b, row)));
+    /* The step itself is at no time, and nothing has crept yet: neither is finite. */
+    return !marker && sweep_angular(b, row) > 0 && isfinite(sweep_angular(b, row)) &&
+           (!c->has_storage || isfinite(sweep_storage(b, row))) &&
+           (!c->has_loss || isfinite(sweep_loss(b, row))) &&
+           (!alone || isfinite(sweep_factor(b, row)));
 }
 
 /* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */

@@ -122,13 +122,12 @@ static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
     for (size_t layer = 0; layer < list->n; layer++) {
         double *to = list->images[layer].values;
         if (d->points[0] != '\0') {
-            (void)samples_decode(z->type, false, f->data.data + layer * n * width, n, increment,
-                                 offset, to);
+            samples_decode(z->type, false, f->data.data + layer * n * width, n, increment, offset,
+                           to);
             continue;
         }
         for (size_t i = 0; i < n; i++)
             to[i] = increment * d->list[layer * n + i] + offset;
-        (void)samples_mend(to, n);
     }
     return WT_OK;
 }
