@@ -213,8 +213,11 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
     return largest;
 }
 
+/* Between node j and the next: the rise of the bare depth and that of the base, and how far the
+ * cubic is from the line at either end. */
 typedef struct branch {
     double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
+    double up[NODES], span[NODES], near_low[NODES], near_high[NODES];
 } branch;
 
 /* From its end to beyond a position. At its end the position is a square. */
@@ -230,6 +233,12 @@ static void nodes_to(const adhesion *law, double k, double release, double farth
     for (size_t j = 0; j <= NODES; j += BLOCK)
         bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
                  to->rise + j);
+    for (size_t j = 0; j < NODES; j++) {
+        to->up[j] = to->bare[j + 1] - to->bare[j];
+        to->span[j] = to->base[j + 1] - to->base[j];
+        to->near_low[j] = to->span[j] / to->rise[j] - to->up[j];
+        to->near_high[j] = to->span[j] / to->rise[j + 1] - to->up[j];
+    }
 }
 
 /* Between two nodes, by the cubic with their slopes; not at the end, where the slope is infinite.
@@ -237,14 +246,11 @@ static void nodes_to(const adhesion *law, double k, double release, double farth
 static double guess(const branch *nodes, size_t at, double position)
 {
     const double low = nodes->bare[at], high = nodes->bare[at + 1],
-                 span = nodes->base[at + 1] - nodes->base[at],
-                 t = (position - nodes->base[at]) / span, u = 1.0 - t;
-    const double line = low + (high - low) * t;
+                 t = (position - nodes->base[at]) / nodes->span[at], u = 1.0 - t;
+    const double line = low + nodes->up[at] * t;
     if (at == 0)
         return line;
-    const double bend = u * t *
-                        (u * (span / nodes->rise[at] - (high - low)) -
-                         t * (span / nodes->rise[at + 1] - (high - low)));
+    const double bend = u * t * (u * nodes->near_low[at] - t * nodes->near_high[at]);
     return line + bend > low && line + bend < high ? line + bend : line;
 }
 
@@ -261,12 +267,14 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
     size_t at = 0;
     for (size_t i = 0; i < n; i += BLOCK) {
         balance_block b;
+        bool moves = false;
         for (size_t j = 0; j < BLOCK; j++) {
             const double z = position[i + j < n ? i + j : n - 1];
             b.position[j] = z;
             b.bare[j] = b.low[j] = b.high[j] = release;
             if (!(z > held))
                 continue;
+            moves = true;
             while (at > 0 && z < nodes.base[at])
                 at--;
             while (at + 2 <= NODES && !(z < nodes.base[at + 1]))
@@ -275,7 +283,8 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
             b.high[j] = nodes.bare[at + 1];
             b.bare[j] = guess(&nodes, at, z);
         }
-        for (int round = 0; round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
+        for (int round = 0; moves && round < MAX_ROUNDS && step_on(law, k, &b) > close_step;
+             round++) {
         }
         for (size_t j = 0; j < BLOCK && i + j < n; j++)
             bare[i + j] = b.bare[j];
