@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "base/quantity.h"
 #include "base/shortage.h"
+#include "base/unit_known.h"
 #include "base/utf8.h"
 #include "weartrack/base.h"
 
@@ -145,7 +146,7 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
 
 /* Converts under the lock. False if `unit` is unknown or not a multiple of `si`. UDUNITS itself
  * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
-static bool convert_unit(const char *unit, const char *si, double *factor, double *offset)
+static bool convert_by_database(const char *unit, const char *si, double *factor, double *offset)
 {
     base_of base = {NULL, false};
     ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
@@ -156,8 +157,8 @@ static bool convert_unit(const char *unit, const char *si, double *factor, doubl
     bool good = converter != NULL;
     if (good) {
         *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
-        /* At 2^60 an offset of temperature is below the last digit. */
-        *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
+        /* At 2^70 an offset of temperature is below the last digit. */
+        *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 70)), -70)
                               : cv_convert_double(converter, 1.0);
         good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
     }
@@ -165,6 +166,34 @@ static bool convert_unit(const char *unit, const char *si, double *factor, doubl
     ut_free(from);
     ut_free(to);
     return good;
+}
+
+static wt_status ask_database(const char *unit, const char *si, bool *good, double *factor,
+                              double *offset, wt_error *err)
+{
+    (void)pthread_mutex_lock(&lock);
+    if (units == NULL)
+        make_units();
+    if (units == NULL) {
+        const int number = lacking != 0 ? lacking : -1;
+        (void)pthread_mutex_unlock(&lock);
+        return shortage_fail(number, err);
+    }
+    const visit before = enter_units();
+    *good = convert_by_database(unit, si, factor, offset);
+    leave_units(before);
+    const bool failed = lacking == ENOMEM;
+    (void)pthread_mutex_unlock(&lock);
+    return failed ? shortage_fail(ENOMEM, err) : WT_OK;
+}
+
+static wt_status convert_unit(const char *unit, const char *si, bool *good, double *factor,
+                              double *offset, wt_error *err)
+{
+    if (!known_unit_is(unit))
+        return ask_database(unit, si, good, factor, offset, err);
+    *good = known_unit_find(unit, si, factor, offset);
+    return WT_OK;
 }
 
 /* UDUNITS knows whole powers only: the square root of the hertz is taken off the text. */
@@ -226,6 +255,31 @@ static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
     }
 }
 
+/* angular: the radian is what stands in the way. */
+static wt_status convert(const char text[UNIT_MAX], wt_quantity quantity, bool *good, bool *angular,
+                         double *factor, double *offset, wt_error *err)
+{
+    const char *si = wt_quantity_unit(quantity), *instead = NULL;
+    char unit[UNIT_MAX];
+    memcpy(unit, text, sizeof unit);
+    if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
+        if (!strip_root_hertz(unit))
+            return WT_OK;
+        si = quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V";
+    }
+    wt_status status = convert_unit(unit, si, good, factor, offset, err);
+    if (status != WT_OK || *good)
+        return status;
+    /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
+    if (quantity == WT_Q_WAVENUMBER)
+        return convert_unit(unit, "1/m", good, factor, offset, err);
+    if (quantity == WT_Q_ANGULAR_FREQUENCY)
+        instead = "Hz";
+    else if (quantity == WT_Q_FREQUENCY)
+        instead = "rad/s";
+    return instead != NULL ? convert_unit(unit, instead, angular, factor, offset, err) : WT_OK;
+}
+
 wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, double *offset,
                         wt_error *err)
 {
@@ -250,37 +304,10 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         return WT_OK;
     }
     double f = 0.0, o = 0.0;
-    bool good = false;
-    bool angular = false; /* the radian is what stands in the way */
-    (void)pthread_mutex_lock(&lock);
-    if (units == NULL)
-        make_units();
-    if (units == NULL) {
-        const int number = lacking != 0 ? lacking : -1;
-        (void)pthread_mutex_unlock(&lock);
-        return shortage_fail(number, err);
-    }
-    const visit before = enter_units();
-    if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
-        char amplitude[UNIT_MAX];
-        memcpy(amplitude, text, sizeof amplitude);
-        good = strip_root_hertz(amplitude) &&
-               convert_unit(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
-    } else {
-        good = convert_unit(text, si, &f, &o);
-        /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
-        if (!good && quantity == WT_Q_WAVENUMBER)
-            good = convert_unit(text, "1/m", &f, &o);
-        if (!good && quantity == WT_Q_ANGULAR_FREQUENCY)
-            angular = convert_unit(text, "Hz", &f, &o);
-        if (!good && quantity == WT_Q_FREQUENCY)
-            angular = convert_unit(text, "rad/s", &f, &o);
-    }
-    leave_units(before);
-    const bool failed = lacking == ENOMEM;
-    (void)pthread_mutex_unlock(&lock);
-    if (failed)
-        return shortage_fail(ENOMEM, err);
+    bool good = false, angular = false;
+    const wt_status status = convert(text, quantity, &good, &angular, &f, &o, err);
+    if (status != WT_OK)
+        return status;
 
     /* An offset makes sense for a temperature; a difference of temperatures has the same unit
      * without it, and nothing else has one. */

@@ -263,11 +263,14 @@ static bool read_keys(reader *r, hid_t group, wt_table *table)
     return good;
 }
 
-/* Adds the column without its rows; WT_COLUMN_TEXT or _NUMBER follows from the type. */
-static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table)
+/* Opens the data set of a column and adds the column without its rows; WT_COLUMN_TEXT or _NUMBER
+ * follows from the type. */
+static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table,
+                        hid_t *opened)
 {
     hsize_t n = 0;
     const hid_t dataset = open_dataset(r, group, name, 1, &n);
+    *opened = dataset;
     if (dataset < 0 || n != n_rows)
         return corrupt(r, name, "column missing, of another length or not stored in one piece");
     const hid_t type = H5Dget_type(dataset);
@@ -284,20 +287,16 @@ static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows
     free(units);
     free(words);
     hdf5_close(type);
-    hdf5_close(dataset);
     return good;
 }
 
 /* Adds the rows with their blocks. */
-static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
+static bool read_blocks(reader *r, hid_t dataset, hsize_t n, wt_table *table)
 {
-    hsize_t n_again = 0;
-    const hid_t dataset = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_again);
     uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
     bool good = blocks != NULL || no_memory(r);
     if (good && n > 0 &&
-        (dataset < 0 || n_again != n ||
-         H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0))
+        H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0)
         good = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
     for (size_t row = 0; good && row < n; row++) {
         const uint64_t before = row > 0 ? blocks[row - 1] : 0;
@@ -308,23 +307,17 @@ static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
         good = good && is_taken(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
-    hdf5_close(dataset);
     return good;
 }
 
-static bool read_cells(reader *r, hid_t group, table_column *column, hsize_t n)
+static bool read_cells(reader *r, hid_t dataset, table_column *column, size_t n)
 {
-    hsize_t n_again = 0;
-    const hid_t dataset = open_dataset(r, group, column->name, 1, &n_again);
-    bool good = dataset >= 0 && n_again == n;
-    if (good && column->kind == WT_COLUMN_NUMBER)
-        good = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                       column->numbers) >= 0;
-    if (!good)
-        (void)corrupt(r, column->name, "column cannot be read");
-    else if (column->kind == WT_COLUMN_TEXT)
-        good = read_texts(r, dataset, false, column->name, (size_t)n, column->texts);
-    hdf5_close(dataset);
+    bool good = true;
+    if (column->kind == WT_COLUMN_TEXT)
+        good = read_texts(r, dataset, false, column->name, n, column->texts);
+    else if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column->numbers) <
+             0)
+        good = corrupt(r, column->name, "column cannot be read");
     return good;
 }
 
@@ -333,17 +326,23 @@ static bool read_columns(reader *r, hid_t group, wt_table *table)
 {
     hsize_t n_rows = 0;
     char **columns = NULL;
-    size_t n = 0;
+    size_t n = 0, n_opened = 0;
     const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
     if (blocks < 0)
         return corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
-    hdf5_close(blocks);
     bool good = read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
-    for (size_t i = 0; good && i < n; i++)
-        good = read_column(r, group, columns[i], n_rows, table);
-    good = good && read_blocks(r, group, n_rows, table);
+    hid_t *const opened = good ? calloc(n + 1, sizeof *opened) : NULL;
+    if (good && opened == NULL)
+        good = no_memory(r);
+    for (; good && n_opened < n; n_opened++)
+        good = read_column(r, group, columns[n_opened], n_rows, table, &opened[n_opened]);
+    good = good && read_blocks(r, blocks, n_rows, table);
     for (size_t i = 0; good && n_rows > 0 && i < n; i++)
-        good = read_cells(r, group, &table->columns[i], n_rows);
+        good = read_cells(r, opened[i], &table->columns[i], (size_t)n_rows);
+    for (size_t i = 0; i < n_opened; i++)
+        hdf5_close(opened[i]);
+    free(opened);
+    hdf5_close(blocks);
     wt_strings_free(columns, n);
     return good;
 }

@@ -194,27 +194,51 @@ typedef struct balance_block {
     double position[BLOCK], bare[BLOCK], low[BLOCK], high[BLOCK];
 } balance_block;
 
+WIDE_PART void choose(wide *to, const wide_bits *which, const wide *one, const wide *other)
+{
+    *to = (wide)((*which & (wide_bits)*one) | (~*which & (wide_bits)*other));
+}
+
 /* One of Newton's steps, or a half where it leads out; returns the largest share of a bare depth.
  */
 WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
 {
-    double base[BLOCK], rise[BLOCK], largest = 0.0;
+    double base[BLOCK], rise[BLOCK], most = 0.0;
+    wide largest = {0.0};
     bases_at(law, k, b->bare, BLOCK, base, rise);
-    for (size_t i = 0; i < BLOCK; i++) {
-        const double bare = b->bare[i], excess = base[i] - b->position[i],
-                     next = bare - excess / rise[i];
-        b->low[i] = excess > 0.0 ? b->low[i] : bare;
-        b->high[i] = excess > 0.0 ? bare : b->high[i];
-        const bool inside = (next >= b->low[i]) & (next <= b->high[i]);
-        b->bare[i] = inside ? next : 0.5 * (b->low[i] + b->high[i]);
-        const double share = fabs(b->bare[i] - bare) / b->bare[i];
-        largest = share > largest ? share : largest;
+    for (size_t i = 0; i < BLOCK; i += WIDE) {
+        wide bare, low, high, at, excess, slope;
+        wide_load(&bare, b->bare + i);
+        wide_load(&low, b->low + i);
+        wide_load(&high, b->high + i);
+        wide_load(&at, b->position + i);
+        wide_load(&excess, base + i);
+        wide_load(&slope, rise + i);
+        excess -= at;
+        const wide_bits above = excess > 0.0;
+        choose(&low, &above, &low, &bare);
+        choose(&high, &above, &bare, &high);
+        wide next = bare - excess / slope;
+        const wide half = 0.5 * (low + high);
+        const wide_bits inside = (next >= low) & (next <= high);
+        choose(&next, &inside, &next, &half);
+        const wide share = (next - bare) / next, other = -share;
+        wide_raise(&largest, &share);
+        wide_raise(&largest, &other);
+        wide_store(b->low + i, &low);
+        wide_store(b->high + i, &high);
+        wide_store(b->bare + i, &next);
     }
-    return largest;
+    for (size_t j = 0; j < WIDE; j++)
+        most = largest[j] > most ? largest[j] : most;
+    return most;
 }
 
+/* Between node j and the next: the rise of the bare depth and that of the base, and how far the
+ * cubic is from the line at either end. */
 typedef struct branch {
     double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
+    double up[NODES], span[NODES], near_low[NODES], near_high[NODES];
 } branch;
 
 /* From its end to beyond a position. At its end the position is a square. */
@@ -230,22 +254,47 @@ static void nodes_to(const adhesion *law, double k, double release, double farth
     for (size_t j = 0; j <= NODES; j += BLOCK)
         bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
                  to->rise + j);
+    for (size_t j = 0; j < NODES; j++) {
+        to->up[j] = to->bare[j + 1] - to->bare[j];
+        to->span[j] = to->base[j + 1] - to->base[j];
+        to->near_low[j] = to->span[j] / to->rise[j] - to->up[j];
+        to->near_high[j] = to->span[j] / to->rise[j + 1] - to->up[j];
+    }
 }
 
-/* Between two nodes, by the cubic with their slopes; not at the end, where the slope is infinite.
- */
-static double guess(const branch *nodes, size_t at, double position)
+/* Where places are on the branch, node[j] the last below place j: by the cubic with the slopes of
+ * the nodes; beside the end, where the slope is infinite, by a line. */
+WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], balance_block *b)
 {
-    const double low = nodes->bare[at], high = nodes->bare[at + 1],
-                 span = nodes->base[at + 1] - nodes->base[at],
-                 t = (position - nodes->base[at]) / span, u = 1.0 - t;
-    const double line = low + (high - low) * t;
-    if (at == 0)
-        return line;
-    const double bend = u * t *
-                        (u * (span / nodes->rise[at] - (high - low)) -
-                         t * (span / nodes->rise[at + 1] - (high - low)));
-    return line + bend > low && line + bend < high ? line + bend : line;
+    double part[6][BLOCK];
+    for (size_t j = 0; j < BLOCK; j++) {
+        const size_t at = node[j];
+        b->low[j] = nodes->bare[at];
+        b->high[j] = nodes->bare[at + 1];
+        part[0][j] = nodes->up[at];
+        part[1][j] = nodes->base[at];
+        part[2][j] = nodes->span[at];
+        part[3][j] = nodes->near_low[at];
+        part[4][j] = nodes->near_high[at];
+        part[5][j] = (double)at;
+    }
+    for (size_t i = 0; i < BLOCK; i += WIDE) {
+        wide z, low, high, up, base, span, near_low, near_high, at;
+        wide_load(&z, b->position + i);
+        wide_load(&low, b->low + i);
+        wide_load(&high, b->high + i);
+        wide_load(&up, part[0] + i);
+        wide_load(&base, part[1] + i);
+        wide_load(&span, part[2] + i);
+        wide_load(&near_low, part[3] + i);
+        wide_load(&near_high, part[4] + i);
+        wide_load(&at, part[5] + i);
+        const wide t = (z - base) / span, u = 1.0 - t, line = low + up * t;
+        wide place = line + u * t * (u * near_low - t * near_high);
+        const wide_bits cubic = (at > 0.0) & (place > low) & (place < high);
+        choose(&place, &cubic, &place, &line);
+        wide_store(b->bare + i, &place);
+    }
 }
 
 void adhesion_balance(const adhesion *law, double k, double release, const double *position,
@@ -256,26 +305,33 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
         farthest = position[i] > farthest ? position[i] : farthest;
     const double held = release > 0.0 ? base_at(law, k, release) : 0.0;
     branch nodes;
-    if (farthest > held)
-        nodes_to(law, k, release, farthest, &nodes);
+    if (!(farthest > held)) { /* all of them are held */
+        for (size_t i = 0; i < n; i++)
+            bare[i] = release;
+        return;
+    }
+    nodes_to(law, k, release, farthest, &nodes);
     size_t at = 0;
     for (size_t i = 0; i < n; i += BLOCK) {
         balance_block b;
+        size_t node[BLOCK], n_held = 0;
         for (size_t j = 0; j < BLOCK; j++) {
             const double z = position[i + j < n ? i + j : n - 1];
             b.position[j] = z;
-            b.bare[j] = b.low[j] = b.high[j] = release;
-            if (!(z > held))
-                continue;
+            n_held += !(z > held);
             while (at > 0 && z < nodes.base[at])
                 at--;
             while (at + 2 <= NODES && !(z < nodes.base[at + 1]))
                 at++;
-            b.low[j] = nodes.bare[at];
-            b.high[j] = nodes.bare[at + 1];
-            b.bare[j] = guess(&nodes, at, z);
+            node[j] = at;
         }
-        for (int round = 0; round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
+        if (n_held < BLOCK)
+            guess(&nodes, node, &b);
+        for (size_t j = 0; j < BLOCK && n_held > 0; j++)
+            if (!(b.position[j] > held))
+                b.bare[j] = b.low[j] = b.high[j] = release;
+        for (int round = 0;
+             n_held < BLOCK && round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
         }
         for (size_t j = 0; j < BLOCK && i + j < n; j++)
             bare[i + j] = b.bare[j];

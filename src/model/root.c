@@ -47,11 +47,25 @@ double root_reach(root_fn f, void *user, double root, double error, double reach
     return reach;
 }
 
+/* A function whose values at the ends are known. */
+typedef struct between_ends {
+    root_fn f;
+    void *user;
+    double low, high, at_low, at_high;
+} between_ends;
+
+static double value_between(double x, void *user)
+{
+    const between_ends *e = user;
+    return x <= e->low ? e->at_low : x >= e->high ? e->at_high : e->f(x, e->user);
+}
+
 wt_status root_find(root_fn f, void *user, double low, double high, double close, double *root,
                     wt_error *err)
 {
     const double at_low = f(low, user);
     const double at_high = f(high, user);
+    between_ends ends = {f, user, low, high, at_low, at_high};
     if (at_low == 0 || at_high == 0) {
         *root = at_low == 0 ? low : high;
         return WT_OK;
@@ -61,7 +75,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double close
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (solver == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a root");
-    gsl_function function = {.function = f, .params = user};
+    gsl_function function = {.function = value_between, .params = &ends};
     const int limit = 300;
     int code = gsl_root_fsolver_set(solver, &function, low, high);
     for (int i = 0; code == GSL_SUCCESS; i++) {

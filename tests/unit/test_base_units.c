@@ -1,6 +1,7 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/number.h"
 #include "base/shortage.h"
+#include "base/unit_known.h"
 #include "near.h"
 #include "weartrack/base.h"
 
@@ -150,6 +151,42 @@ static void every_si_unit_is_itself(void **state)
     assert_int_equal(q, WT_Q_FORCE);
 }
 
+/* The same answer as that of UDUNITS: nobody writes brackets around a unit, so that with them it is
+ * not a known one. */
+static void check_known(const char *text, wt_quantity quantity)
+{
+    char asked[80];
+    double known[2] = {7.5, 8.5}, udunits[2] = {7.5, 8.5};
+    wt_error err = WT_ERROR_INIT, err_udunits = WT_ERROR_INIT;
+    (void)snprintf(asked, sizeof asked, "(%s)", text);
+    const wt_status status = wt_unit_to_si(text, quantity, &known[0], &known[1], &err);
+    if (wt_unit_to_si(asked, quantity, &udunits[0], &udunits[1], &err_udunits) != status) {
+        print_error("\"%s\" of %s: %d\n", text, wt_quantity_id(quantity), (int)status);
+        fail();
+    }
+    assert_string_equal(err.message, err_udunits.message);
+    assert_string_equal(err.advice, err_udunits.advice);
+    for (int i = 0; i < 2; i++)
+        assert_near(known[i], udunits[i], 0.0);
+}
+
+static void known_as_udunits_says(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    const known_unit *const known = known_units(&n);
+    assert_true(n > 0);
+    for (size_t q = 0; q < (size_t)WT_Q_COUNT; q++) {
+        for (size_t i = 0; i < n; i++)
+            check_known(known[i].text, (wt_quantity)q);
+        for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
+            const char *const si = wt_quantity_unit((wt_quantity)i);
+            if (strstr(si, "Hz^-0.5") == NULL) /* UDUNITS has no roots */
+                check_known(si, (wt_quantity)q);
+        }
+    }
+}
+
 static void check_parse(const char *text, wt_quantity quantity, double expected)
 {
     double value = (double)NAN;
@@ -268,8 +305,8 @@ static void *convert_often(void *user)
     double *const sum = user;
     for (int i = 0; i < 200; i++) {
         double f = (double)NAN, o = (double)NAN;
-        if (wt_unit_to_si(i % 2 == 0 ? "kPa" : "mm", i % 2 == 0 ? WT_Q_PRESSURE : WT_Q_LENGTH, &f,
-                          &o, NULL) != WT_OK)
+        if (wt_unit_to_si(i % 2 == 0 ? "(kPa)" : "(mm)", i % 2 == 0 ? WT_Q_PRESSURE : WT_Q_LENGTH,
+                          &f, &o, NULL) != WT_OK)
             f = (double)NAN;
         *sum += f;
     }
@@ -313,7 +350,8 @@ static int ask_without(const char *database, rlim_t files, const char *message, 
         bool good = database == NULL || setenv("UDUNITS2_XML_PATH", database, 1) == 0;
         good = good && (files == 0 || setrlimit(RLIMIT_NOFILE, &few) == 0);
         shortage_forget();
-        good = good && wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, &err) == WT_E_INTERNAL &&
+        good = good &&
+               wt_unit_to_si("furlong", WT_Q_LENGTH, &factor, &offset, &err) == WT_E_INTERNAL &&
                strstr(err.message, message) != NULL && strstr(err.advice, advice) != NULL;
         /* Whoever took it for an unknown unit is told at the end. */
         good = good && shortage_end(WT_E_FORMAT, &end) == WT_E_INTERNAL &&
@@ -336,12 +374,19 @@ static void no_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_database),      cmocka_unit_test(units_of_instruments),
-        cmocka_unit_test(temperatures),     cmocka_unit_test(frequency_is_not_angular),
-        cmocka_unit_test(wrong_units),      cmocka_unit_test(every_si_unit_is_itself),
-        cmocka_unit_test(quantities),       cmocka_unit_test(quantities_refused),
-        cmocka_unit_test(formatted),        cmocka_unit_test(foreign_locale),
-        cmocka_unit_test(chances_in_words), cmocka_unit_test(several_threads),
+        cmocka_unit_test(no_database),
+        cmocka_unit_test(units_of_instruments),
+        cmocka_unit_test(temperatures),
+        cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(wrong_units),
+        cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(quantities),
+        cmocka_unit_test(quantities_refused),
+        cmocka_unit_test(formatted),
+        cmocka_unit_test(foreign_locale),
+        cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(several_threads),
+        cmocka_unit_test(known_as_udunits_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

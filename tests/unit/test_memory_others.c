@@ -112,13 +112,13 @@ static void check_job(const char *name, job *j, size_t every, int worst)
 
 static wt_formats *formats;
 
-/* The first unit of the process: the database is read. */
+/* The first unit of the process that is not a known one: the database is read. */
 static wt_status first_unit(bool *right, wt_error *err)
 {
     double factor = 0, offset = 0, spelt = 0;
-    wt_status status = wt_unit_to_si("nm", WT_Q_LENGTH, &factor, &offset, err);
+    wt_status status = wt_unit_to_si("(nm)", WT_Q_LENGTH, &factor, &offset, err);
     if (status == WT_OK)
-        status = wt_unit_to_si("deg", WT_Q_ANGLE, &spelt, &offset, err);
+        status = wt_unit_to_si("(deg)", WT_Q_ANGLE, &spelt, &offset, err);
     *right = fabs(factor - 1e-9) < 1e-24 && fabs(spelt - 0.0174532925199432957) < 1e-16;
     return status;
 }

@@ -151,9 +151,11 @@ static void move_jump(curve_fitting *f, curve_solution *s)
             curve_solution moved = *s;
             const size_t jump = f->kind.jump;
             f->kind.jump = way < 0 ? jump - 1 : jump + 1;
+            f->kind.below = s->cost;
             if (f->kind.jump >= CURVE_BASELINE_SAMPLES &&
                 n - f->kind.jump >= CURVE_BASELINE_SAMPLES)
                 refine(f, &moved);
+            f->kind.below = 0.0;
             if (!(moved.cost < s->cost)) {
                 f->kind.jump = jump;
                 break;

@@ -245,6 +245,7 @@ typedef struct curve_kind {
     bool memory;       /* the rubber has the spectrum of the options; not with adhesion */
     bool rough;        /* to a thousandth of a standard error, and without errors */
     bool no_errors;    /* that is all of it */
+    double below;      /* a fit that cannot come below this cost need not end; 0: each does */
     size_t jump;       /* of adhesive contact: the first sample in it; 0: where the tip touches */
     curve_wave wave;   /* where to begin with it */
 } curve_kind;

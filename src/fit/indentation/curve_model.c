@@ -156,6 +156,22 @@ WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first
     }
 }
 
+/* Along the branch; samples that are held at its end are all at one place. */
+static void along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to)
+{
+    size_t same = 1;
+    while (same < n && !(bare[same] > bare[0]) && !(bare[same] < bare[0]))
+        same++;
+    adhesion_along(law, bare, same == n ? 1 : n, to);
+    for (size_t j = 1; j < n && same == n; j++) {
+        to->depth[j] = to->depth[0];
+        to->force[j] = to->force[0];
+        to->stiffness[j] = to->stiffness[0];
+        to->by_modulus[j] = to->by_modulus[0];
+        to->by_work[j] = to->by_work[0];
+    }
+}
+
 /* The same for adhesive contact: lever and sample in balance on the branch of large radii, which a
  * sample is on from its jump on, or from where the tip touches. */
 static void balance_adhesive(const curve_law *m, const double p[N], size_t first)
@@ -176,7 +192,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     for (size_t i = first; i < s->n; i += ADHESION_BLOCK) {
         const size_t n = s->n - i < ADHESION_BLOCK ? s->n - i : ADHESION_BLOCK;
         adhesive_contacts c;
-        adhesion_along(&law, bare + i, n, &c);
+        along(&law, bare + i, n, &c);
         for (size_t j = 0; j < n; j++) {
             const bool touches = m->jump > 0 || z[i + j] > 0.0;
             const bool moves = touches && bare[i + j] > release * (1.0 + 1e-9); /* else held */

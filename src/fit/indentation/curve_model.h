@@ -16,6 +16,7 @@ typedef struct curve_law {
     bool plain, adhesive, memory;
     bool constant_pull; /* adhesive by a force of its own, the parameter of the work [N] */
     bool rough;         /* as in the kind */
+    double below;       /* as in the kind */
     bool balanced;      /* the indentations of the workspace, with the force and its slope there */
     bool wave; /* in the force; the derivatives then are those less what the wave can imitate */
     double imitated[WAVE_PARAMETERS][CURVE_N_PARAMETERS];

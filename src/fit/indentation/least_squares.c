@@ -62,6 +62,9 @@ static const double nearly = 1e4;
 static const double stuck = 1e8;    /* a tenth */
 static const double at_kink = 1e10; /* one: what a sample at a kink keeps from being gained */
 static const double least_damping = 1e-3;
+/* How many times the decrease of the cost that a step promises a whole fit may bring: near its end
+ * it is one, and a jump of one sample more or less keeps it near. */
+static const double most_promises = 10.0;
 
 static double by_step(const curve_samples *s, double cost)
 {
@@ -114,6 +117,8 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
                 expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
                 if (expected <= close * by_step(s, *cost) || expected <= rounding)
                     return true;
+                if (*cost - most_promises * expected > m->below && m->below > 0.0)
+                    return false;
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
@@ -229,6 +234,7 @@ curve_law curve_law_of(const wt_contact_table *table, const curve_samples *sampl
                        .memory = kind->memory && !kind->adhesive,
                        .wave = curve_has_wave(&kind->wave),
                        .rough = kind->rough && !curve_has_wave(&kind->wave),
+                       .below = kind->below,
                        .jump = kind->jump};
 }
 
@@ -255,10 +261,11 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     s.converged = minimise(&m, s.p, &s.wave, &s.cost);
     if (m.wave)
         s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
-    curve_model_complete(&m, s.p);
     s.first_contact = first_contact(&m, s.p);
-    if (!m.rough && !kind->no_errors)
+    if (!m.rough && !kind->no_errors) {
+        curve_model_complete(&m, s.p);
         statistics(&m, &s);
+    }
     *solution = s;
 }
 

@@ -78,8 +78,7 @@ static double loss_beyond(double power, void *user)
 static double find_power(curve_fitting *f)
 {
     double power = (double)NAN;
-    if (loss_beyond(most_power, f) > 0.0 &&
-        root_find(loss_beyond, f, least_power, most_power, power_close, &power, NULL) != WT_OK)
+    if (root_find(loss_beyond, f, least_power, most_power, power_close, &power, NULL) != WT_OK)
         power = (double)NAN;
     return power;
 }

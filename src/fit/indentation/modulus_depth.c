@@ -18,7 +18,7 @@
 #include "base/array.h"
 #include "base/gsl_quiet.h"
 #include "base/pool.h"
-#include "fit/indentation/curve.h"
+#include "fit/indentation/depth_waves.h"
 #include "fit/students_t.h"
 #include "model/thin_layer.h"
 #include "model/tip.h"
@@ -34,8 +34,6 @@
 
 enum {
     W = CURVE_WAVES,
-    POINTS = 48, /* of the window of a residual: eight to a half wave of its fastest cosine */
-    MAX_PARAMETERS = 4,   /* those of a layer */
     LEAST_CURVES = 2 * W, /* the scatter has as many degrees of freedom as there are cosines */
     LEAST_SPOTS = 3,      /* two have a scatter of one degree of freedom, 13 standard errors wide */
     MAX_ITERATIONS = 50,  /* a bound of least squares in four parameters */
@@ -48,101 +46,13 @@ static const double shape_error = 0.01; /* of a modulus by a law that is one of 
 static const double largest_log = 4.0;  /* of a factor: of 55 one side is as good as rigid */
 static const double more_shallow = 1.5; /* of the error of a memory, at no depth */
 
-/* Contact point [depth], then: ln of the modulus at the top, slope, bend; or ln E1, ln E1/E2, ln
- * (contact radius over thickness). */
-typedef enum depth_law { LINE, BENT, LAYER } depth_law;
-enum { CONTACT, LEVEL, SLOPE, BEND, RATIO = SLOPE, REACH = BEND };
 static size_t n_parameters(depth_law law)
 {
-    return law == LINE ? 3 : 4;
-}
-
-/* The mean curve: what all are taken to share. */
-typedef struct mean_curve {
-    const wt_contact_table *table;
-    double reduced, k, depth, force, length, baseline, window;
-    double widest;  /* G' at the depth: twice the contact radius */
-    double wave[W]; /* over the force */
-    double bend[W]; /* those of the bend that the baselines have in common, if it goes on */
-    double loss_error;
-    double factor[W * W]; /* Cholesky's of the scatter of a mean */
-    depth_law law;
-} mean_curve;
-
-/* ln of the modulus over that of the fit. */
-static double log_modulus(depth_law law, const double *p, double u)
-{
-    if (law == LAYER)
-        return p[LEVEL] + log(thin_layer_apparent(exp(p[RATIO]), exp(p[REACH]) * u));
-    return p[LEVEL] + (u - 1.0) * (p[SLOPE] + (law == BENT ? p[BEND] * (u - 1.0) : 0.0));
-}
-
-/* Force of lever and rubber at a position from the contact point; p NULL: of the fit. */
-static double force_at(const mean_curve *m, const double *p, double z)
-{
-    double low = 0.0, high = z, x = 0.9 * z;
-    if (!(z > 0.0))
-        return 0.0;
-    for (int i = 0; i < 60; i++) {
-        double g, slope;
-        wt_contact_table_eval(m->table, &x, 1, &g, &slope);
-        const double e =
-            m->reduced * (p != NULL ? exp(log_modulus(m->law, p, slope / m->widest)) : 1.0);
-        const double over = m->k * (z - x) - e * g;
-        *(over > 0.0 ? &low : &high) = x;
-        const double step = over / (m->k + e * slope); /* Newton's but for a change of E */
-        if (fabs(step) < 1e-13 * z)
-            break;
-        x = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
-    }
-    return m->k * (z - x);
-}
-
-/* Takes out of differences at the points of the window the line that they and no difference before
- * them would be fitted with. */
-static void take_out_line(const mean_curve *m, const double *z, double *d)
-{
-    const double from = -m->baseline, to = m->length, n = to - from, step = m->window / POINTS;
-    const double middle = 0.5 * (from + to), spread = n * n * n / 12.0;
-    double sum = 0.0, moment = 0.0;
-    for (size_t i = 0; i < POINTS; i++) {
-        sum += d[i] * step;
-        moment += d[i] * (z[i] - middle) * step;
-    }
-    for (size_t i = 0; i < POINTS; i++)
-        d[i] -= sum / n + moment / spread * (z[i] - middle);
-}
-
-/* Position of a point of the window. */
-static double point_of(const mean_curve *m, size_t i)
-{
-    return m->length - m->window * (1.0 - ((double)i + 0.5) / POINTS);
-}
-
-/* Cosines over the window of a force, of the largest one. */
-static void cosines_of(const mean_curve *m, const double d[POINTS], double wave[W])
-{
-    memset(wave, 0, W * sizeof *wave);
-    for (size_t i = 0; i < POINTS; i++)
-        for (size_t j = 0; j < W; j++)
-            wave[j] += 2.0 / POINTS * d[i] / m->force *
-                       cos(M_PI * (double)(j + 1) * ((double)i + 0.5) / POINTS);
-}
-
-/* Those of the force of p less that of the fit. */
-static void waves_of(const mean_curve *m, const double *p, double wave[W])
-{
-    double z[POINTS], d[POINTS];
-    for (size_t i = 0; i < POINTS; i++) {
-        z[i] = point_of(m, i);
-        d[i] = force_at(m, p, z[i] - p[CONTACT] * m->depth) - force_at(m, NULL, z[i]);
-    }
-    take_out_line(m, z, d);
-    cosines_of(m, d, wave);
+    return law == DEPTH_LINE ? 3 : 4;
 }
 
 /* x solved by the factor of the scatter: of the size of its error each. */
-static void whiten(const mean_curve *m, double x[W])
+static void whiten(const depth_mean *m, double x[W])
 {
     gsl_matrix_const_view factor = gsl_matrix_const_view_array(m->factor, W, W);
     gsl_vector_view v = gsl_vector_view_array(x, W);
@@ -151,12 +61,12 @@ static void whiten(const mean_curve *m, double x[W])
 
 static int residual_of(const gsl_vector *p, void *user, gsl_vector *r)
 {
-    const mean_curve *m = user;
+    const depth_mean *m = user;
     double wave[W];
     for (size_t a = 0; a < p->size; a++)
         if (!(fabs(gsl_vector_get(p, a)) < largest_log))
             return GSL_EDOM;
-    waves_of(m, p->data, wave);
+    depth_mean_waves(m, p->data, wave);
     for (size_t j = 0; j < W; j++)
         wave[j] -= m->wave[j];
     whiten(m, wave);
@@ -168,16 +78,16 @@ static int residual_of(const gsl_vector *p, void *user, gsl_vector *r)
 /* By differences, whose steps must not shrink with parameters that are nearly 0. */
 static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian)
 {
-    const mean_curve *m = user;
+    const depth_mean *m = user;
     const double step = 1e-4;
     for (size_t a = 0; a < at->size; a++) {
-        double p[MAX_PARAMETERS], more[W], less[W];
+        double p[DEPTH_PARAMETERS], more[W], less[W];
         for (size_t b = 0; b < at->size; b++)
             p[b] = gsl_vector_get(at, b);
         p[a] += step;
-        waves_of(m, p, more);
+        depth_mean_waves(m, p, more);
         p[a] -= 2.0 * step;
-        waves_of(m, p, less);
+        depth_mean_waves(m, p, less);
         for (size_t j = 0; j < W; j++)
             more[j] = (more[j] - less[j]) / (2.0 * step);
         whiten(m, more);
@@ -189,16 +99,16 @@ static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian
 
 typedef struct depth_fit {
     depth_law law;
-    double p[MAX_PARAMETERS];
-    double gain[MAX_PARAMETERS][W]; /* of the parameters by the whitened waves */
-    double left;                    /* of the squares */
-    double excess;                  /* of them over what scatter leaves; 1 at least */
-    double chance;                  /* of more by scatter alone */
+    double p[DEPTH_PARAMETERS];
+    double gain[DEPTH_PARAMETERS][W]; /* of the parameters by the whitened waves */
+    double left;                      /* of the squares */
+    double excess;                    /* of them over what scatter leaves; 1 at least */
+    double chance;                    /* of more by scatter alone */
     bool good;
 } depth_fit;
 
 /* Least squares from p; n: curves. */
-static depth_fit fit_law(mean_curve *m, depth_law law, const double *start, size_t n, wt_error *err)
+static depth_fit fit_law(depth_mean *m, depth_law law, const double *start, size_t n, wt_error *err)
 {
     const size_t n_p = n_parameters(law);
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
@@ -219,7 +129,7 @@ static depth_fit fit_law(mean_curve *m, depth_law law, const double *start, size
         status =
             gsl_multifit_nlinear_driver(MAX_ITERATIONS, 1e-8, 1e-10, 0.0, NULL, NULL, &info, w);
     if (status == GSL_SUCCESS || status == GSL_ENOPROG) { /* no step that helps: it is there */
-        double square[MAX_PARAMETERS * MAX_PARAMETERS];
+        double square[DEPTH_PARAMETERS * DEPTH_PARAMETERS];
         gsl_matrix_view inverse = gsl_matrix_view_array(square, n_p, n_p);
         const gsl_matrix *j = gsl_multifit_nlinear_jac(w);
         fit.good = gsl_multifit_nlinear_covar(j, 1e-10, &inverse.matrix) == GSL_SUCCESS;
@@ -248,7 +158,7 @@ typedef struct depth_pool {
     const wt_depth_curve *curve; /* [n] by spot */
     size_t n, n_units;
     bool by_spot;
-    mean_curve mean;
+    depth_mean mean;
     double *value; /* [n], then of the units */
 } depth_pool;
 
@@ -263,8 +173,8 @@ static bool make_mean(depth_pool *d, const wt_contact_table *table, double poiss
 {
     const double curves = (double)d->n;
     double modulus = 0.0, depth = 0.0, k = 0.0, g, slope;
-    mean_curve *m = &d->mean;
-    *m = (mean_curve){.table = table};
+    depth_mean *m = &d->mean;
+    *m = (depth_mean){.table = table};
     for (size_t i = 0; i < d->n; i++) {
         const wt_depth_curve *c = &d->curve[i];
         modulus += log(c->modulus) / curves;
@@ -313,23 +223,23 @@ static moments over_units(depth_pool *d)
 /* The parabola of the baselines over the window, if it is more than they scatter. */
 static void find_bend(depth_pool *d)
 {
-    mean_curve *m = &d->mean;
-    double z[POINTS], bend[POINTS];
+    depth_mean *m = &d->mean;
+    double z[DEPTH_POINTS], bend[DEPTH_POINTS];
     for (size_t i = 0; i < d->n; i++)
         d->value[i] = d->curve[i].curvature;
     const moments all = over_units(d);
     const double error = students_t_quantile(all.n - 1.0) * sqrt(all.variance / all.n);
     const double curvature = fabs(all.mean) > error ? all.mean : 0.0;
     const double middle = 0.5 * (m->length - m->baseline), n = m->length + m->baseline;
-    for (size_t i = 0; i < POINTS; i++) { /* less the line it is fitted with, all along */
-        z[i] = point_of(m, i) - middle;
+    for (size_t i = 0; i < DEPTH_POINTS; i++) { /* less the line it is fitted with, all along */
+        z[i] = depth_mean_point(m, i) - middle;
         bend[i] = curvature * (z[i] * z[i] - n * n / 12.0);
     }
-    cosines_of(m, bend, m->bend);
+    depth_mean_cosines(m, bend, m->bend);
 }
 
 /* What the waves w add to a number with these derivatives by the parameters. */
-static double share_of(const mean_curve *m, const depth_fit *fit, const double by[MAX_PARAMETERS],
+static double share_of(const depth_mean *m, const depth_fit *fit, const double by[DEPTH_PARAMETERS],
                        const double w[W])
 {
     double white[W], sum = 0.0;
@@ -351,9 +261,9 @@ typedef struct depth_number {
  * with_level: with ln E of each curve; losses: errors of the memory in it. By Student's t over the
  * units. */
 static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
-                              const double by[MAX_PARAMETERS], bool with_level, double losses)
+                              const double by[DEPTH_PARAMETERS], bool with_level, double losses)
 {
-    const mean_curve *m = &d->mean;
+    const depth_mean *m = &d->mean;
     const double rest = (double)(W - n_parameters(fit->law));
     for (size_t i = 0; i < d->n; i++) {
         double wave[W];
@@ -370,7 +280,7 @@ static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
     const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
     const double scatter = sqrt(all.variance / all.n * more * fit->excess);
     const double bend = share_of(m, fit, by, m->bend), loss = losses * m->loss_error;
-    const double own = fit->law == LINE ? scatter : hypot(scatter, shape_error);
+    const double own = fit->law == DEPTH_LINE ? scatter : hypot(scatter, shape_error);
     const double error = hypot(own, hypot(bend, loss));
     const double reach = students_t_quantile(df) * error;
     const double value = exp(all.mean);
@@ -384,17 +294,19 @@ static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
 /* ---- what is told ---------------------------------------------------------------------------- */
 
 /* ln of the modulus over that of the fit at a share of the depth, and its derivatives. */
-static double at_depth(const mean_curve *m, const depth_fit *fit, double share,
-                       double by[MAX_PARAMETERS])
+static double at_depth(const depth_mean *m, const depth_fit *fit, double share,
+                       double by[DEPTH_PARAMETERS])
 {
     const double depth = share * m->depth, step = 1e-5;
-    double g, slope, p[MAX_PARAMETERS];
+    double g, slope, p[DEPTH_PARAMETERS];
     wt_contact_table_eval(m->table, &depth, 1, &g, &slope);
-    const double u = slope / m->widest, value = log_modulus(fit->law, fit->p, u);
+    depth_modulus law = depth_modulus_of(fit->law, fit->p);
+    const double u = slope / m->widest, value = depth_log_modulus(&law, u);
     memcpy(p, fit->p, sizeof p);
-    for (size_t a = 0; a < MAX_PARAMETERS; a++) {
+    for (size_t a = 0; a < DEPTH_PARAMETERS; a++) {
         p[a] += step;
-        by[a] = (log_modulus(fit->law, p, u) - value) / step;
+        law = depth_modulus_of(fit->law, p);
+        by[a] = (depth_log_modulus(&law, u) - value) / step;
         p[a] = fit->p[a];
     }
     return value;
@@ -403,7 +315,7 @@ static double at_depth(const mean_curve *m, const depth_fit *fit, double share,
 /* The modulus at shares of the depth, and the change from the first to the last. */
 static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
 {
-    double first[MAX_PARAMETERS] = {0.0}, by[MAX_PARAMETERS], top = 0.0;
+    double first[DEPTH_PARAMETERS] = {0.0}, by[DEPTH_PARAMETERS], top = 0.0;
     for (size_t i = 0; i < WT_DEPTHS; i++) {
         const double share = (double)(i + 1) / WT_DEPTHS;
         const double at = at_depth(&d->mean, fit, share, by);
@@ -416,7 +328,7 @@ static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
         }
         if (i + 1 < WT_DEPTHS)
             continue;
-        for (size_t a = 0; a < MAX_PARAMETERS; a++)
+        for (size_t a = 0; a < DEPTH_PARAMETERS; a++)
             by[a] -= first[a];
         const depth_number change =
             number_of(d, fit, at - top, by, false, more_shallow * (1.0 - 1.0 / WT_DEPTHS));
@@ -434,7 +346,7 @@ static depth_fit fit_layer(depth_pool *d, double log_change, wt_error *err)
     depth_fit best = {.good = false};
     for (size_t i = 0; i < COUNT_OF(reaches); i++) {
         const double start[] = {0.0, -0.5 * log_change, -1.5 * log_change, log(reaches[i])};
-        const depth_fit fit = fit_law(&d->mean, LAYER, start, d->n, err);
+        const depth_fit fit = fit_law(&d->mean, DEPTH_LAYER, start, d->n, err);
         if (fit.good && (!best.good || fit.left < best.left))
             best = fit;
     }
@@ -445,7 +357,7 @@ static depth_fit fit_layer(depth_pool *d, double log_change, wt_error *err)
 static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
 {
     const depth_fit fit = fit_layer(d, log(to->change.value), err);
-    const double ratio = exp(fit.p[RATIO]), reach = exp(fit.p[REACH]);
+    const double ratio = exp(fit.p[DEPTH_RATIO]), reach = exp(fit.p[DEPTH_REACH]);
     if (contact_table_tip(d->mean.table)->sample_thickness > 0.0 || !fit.good ||
         fit.chance < level || !thin_layer_holds(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
         reach < 0.7 || reach > 2.5)
@@ -453,14 +365,14 @@ static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
     const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
                  of_thickness[] = {0.0, 0.0, 0.0, -1.0};
     const wt_interval thickness =
-        number_of(d, &fit, log(0.5 * d->mean.widest) - fit.p[REACH], of_thickness, false, 1.0)
+        number_of(d, &fit, log(0.5 * d->mean.widest) - fit.p[DEPTH_REACH], of_thickness, false, 1.0)
             .interval;
     if (thickness.high > roughest * thickness.low)
         return;
     to->thickness = thickness;
-    to->layer_modulus = number_of(d, &fit, fit.p[LEVEL], of_layer, true, 1.0).interval;
+    to->layer_modulus = number_of(d, &fit, fit.p[DEPTH_LEVEL], of_layer, true, 1.0).interval;
     to->ground_modulus =
-        number_of(d, &fit, fit.p[LEVEL] - fit.p[RATIO], of_ground, true, 1.0).interval;
+        number_of(d, &fit, fit.p[DEPTH_LEVEL] - fit.p[DEPTH_RATIO], of_ground, true, 1.0).interval;
 }
 
 /* Too little to matter, whichever way. */
@@ -481,12 +393,12 @@ static void judge(const depth_fit *fit, wt_curve_depth *to)
 
 static wt_status make(depth_pool *d, wt_curve_depth *to, wt_error *err)
 {
-    const double start[MAX_PARAMETERS] = {0.0};
+    const double start[DEPTH_PARAMETERS] = {0.0};
     wt_error failure = WT_ERROR_INIT;
-    depth_fit fit = fit_law(&d->mean, LINE, start, d->n, &failure);
+    depth_fit fit = fit_law(&d->mean, DEPTH_LINE, start, d->n, &failure);
     if (fit.good && fit.chance < level) {
-        const depth_fit other[] = {fit_law(&d->mean, BENT, fit.p, d->n, &failure),
-                                   fit_layer(d, fit.p[SLOPE], &failure)};
+        const depth_fit other[] = {fit_law(&d->mean, DEPTH_BENT, fit.p, d->n, &failure),
+                                   fit_layer(d, fit.p[DEPTH_SLOPE], &failure)};
         for (size_t i = 0; i < COUNT_OF(other); i++)
             if (other[i].good && other[i].chance > fit.chance)
                 fit = other[i];
@@ -496,9 +408,9 @@ static wt_status make(depth_pool *d, wt_curve_depth *to, wt_error *err)
         judge(&fit, to);
     }
     if (to->verdict == WT_DEPTH_CHANGES) {
-        const depth_fit bent = fit_law(&d->mean, BENT, fit.p, d->n, &failure);
+        const depth_fit bent = fit_law(&d->mean, DEPTH_BENT, fit.p, d->n, &failure);
         const double chance = to->chance;
-        if (fit.law == LINE && bent.good) /* that it is a line nobody says */
+        if (fit.law == DEPTH_LINE && bent.good) /* that it is a line nobody says */
             tell_depths(d, &bent, to);
         to->chance = chance;
         if (is_small(to) && to->change.low < 1.0 && to->change.high > 1.0)
@@ -546,6 +458,7 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
         to->by_spot = d.by_spot;
         to->n_units = d.by_spot ? d.n_units : d.n;
         if (make_mean(&d, table, poisson_ratio)) {
+            depth_mean_prepare(&d.mean);
             find_bend(&d);
             status = make(&d, to, err);
         }
