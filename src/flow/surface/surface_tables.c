@@ -3,6 +3,7 @@
 
 #include "base/clocale.h"
 #include "base/normal.h"
+#include "base/param.h"
 #include "data/tables/rows.h"
 #include "fit/students_t.h"
 #include "fit/surface/surface.h"
@@ -143,12 +144,13 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
 static wt_status make_surfaces(const wt_topography_job *job, const surface_scan *scans, size_t n,
                                wt_table **table, wt_error *err)
 {
-    static const char *const forms[] = {"mean", "plane", "quadratic"};
-    static const char *const windows[] = {"hann", "welch", "none"};
+    char form[PARAM_WORD], window[PARAM_WORD];
+    param_word(wt_topography_job_params(), "form", job->options.form, form, sizeof form);
+    param_word(wt_topography_job_params(), "window", job->options.window, window, sizeof window);
     table_writer t = table_begin(&surfaces_schema, err);
     for (size_t i = 0; i < n; i++)
         surfaces_add_row(&t, &scans[i]);
-    TABLE_SET(surfaces, &t, forms[job->options.form], windows[job->options.window]);
+    TABLE_SET(surfaces, &t, form, window);
     return table_end(&t, table);
 }
 

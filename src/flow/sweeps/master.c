@@ -7,6 +7,7 @@
 #include "flow/work/inputs.h"
 
 #include "base/array.h"
+#include "base/param.h"
 #include "data/tables/rows.h"
 #include "model/material.h"
 
@@ -65,12 +66,6 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_master_clear(tables->fit);
     free(tables->fit);
     *tables = (wt_master_tables){0};
-}
-
-static const char *vertical_name(wt_vertical_shift vertical)
-{
-    static const char *const names[] = {"none", "physical", "free", "tied"};
-    return names[vertical];
 }
 
 static const char *shifted_by_name(const wt_master *m)
@@ -165,7 +160,10 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
     set_law(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
-    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(m->vertical));
+    char vertical[PARAM_WORD];
+    param_word(wt_master_options_params(), "vertical-shift", m->vertical, vertical,
+               sizeof vertical);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical);
     if (wt_master_shifted_by(m) != WT_BY_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shifted_by_name(m));
     set_route(&t, m);
