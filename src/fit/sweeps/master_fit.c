@@ -281,7 +281,7 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
         }
         status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
         if (status == WT_OK)
-            (void)spectrum_noise_update(&lines);
+            (void)spectrum_noise_update(&lines, 1.0);
     }
     for (int q = 0; q < MODULI && status == WT_OK; q++)
         *better |= leave_less(&lines, s, q);
@@ -319,10 +319,12 @@ wt_status master_measure_misfit(master_work *work, wt_error *err)
 {
     double all[MODULI], within[MODULI];
     const wt_status status = spectrum_misses(work->s, all, within, err);
-    work->gross = false;
+    work->gross = work->louder = false;
     for (int q = 0; status == WT_OK && q < MODULI; q++) {
         const double missed = all[q] * all[q] - within[q] * within[q];
-        work->gross = work->gross || missed > gross_misfit * gross_misfit;
+        const bool gross = missed > gross_misfit * gross_misfit;
+        work->gross = work->gross || gross;
+        work->louder = work->louder || (gross && missed > within[q] * within[q]);
         work->missed[q] = sqrt(fmax(missed, 0.0));
     }
     return status;
