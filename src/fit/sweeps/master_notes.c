@@ -149,11 +149,14 @@ static void note_route(const master_work *work, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "shifts are by the overlap of the storage modulus alone, from neighbour to "
                         "neighbour and %s: their errors hold what the places of an overlap "
-                        "disagree by, not what a vertical shift would change, and E'' of the "
-                        "spectrum is off by what superposition fails by",
+                        "disagree by, and by how much the overlap of E'' and %s would move them; "
+                        "E'' of the spectrum is off by what superposition fails by",
                         work->options.vertical == WT_VERTICAL_PHYSICAL
                             ? "with the vertical shift of rubber elasticity"
-                            : "without a vertical shift");
+                            : "without a vertical shift",
+                        work->options.vertical == WT_VERTICAL_PHYSICAL
+                            ? "no vertical shift"
+                            : "the vertical shift of rubber elasticity");
 }
 
 void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
