@@ -187,6 +187,13 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
                         isnan(m->holds_from) ? ": " : " ", m->because);
+    if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
+        wt_parselog_add(
+            log, WT_WARNING, NULL, NULL,
+            "the law of the shift factors is %.2g decade off them (rms): it is none of "
+            "this material, and what is worked out at other temperatures with it is off "
+            "by as much",
+            m->law_rms);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
 }
