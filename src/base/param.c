@@ -483,14 +483,11 @@ static int print_choice(const wt_param *param, unsigned long long value, char *b
 void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
                 size_t size)
 {
-    const size_t n = wt_params_count(params);
+    const size_t i = param_number(params, name);
+    const wt_param *p = i < wt_params_count(params) ? wt_params_get(params, i) : NULL;
     buffer[0] = '\0';
-    for (size_t i = 0; i < n; i++) {
-        size_t offset = 0;
-        const wt_param *p = param_at(params, i, &offset);
-        if (strcmp(p->name, name) == 0 && p->kind == PARAM_CHOICE && value < n_choices(p))
-            (void)print_choice(p, value, buffer, size);
-    }
+    if (p != NULL && p->kind == PARAM_CHOICE && value < n_choices(p))
+        (void)print_choice(p, value, buffer, size);
 }
 
 static int print_member(const slot *s, char *buffer, size_t size)
