@@ -14,6 +14,7 @@ typedef struct master_work {
     double reference; /* [K] */
     size_t anchor;
     bool measured_reference; /* the anchor is the reference */
+    bool flows;              /* creep of a liquid, that is fitted with an equilibrium modulus */
     double terms_per_decade; /* of the spectrum, as asked or as it needs */
     bool lines;              /* it needs more, for it is one of sharp lines */
     bool *placed;            /* [set.n] */

@@ -98,12 +98,9 @@ wt_status master_check_vertical(master_work *work, wt_error *err)
 {
     if (work->set.by == WT_BY_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
-    if (work->set.loading == WT_CREEP && work->options.liquid) {
-        wt_fail(err, WT_E_UNSUPPORTED, "creep is fitted with an equilibrium modulus only");
-        wt_error_place(err, "liquid");
-        wt_error_advice(err, "of a liquid give relaxation moduli or an oscillation");
-        return WT_E_UNSUPPORTED;
-    }
+    /* its retardation times are those of a solid; what flows is one with a small modulus */
+    work->flows = work->set.loading == WT_CREEP && work->options.liquid;
+    work->options.liquid = work->options.liquid && !work->flows;
     if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
         return WT_OK;
     wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");

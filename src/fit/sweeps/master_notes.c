@@ -120,7 +120,12 @@ static void note_quantity(const master_work *work, wt_parselog *log)
                         "fitted to %s: storage and loss modulus are those of the spectrum, and "
                         "superposition is not tested",
                         work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
-    else if (work->set.by != WT_BY_MODULI)
+    if (work->flows)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "creep of a liquid is fitted with an equilibrium modulus, which stands for "
+                        "what flows: shifts, law and moduli at the measured times are those of the "
+                        "liquid, and it is too stiff at longer ones");
+    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_BY_MODULI)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 

@@ -103,9 +103,9 @@ static double doubt_of_spectrum(const master_work *work, size_t i)
     return hypot(work->lack.parted * work->own_a[i], missed_shift(work, missed, work->anchor, i));
 }
 
-/* What ways that are as good as that of E' alone move a shift by from one isotherm to another: where
- * one spectrum fails, none of them is known to be right. A spectrum that misses all is none, and
- * where its fit ends is chance. */
+/* What ways that are as good as that of E' alone move a shift by from one isotherm to another:
+ * where one spectrum fails, none of them is known to be right. A spectrum that misses all is none,
+ * and where its fit ends is chance. */
 static double squared_ways(const overlap_link *from, const overlap_link *to)
 {
     const double by_loss = to->by_loss - from->by_loss,

@@ -1,6 +1,7 @@
 /* Shifts by the overlap of neighbours. A step begins with the closed form and ends with the least
  * squares of the gaps, where points far off count little; what the places of an overlap disagree by
- * is its error. What E'' by itself, or another vertical shift, would make of it is kept beside it. SPDX-License-Identifier: GPL-3.0-or-later */
+ * is its error. What the loss modulus by itself, or another vertical shift, would make of it is
+ * kept beside it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/overlap_chain.h"
 
 #include "fit/sweeps/closed_form.h"
@@ -73,8 +74,7 @@ static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_cur
             k++;
         const double width = onto->x[k + 1] - onto->x[k];
         const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
-        const double y =
-            onto->y[o->q][k] + share * (onto->y[o->q][k + 1] - onto->y[o->q][k]);
+        const double y = onto->y[o->q][k] + share * (onto->y[o->q][k + 1] - onto->y[o->q][k]);
         o->gap[o->n++] = (struct gap){sign * (y - from->y[o->q][i]) - o->b,
                                       slope[k] + share * (slope[k + 1] - slope[k]), 1.0};
     }

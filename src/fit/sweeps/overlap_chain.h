@@ -8,13 +8,13 @@
 
 typedef struct overlap_link {
     bool placed;
-    size_t onto;   /* the isotherm it hangs on, of those that are placed; the anchor: itself */
-    double a;      /* against the anchor */
-    double step;   /* standard error of the step onto it */
-    double error;  /* standard error of a, if steps err the same way */
-    double spread; /* of a beside it, if one place of each overlap alone is right, everywhere the
-                      same one */
-    double by_loss;     /* how far the overlaps of the loss modulus alone would move a */
+    size_t onto;    /* the isotherm it hangs on, of those that are placed; the anchor: itself */
+    double a;       /* against the anchor */
+    double step;    /* standard error of the step onto it */
+    double error;   /* standard error of a, if steps err the same way */
+    double spread;  /* of a beside it, if one place of each overlap alone is right, everywhere the
+                       same one */
+    double by_loss; /* how far the overlaps of the loss modulus alone would move a */
     double by_vertical; /* and how far the other vertical shifts */
 } overlap_link;
 

@@ -262,7 +262,8 @@ wt_interval posterior_equilibrium(const wt_posterior *p)
             n++;
         }
     }
-    const wt_interval of_share = mixture_interval(share, n), at_end = mixture_interval(measured, p->n_parts);
+    const wt_interval of_share = mixture_interval(share, n),
+                      at_end = mixture_interval(measured, p->n_parts);
     wt_interval e = {.value = at_end.value + left};
     e.low = e.value - hypot(left + log1p(exp(of_share.high)), at_end.value - at_end.low);
     e.high = e.value + hypot(left + log1p(exp(of_share.low)), at_end.high - at_end.value);

@@ -192,8 +192,8 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISC
 double spectrum_step_left(const spectrum *s);
 
 /* ---- spectrum_noise.c */
-/* Of both moduli and the smoothness, by this share of what they ask for; the largest relative change
- * that they ask for. */
+/* Of both moduli and the smoothness, by this share of what they ask for; the largest relative
+ * change that they ask for. */
 double spectrum_noise_update(spectrum *s, double share);
 void spectrum_criterion(spectrum *s);
 void spectrum_student_weights(spectrum *s);
