@@ -141,12 +141,12 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
 
 /* ---- the scans ------------------------------------------------------------------------------- */
 
-static wt_status make_surfaces(const wt_topography_job *job, const surface_scan *scans, size_t n,
-                               wt_table **table, wt_error *err)
+static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
+                               const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
 {
     char form[PARAM_WORD], window[PARAM_WORD];
-    param_word(wt_topography_job_params(), "form", job->options.form, form, sizeof form);
-    param_word(wt_topography_job_params(), "window", job->options.window, window, sizeof window);
+    param_word(params, "form", job->options.form, form, sizeof form);
+    param_word(params, "window", job->options.window, window, sizeof window);
     table_writer t = table_begin(&surfaces_schema, err);
     for (size_t i = 0; i < n; i++)
         surfaces_add_row(&t, &scans[i]);
@@ -180,14 +180,14 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     *tables = (wt_topography_tables){NULL, NULL, NULL};
 }
 
-wt_status surface_tables_make(const wt_topography_job *job, const surface_scan *scans, size_t n,
-                              const surface_whole *whole, wt_topography_tables *tables,
-                              wt_error *err)
+wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
+                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              wt_topography_tables *tables, wt_error *err)
 {
     wt_topography_tables made = {NULL, NULL, NULL};
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
     if (status == WT_OK)
-        status = make_surfaces(job, scans, n, &made.surfaces, err);
+        status = make_surfaces(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)
         status = make_scans(scans, n, &made.scan_spectra, err);
     if (status == WT_OK)
