@@ -489,6 +489,7 @@ enum { FIXTURE_STEP_COLUMNS = sizeof fixture_creep / sizeof *fixture_creep };
 static inline void fixture_begin_steps(wt_table *table)
 {
     fixture_check(wt_table_add_column(table, "time", "s", "reduced time", NULL));
+    fixture_check(wt_table_add_column(table, "own_time", "s", "time", NULL));
     for (int i = 0; i < FIXTURE_STEP_COLUMNS; i++) {
         fixture_check(wt_table_add_column(table, fixture_relaxation[i], "Pa", "modulus", NULL));
         fixture_check(wt_table_add_column(table, fixture_creep[i], "1/Pa", "compliance", NULL));
@@ -504,6 +505,7 @@ static inline void fixture_add_steps(wt_table *table, size_t row)
 {
     const double storage = fixture_cell(table, row, "storage_modulus");
     fixture_put(table, "time", 1 / fixture_cell(table, row, "angular_frequency"));
+    fixture_put(table, "own_time", 1 / fixture_cell(table, row, "own_frequency"));
     for (int i = 0; i < FIXTURE_STEP_COLUMNS; i++) {
         fixture_put(table, fixture_relaxation[i], storage * (1 + 0.01 * i));
         fixture_put(table, fixture_creep[i], (1 + 0.01 * i) / storage);

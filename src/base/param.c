@@ -472,10 +472,27 @@ static int print_number(const wt_param *param, double value, char *buffer, size_
     return clocale_print(buffer, size, "%g%s%s", value, bare ? "" : " ", bare ? "" : unit);
 }
 
+static int print_choice(const wt_param *param, unsigned long long value, char *buffer, size_t size)
+{
+    const char *word = param->value;
+    for (unsigned long long i = value; i > 0; i--)
+        word += strcspn(word, "|") + 1;
+    return snprintf(buffer, size, "%.*s", (int)strcspn(word, "|"), word);
+}
+
+void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
+                size_t size)
+{
+    const size_t i = param_number(params, name);
+    const wt_param *p = i < wt_params_count(params) ? wt_params_get(params, i) : NULL;
+    buffer[0] = '\0';
+    if (p != NULL && p->kind == PARAM_CHOICE && value < n_choices(p))
+        (void)print_choice(p, value, buffer, size);
+}
+
 static int print_member(const slot *s, char *buffer, size_t size)
 {
     const wt_param *p = s->param;
-    const char *word = p->value;
     if (is_unset(s))
         return snprintf(buffer, size, "%s", p->unset != NULL ? p->unset : "");
     switch (p->kind) {
@@ -487,9 +504,7 @@ static int print_member(const slot *s, char *buffer, size_t size)
     case PARAM_FLAG:
         return snprintf(buffer, size, "%s", *(const bool *)s->member ? "yes" : "no");
     case PARAM_CHOICE:
-        for (unsigned long long i = whole_number(s); i > 0; i--)
-            word += strcspn(word, "|") + 1;
-        return snprintf(buffer, size, "%.*s", (int)strcspn(word, "|"), word);
+        return print_choice(p, whole_number(s), buffer, size);
     case PARAM_TEXT:
         return snprintf(buffer, size, "%s", *(const char **)s->member);
     default:

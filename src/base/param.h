@@ -156,6 +156,10 @@ wt_status param_check(const wt_params *params, const void *structure, wt_error *
 wt_status param_check_number(const wt_param *param, double value, wt_error *err) WT_NODISCARD;
 /* The error of a number that is not a parameter: WT_E_RANGE. */
 wt_status range_error(const char *name, double value, const char *expected, wt_error *err);
+/* The word that a choice has for a value, for who tells what was chosen; "" for none. */
+enum { PARAM_WORD = 32 };
+void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
+                size_t size);
 /* Name of the first required parameter that is not given; NULL if there is none. */
 const char *param_missing(const wt_params *params, uint64_t given);
 

@@ -101,13 +101,13 @@ static const char *find_word(const char *name, size_t length, const char *const 
     return NULL;
 }
 
+enum { MOST_WORDS = 7 };
+typedef const char *const word_list[MOST_WORDS];
+
 /* By the name of the file, else by that of its folder, else by those of the folders above, as far
  * as they tell the files apart: those behind the first `common` characters. */
-static void find_group(entry *e, size_t common)
+static bool find_group_by(entry *e, size_t common, word_list words[])
 {
-    static const char *const words[][7] = {
-        [BULK] = {"bulk", "unworn", "virgin", "outside", "beside", "reference", NULL},
-        [TRACK] = {"track", "worn", "wear", "scar", "groove", "inside", NULL}};
     const char *const path = e->path, *end = path + strlen(path);
     for (int above = 0; end > path && (above < 2 || end > path + common); above++) {
         const char *slash = memrchr(path, '/', (size_t)(end - path));
@@ -118,9 +118,22 @@ static void find_group(entry *e, size_t common)
         }
         e->of_folder = above > 0;
         if (e->word != NULL)
-            return;
+            return true;
         end = slash != NULL ? slash : path;
     }
+    return false;
+}
+
+/* A reference may be one of anything, of the track or of the lever: it tells where nothing else
+ * does. */
+static void find_group(entry *e, size_t common)
+{
+    static word_list words[] = {
+        [BULK] = {"bulk", "unworn", "virgin", "outside", "beside", NULL},
+        [TRACK] = {"track", "worn", "wear", "scar", "groove", "inside", NULL}};
+    static word_list weak[] = {[BULK] = {"reference", NULL}, [TRACK] = {NULL}};
+    if (!find_group_by(e, common, words))
+        (void)find_group_by(e, common, weak);
 }
 
 /* What the names of force curves say of them; says where they say nothing. */

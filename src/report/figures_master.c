@@ -96,8 +96,7 @@ static void combined_axis(figure_drawing *d, const char *axis, const combination
 
 /* ---- isotherms and master curve -------------------------------------------------------------- */
 
-/* Points take the colour of the temperature they were measured at, which in all these figures is
- * the same. */
+/* Points take the colour of the temperature they were measured at, in all figures the same. */
 static void plot_points(figure_drawing *d, const char *using, const char *with)
 {
     const bool coloured = !span_empty(&d->colour);
@@ -191,7 +190,7 @@ static void caption_isotherms(figure_drawing *d)
     text_format(
         &d->caption,
         " %zu isotherm%s. Those that superposition can join have the same form, moved along "
-        "the axis of frequency; where one crosses its neighbours, look at the sample, the "
+        "the axis of frequency or time; where one crosses its neighbours, look at the sample, the "
         "clamping and the oven first.",
         count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
 }
@@ -221,7 +220,7 @@ static void caption_master_curve(figure_drawing *d)
 
 /* ---- after a step ---------------------------------------------------------------------------- */
 
-static void draw_after_step(figure_drawing *d)
+static void draw_step(figure_drawing *d, bool fitted)
 {
     if (!drawing_data(d))
         return;
@@ -229,10 +228,22 @@ static void draw_after_step(figure_drawing *d)
     drawing_axes(d);
     if (!span_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    plot_band(d, FITTED + 1, "y_unit");
+    if (fitted)
+        plot_band(d, FITTED + 1, "y_unit");
     plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
-    plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
+    if (fitted)
+        plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
     plot_end(d);
+}
+
+static void draw_before_step(figure_drawing *d)
+{
+    draw_step(d, false);
+}
+
+static void draw_after_step(figure_drawing *d)
+{
+    draw_step(d, true);
 }
 
 static void caption_after_step(figure_drawing *d)
@@ -478,6 +489,16 @@ static void caption_vertical_shifts(figure_drawing *d)
         .words = label " shifted to the reference temperature", .draw = draw_after_step,           \
         .caption = caption_after_step                                                              \
     }
+#define BEFORE_STEP(id, heading, quantity, label, OWN_VALUE)                                       \
+    {                                                                                              \
+        .name = id, .title = heading, .table = &master_curve_schema, .data_title = heading,        \
+        .x = {MASTER_CURVE_OWN_TIME, AXIS_LOG, "Time"}, .y = {{OWN_VALUE, AXIS_LOG, label}},       \
+        .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                          \
+        .curves = {CURVE(OWN_VALUE, OWN), CURVE(MASTER_CURVE_##quantity, DATA),                    \
+                   CURVE(MASTER_CURVE_TEMPERATURE, DATA)},                                         \
+        .words = label " of each isotherm before any shift; colours as in the master curve.",      \
+        .draw = draw_before_step, .caption = caption_isotherms                                     \
+    }
 #define FITTED_OF_RELAXATION_MODULUS MASTER_CURVE_FITTED_RELAXATION
 #define FITTED_OF_CREEP_COMPLIANCE MASTER_CURVE_FITTED_CREEP
 
@@ -514,8 +535,12 @@ const figure_description figures_master[] = {
      .words = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
+    BEFORE_STEP("relaxation_isotherms", "Relaxation before shifting", RELAXATION_MODULUS,
+                "Relaxation modulus", MASTER_CURVE_OWN_RELAXATION),
     AFTER_STEP("relaxation", "Master curve of relaxation", RELAXATION_MODULUS, "Relaxation modulus",
                MASTER_CURVE_OWN_RELAXATION),
+    BEFORE_STEP("creep_isotherms", "Creep before shifting", CREEP_COMPLIANCE, "Creep compliance",
+                MASTER_CURVE_OWN_CREEP),
     AFTER_STEP("creep", "Master curve of creep", CREEP_COMPLIANCE, "Creep compliance",
                MASTER_CURVE_OWN_CREEP),
     {.name = "shift_factors",

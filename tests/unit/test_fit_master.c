@@ -507,6 +507,47 @@ static void superposition_is_judged(void **state)
     wt_master_clear(&m);
 }
 
+/* E' and E'' exchanged: no spectrum has such moduli. The fits end at an optimum, and the errors of
+ * the shifts are those of the material, not of the noise of a draw; they hold the truth. */
+static void errors_after_fails_are_no_chance(void **state)
+{
+    (void)state;
+    double error[3][13] = {{0}};
+    for (uint64_t seed = 0; seed < 3; seed++) {
+        const scene s = {usual(), 253.15, 333.15, 10, 0.01, 0, 71 + seed, 0, 0};
+        wt_sweep sweep = {0};
+        measure(&s, &sweep);
+        for (size_t i = 0; i < sweep.n_isotherms; i++)
+            for (size_t k = 0; k < sweep.isotherms[i].n; k++) {
+                const double storage = sweep.isotherms[i].storage_modulus[k];
+                sweep.isotherms[i].storage_modulus[k] = sweep.isotherms[i].loss_modulus[k];
+                sweep.isotherms[i].loss_modulus[k] = storage;
+            }
+        wt_master m = fit(&sweep);
+        assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
+        assert_true(m.settled && m.step_left <= m.step_allowed);
+        assert_true(m.n_shifts <= 13);
+        for (size_t i = 0; i < m.n_shifts; i++) {
+            const wt_interval a = m.shifts[i].log_a;
+            error[seed][i] = m.shifts[i].determined ? a.standard_error : (double)NAN;
+            if (m.shifts[i].determined && a.standard_error > 0)
+                assert_near_abs(
+                    a.value,
+                    wt_wlf_log_shift(&s.material.law[0].wlf, m.shifts[i].temperature) -
+                        wt_wlf_log_shift(&s.material.law[0].wlf, m.reference_temperature),
+                    2.5 * a.standard_error);
+        }
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
+    }
+    for (size_t i = 0; i < 13; i++)
+        for (size_t one = 0; one < 3; one++) {
+            const double ratio = error[one][i] / error[(one + 1) % 3][i];
+            if (error[one][i] > 0.05)
+                assert_true(!(ratio > 2.0));
+        }
+}
+
 /* ---- draws ----------------------------------------------------------------------------------- */
 
 static size_t verdicts(double second_c1, wt_superposition verdict)
@@ -663,6 +704,7 @@ int main(void)
         cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
         cmocka_unit_test(the_spectrum_and_its_band),
         cmocka_unit_test(superposition_is_judged),
+        cmocka_unit_test(errors_after_fails_are_no_chance),
         cmocka_unit_test(a_second_process_is_seen),
         cmocka_unit_test(louder_ends_are_no_misfit),
         cmocka_unit_test(the_reference_is_clamped_too),

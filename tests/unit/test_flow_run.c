@@ -185,7 +185,7 @@ static void test_stand_in(void **state)
     check_answer(&r, "thickness", "grows without end");
     check_answer(&r, "friction", "no shear stress is given");
     check_answer(&r, "friction", "Not answered: friction needs a layer of finite thickness");
-    check_answer(&r, "caveat", "1 files or stages failed");
+    check_answer(&r, "caveat", "1 file or stage failed and is not in");
     wt_result_free(r.result);
 }
 

@@ -173,6 +173,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"relaxation", "points ls 51", "time relaxation_modulus temperature"},
         {"relaxation", "title 'one spectrum'", "time fitted_relaxation"},
         {"relaxation", "filledcurves ls 61", "time fitted_relaxation_low fitted_relaxation_high"},
+        {"relaxation_isotherms", "points ls 51", "own_time own_relaxation temperature"},
+        {"creep_isotherms", "points ls 51", "own_time own_creep temperature"},
         {"creep", "points ls 51", "time creep_compliance temperature"},
         {"creep", "title 'one spectrum'", "time fitted_creep"},
         {"creep", "filledcurves ls 61", "time fitted_creep_low fitted_creep_high"},

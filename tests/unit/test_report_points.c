@@ -94,6 +94,8 @@ static void test_whole_tables(void **state)
     static const char *const whole[][2] = {{"isotherms", "master_curve"},
                                            {"master_curve", "master_curve"},
                                            {"relaxation", "master_curve"},
+                                           {"relaxation_isotherms", "master_curve"},
+                                           {"creep_isotherms", "master_curve"},
                                            {"creep", "master_curve"},
                                            {"shift_factors", "shift_factors"},
                                            {"vertical_shifts", "shift_factors"},

@@ -210,7 +210,11 @@
       SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
     X(MASTER_CURVE_OWN_CREEP, AS(own_creep),                                                       \
       "creep compliance at the temperature it was measured at", SI(CREEP_COMPLIANCE), OPTIONAL,    \
-      SPARSE)
+      SPARSE)                                                                                      \
+    X(MASTER_CURVE_OWN_TIME, AS(own_time),                                                         \
+      "time after a step at the temperature of the "                                               \
+      "measurement",                                                                               \
+      SI(TIME), OPTIONAL, SPARSE)
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
     X(MASTER_CURVE_KEY_NOISE_STORAGE, AS(noise_storage), PLAIN,                                    \

@@ -14,6 +14,7 @@ typedef struct master_work {
     double reference; /* [K] */
     size_t anchor;
     bool measured_reference; /* the anchor is the reference */
+    bool flows;              /* creep of a liquid, that is fitted with an equilibrium modulus */
     double terms_per_decade; /* of the spectrum, as asked or as it needs */
     bool lines;              /* it needs more, for it is one of sharp lines */
     bool *placed;            /* [set.n] */
@@ -30,6 +31,7 @@ typedef struct master_work {
     bool tested;
     bool plain;            /* no other start, and no shifts by overlaps */
     bool gross;            /* it misses the isotherms by so much that its shifts mean nothing */
+    bool louder;           /* and by more than their noise, which chance does not do */
     overlap_link *link;    /* [set.n] by the overlap of neighbours */
     double *own_a;         /* [set.n] those of one spectrum of all [decade], NaN: none */
     double missed[MODULI]; /* what one spectrum is off, in ln */
@@ -56,9 +58,8 @@ wt_status master_measure_misfit(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_test(master_work *work, wt_error *err) WT_NODISCARD;
 /* Noise that is the same all along an isotherm. */
 extern const double master_even[SPECTRUM_SHAPES];
-/* link: [set.n] the overlaps with the vertical shift of rubber elasticity, or with none; b: [set.n]
- * scratch. */
-wt_status master_links(const master_work *work, bool physical, double *b, overlap_link *link,
+/* link: [set.n] the overlaps with the vertical shift of rubber elasticity, or with none. */
+wt_status master_links(const master_work *work, bool physical, overlap_link *link,
                        wt_error *err) WT_NODISCARD;
 /* The prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,

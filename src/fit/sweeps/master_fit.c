@@ -98,12 +98,9 @@ wt_status master_check_vertical(master_work *work, wt_error *err)
 {
     if (work->set.by == WT_BY_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
-    if (work->set.loading == WT_CREEP && work->options.liquid) {
-        wt_fail(err, WT_E_UNSUPPORTED, "creep is fitted with an equilibrium modulus only");
-        wt_error_place(err, "liquid");
-        wt_error_advice(err, "of a liquid give relaxation moduli or an oscillation");
-        return WT_E_UNSUPPORTED;
-    }
+    /* its retardation times are those of a solid; what flows is one with a small modulus */
+    work->flows = work->set.loading == WT_CREEP && work->options.liquid;
+    work->options.liquid = work->options.liquid && !work->flows;
     if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
         return WT_OK;
     wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
@@ -281,7 +278,7 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
         }
         status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
         if (status == WT_OK)
-            (void)spectrum_noise_update(&lines);
+            (void)spectrum_noise_update(&lines, 1.0);
     }
     for (int q = 0; q < MODULI && status == WT_OK; q++)
         *better |= leave_less(&lines, s, q);
@@ -319,10 +316,12 @@ wt_status master_measure_misfit(master_work *work, wt_error *err)
 {
     double all[MODULI], within[MODULI];
     const wt_status status = spectrum_misses(work->s, all, within, err);
-    work->gross = false;
+    work->gross = work->louder = false;
     for (int q = 0; status == WT_OK && q < MODULI; q++) {
         const double missed = all[q] * all[q] - within[q] * within[q];
-        work->gross = work->gross || missed > gross_misfit * gross_misfit;
+        const bool gross = missed > gross_misfit * gross_misfit;
+        work->gross = work->gross || gross;
+        work->louder = work->louder || (gross && missed > within[q] * within[q]);
         work->missed[q] = sqrt(fmax(missed, 0.0));
     }
     return status;

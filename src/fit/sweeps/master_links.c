@@ -7,21 +7,25 @@
  * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
 const double master_largest_sigma = 0.2;
 
-/* The overlaps with the vertical shift of rubber elasticity, or with none. */
-wt_status master_links(const master_work *work, bool physical, double *b, overlap_link *link,
-                       wt_error *err)
+wt_status master_links(const master_work *work, bool physical, overlap_link *link, wt_error *err)
 {
-    for (size_t i = 0; i < work->set.n; i++)
-        b[i] = physical ? work->physical[i] - work->physical[work->anchor] : 0.0;
-    return overlap_chain(&work->set, work->anchor, b, link, err);
+    const size_t n = work->set.n;
+    pool memory = {0};
+    double *none = pool_numbers(&memory, n), *rubber = pool_numbers(&memory, n);
+    wt_status status =
+        memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        rubber[i] = work->physical[i] - work->physical[work->anchor];
+    if (status == WT_OK)
+        status = overlap_chain(&work->set, work->anchor, physical ? rubber : none,
+                               physical ? none : rubber, link, err);
+    pool_free(&memory);
+    return status;
 }
 
 /* Vertical shifts are those of rubber elasticity if they are asked for, else there are none: the
  * storage modulus alone does not tell them from horizontal ones, and a glass has none. */
 wt_status master_overlaps(master_work *work, wt_error *err)
 {
-    double *b = pool_numbers(&work->memory, work->set.n);
-    if (b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
-    return master_links(work, work->options.vertical == WT_VERTICAL_PHYSICAL, b, work->link, err);
+    return master_links(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->link, err);
 }

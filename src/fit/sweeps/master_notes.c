@@ -120,7 +120,12 @@ static void note_quantity(const master_work *work, wt_parselog *log)
                         "fitted to %s: storage and loss modulus are those of the spectrum, and "
                         "superposition is not tested",
                         work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
-    else if (work->set.by != WT_BY_MODULI)
+    if (work->flows)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "creep of a liquid is fitted with an equilibrium modulus, which stands for "
+                        "what flows: shifts, law and moduli at the measured times are those of the "
+                        "liquid, and it is too stiff at longer ones");
+    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_BY_MODULI)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 
@@ -149,11 +154,14 @@ static void note_route(const master_work *work, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "shifts are by the overlap of the storage modulus alone, from neighbour to "
                         "neighbour and %s: their errors hold what the places of an overlap "
-                        "disagree by, not what a vertical shift would change, and E'' of the "
-                        "spectrum is off by what superposition fails by",
+                        "disagree by, and by how much the overlap of E'' and %s would move them; "
+                        "E'' of the spectrum is off by what superposition fails by",
                         work->options.vertical == WT_VERTICAL_PHYSICAL
                             ? "with the vertical shift of rubber elasticity"
-                            : "without a vertical shift");
+                            : "without a vertical shift",
+                        work->options.vertical == WT_VERTICAL_PHYSICAL
+                            ? "no vertical shift"
+                            : "the vertical shift of rubber elasticity");
 }
 
 void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
@@ -184,6 +192,13 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
                         isnan(m->holds_from) ? ": " : " ", m->because);
+    if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
+        wt_parselog_add(
+            log, WT_WARNING, NULL, NULL,
+            "the law of the shift factors is %.2g decade off them (rms): it is none of "
+            "this material, and what is worked out at other temperatures with it is off "
+            "by as much",
+            m->law_rms);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
 }

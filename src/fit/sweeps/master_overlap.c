@@ -31,13 +31,12 @@ wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
 {
     const size_t n = work->set.n;
     pool memory = {0};
-    double *b = pool_numbers(&memory, n);
     overlap_link *link = pool_alloc(&memory, n, sizeof *link);
     wt_status status =
         memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
     *agrees = false;
     for (int physical = 0; physical < 2 && status == WT_OK && !*agrees; physical++) {
-        status = master_links(work, physical == 1, b, link, err);
+        status = master_links(work, physical == 1, link, err);
         *agrees = status == WT_OK && all_agree(work, link);
     }
     pool_free(&memory);
@@ -104,18 +103,28 @@ static double doubt_of_spectrum(const master_work *work, size_t i)
     return hypot(work->lack.parted * work->own_a[i], missed_shift(work, missed, work->anchor, i));
 }
 
+/* What ways that are as good as that of E' alone move a shift by from one isotherm to another:
+ * where one spectrum fails, none of them is known to be right. A spectrum that misses all is none,
+ * and where its fit ends is chance. */
+static double squared_ways(const overlap_link *from, const overlap_link *to)
+{
+    const double by_loss = to->by_loss - from->by_loss,
+                 by_vertical = to->by_vertical - from->by_vertical;
+    return by_loss * by_loss + by_vertical * by_vertical;
+}
+
 /* Of one shift by the overlaps. Where they tell little they are no reason to doubt a spectrum. */
 static double squared_doubt(const master_work *work, size_t i)
 {
     const overlap_link *link = &work->link[i];
-    const bool by_overlap = work->route == WT_SHIFTS_OF_OVERLAP;
     if (!link->placed)
         return 0.0;
     const double square = common_steps(work, i, i) + link->error * link->error;
-    double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
-    if (!by_overlap)
-        off = fmax(off - agree * sqrt(square), 0.0);
-    return (by_overlap ? square : 0.0) + link->spread * link->spread + off * off;
+    const double alike = link->spread * link->spread;
+    if (work->route == WT_SHIFTS_OF_OVERLAP)
+        return square + alike + squared_ways(&work->link[work->anchor], link);
+    const double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
+    return alike + pow(fmax(off - agree * sqrt(square), 0.0), 2);
 }
 
 /* By the user: that of the overlaps is held by the fit, too. */
@@ -183,7 +192,7 @@ wt_status master_doubt(master_work *work, wt_error *err)
         if (work->placed[i])
             b[i] = (spectrum_b(work->s, work->curve[i]) - b0) / M_LN10;
     master_keep_own(work);
-    const wt_status status = overlap_chain(&work->set, work->anchor, b, work->link, err);
+    const wt_status status = overlap_chain(&work->set, work->anchor, b, NULL, work->link, err);
     return status == WT_OK ? doubt_shifts(work, err) : status;
 }
 
@@ -231,11 +240,9 @@ bool master_beside_part(const master_work *work, size_t i, double *a, double *er
         return false;
     const wt_interval at = posterior_a(work->posterior, work->curve[end]);
     const double alike = hypot(link[i].spread - link[end].spread, link[i].error - link[end].error);
-    const double own = work->own_a[i] - work->own_a[end], by_overlap = link[i].a - link[end].a;
-    const double missed = missed_shift(work, work->missed_whole[STORAGE], end, i);
-    *a = at.value + by_overlap;
-    *error = sqrt(at.standard_error * at.standard_error + alike * alike + missed * missed +
-                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0) +
-                  (isnan(own) ? 0.0 : (own - by_overlap) * (own - by_overlap)));
+    *a = at.value + link[i].a - link[end].a;
+    *error = sqrt(at.standard_error * at.standard_error + alike * alike +
+                  squared_ways(&link[end], &link[i]) +
+                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0));
     return true;
 }

@@ -106,13 +106,15 @@ static wt_status find_part(master_work *work, wt_error *err)
     return status;
 }
 
-/* As if it had never been in doubt. */
+/* As if it had never been in doubt; gross: with vertical shifts that are not held it is. */
 static wt_status fit_plainly(master_work *work, wt_error *err)
 {
     work->plain = true;
     wt_status status = master_place(work, err);
     if (status == WT_OK)
         status = master_find_noise(work, err);
+    if (status == WT_OK && !work->prior.held)
+        status = master_measure_misfit(work, err);
     return status == WT_OK ? master_test(work, err) : status;
 }
 
@@ -143,7 +145,7 @@ static wt_status fit_own(master_work *work, wt_error *err)
 static bool is_real(const master_work *work)
 {
     const lack_of_fit *lack = &work->lack;
-    return !work->tested || (master_misfit_is_real(lack) &&
+    return !work->tested || ((work->louder || master_misfit_is_real(lack)) &&
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 

@@ -128,24 +128,9 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
  * half the error of that of this one. */
 static const double much_steeper = 2.0;
 
-/* An isotherm is shifted onto the reference, or there is nothing to hand out. */
-wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_error *err)
+/* No slope decides. */
+static wt_status flat_isotherms(const master_work *work, wt_error *err)
 {
-    size_t n = 0, placed = 0;
-    for (size_t i = 0; i < m->n_shifts; i++) {
-        n += m->shifts[i].determined;
-        placed += work->placed[i];
-    }
-    if (n > 1 || m->n_shifts == 1)
-        return WT_OK;
-    if (placed <= 1) {
-        wt_fail(err, WT_E_NO_OVERLAP,
-                "no shift is determined: once shifted, the isotherms share too "
-                "few frequencies with that of the reference");
-        wt_error_expected(err, "0.3 decade shared by neighbours");
-        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
-        return WT_E_NO_OVERLAP;
-    }
     const shift_curve *at = &work->set.curves[work->anchor];
     size_t steepest = work->anchor;
     for (size_t i = 0; i < work->set.n; i++)
@@ -171,6 +156,38 @@ wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_er
         wt_error_advice(err,
                         "measure into the transition, or choose a reference temperature there");
     return WT_E_NO_OVERLAP;
+}
+
+/* An isotherm is shifted onto the reference, or there is nothing to hand out. */
+wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_error *err)
+{
+    size_t n = 0, placed = 0, doubted = 0;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        n += m->shifts[i].determined;
+        placed += work->placed[i];
+        doubted += work->placed[i] && i != work->anchor &&
+                   posterior_fit_error(work->posterior, work->curve[i]) <= master_largest_sigma;
+    }
+    if (n > 1 || m->n_shifts == 1)
+        return WT_OK;
+    if (placed <= 1) {
+        wt_fail(err, WT_E_NO_OVERLAP,
+                "no shift is determined: once shifted, the isotherms share too "
+                "few frequencies with that of the reference");
+        wt_error_expected(err, "0.3 decade shared by neighbours");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+        return WT_E_NO_OVERLAP;
+    }
+    if (work->posterior->doubt != NULL && doubted > 0) {
+        wt_fail(err, WT_E_NO_OVERLAP,
+                "no shift is determined: one spectrum misses the isotherms, and the overlaps of "
+                "neighbours leave every shift open by more than %.1f decade",
+                master_largest_sigma);
+        wt_error_advice(err, "leave out isotherms or points that one process does not describe, "
+                             "shift by the storage modulus alone, or give a law of the shifts");
+        return WT_E_NO_OVERLAP;
+    }
+    return flat_isotherms(work, err);
 }
 
 wt_status master_check_reference(const master_work *work, const wt_master *m, wt_error *err)

@@ -1,6 +1,7 @@
 /* Shifts by the overlap of neighbours. A step begins with the closed form and ends with the least
  * squares of the gaps, where points far off count little; what the places of an overlap disagree by
- * is its error. SPDX-License-Identifier: GPL-3.0-or-later */
+ * is its error. What the loss modulus by itself, or another vertical shift, would make of it is
+ * kept beside it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/overlap_chain.h"
 
 #include "fit/sweeps/closed_form.h"
@@ -31,14 +32,15 @@ struct gap {
 struct overlap {
     const shift_curve *p, *s;
     const double *slope_p, *slope_s; /* of their points */
+    int q;                           /* the modulus */
     double b;
     struct gap *gap;
     double *scratch; /* as many */
     size_t n, n_first;
 };
 
-/* Slope of the storage modulus at each point. */
-static void storage_slopes(const shift_curve *c, double *slope)
+/* Slope of a modulus at each point. */
+static void find_slopes(const shift_curve *c, int q, double *slope)
 {
     size_t from = 0, to = 0;
     for (size_t k = 0; k < c->n; k++) {
@@ -48,7 +50,7 @@ static void storage_slopes(const shift_curve *c, double *slope)
         while (to < c->n && (to < k + 2 || c->x[to] <= c->x[k] + slope_reach))
             to++;
         for (size_t i = from; i < to; i++) {
-            const double x = c->x[i] - c->x[k], y = c->y[STORAGE][i] - c->y[STORAGE][k];
+            const double x = c->x[i] - c->x[k], y = c->y[q][i] - c->y[q][k];
             sum[0] += x;
             sum[1] += y;
             sum[2] += x * x;
@@ -72,9 +74,8 @@ static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_cur
             k++;
         const double width = onto->x[k + 1] - onto->x[k];
         const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
-        const double y =
-            onto->y[STORAGE][k] + share * (onto->y[STORAGE][k + 1] - onto->y[STORAGE][k]);
-        o->gap[o->n++] = (struct gap){sign * (y - from->y[STORAGE][i]) - o->b,
+        const double y = onto->y[o->q][k] + share * (onto->y[o->q][k + 1] - onto->y[o->q][k]);
+        o->gap[o->n++] = (struct gap){sign * (y - from->y[o->q][i]) - o->b,
                                       slope[k] + share * (slope[k + 1] - slope[k]), 1.0};
     }
 }
@@ -152,34 +153,60 @@ static bool find_step(struct overlap *o, double start, double *a, double *error,
 
 struct chain {
     const shift_set *set;
-    const double *b;
-    double *slope; /* [points of the set] */
-    size_t *first; /* [n] of a curve there */
+    const double *b, *other_b;
+    double *slope[MODULI]; /* [points of the set] */
+    size_t *first;         /* [n] of a curve there */
     struct overlap overlap;
 };
 
-static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t from)
+static void overlap_of(struct chain *c, size_t onto, size_t from, int q, const double *b)
 {
     struct overlap *o = &c->overlap;
-    const double b = c->b[from] - c->b[onto];
+    o->p = &c->set->curves[onto];
+    o->s = &c->set->curves[from];
+    o->q = q;
+    o->slope_p = c->slope[q] + c->first[onto];
+    o->slope_s = c->slope[q] + c->first[from];
+    o->b = b[from] - b[onto];
+}
+
+/* What another way makes of a step; nothing where it tells none. */
+static double moved_by(struct chain *c, double start, double a)
+{
+    double other, error, spread;
+    return find_step(&c->overlap, start, &other, &error, &spread) ? other - a : 0.0;
+}
+
+static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t from)
+{
     double a, error, spread;
     if (!link[onto].placed)
         return false;
-    const double start = closed_form_step(c->set, onto, from, b);
-    o->p = &c->set->curves[onto];
-    o->s = &c->set->curves[from];
-    o->slope_p = c->slope + c->first[onto];
-    o->slope_s = c->slope + c->first[from];
-    o->b = b;
-    if (isnan(start) || !find_step(o, start, &a, &error, &spread))
+    overlap_of(c, onto, from, STORAGE, c->b);
+    const double start = closed_form_step(c->set, onto, from, c->overlap.b);
+    if (isnan(start) || !find_step(&c->overlap, start, &a, &error, &spread))
         return false;
-    link[from] = (overlap_link){
-        true, onto, link[onto].a + a, error, link[onto].error + error, link[onto].spread + spread};
+    link[from] = (overlap_link){.placed = true,
+                                .onto = onto,
+                                .a = link[onto].a + a,
+                                .step = error,
+                                .error = link[onto].error + error,
+                                .spread = link[onto].spread + spread,
+                                .by_loss = link[onto].by_loss,
+                                .by_vertical = link[onto].by_vertical};
+    if (c->set->used[LOSS]) {
+        overlap_of(c, onto, from, LOSS, c->b);
+        link[from].by_loss += moved_by(c, a, a);
+    }
+    if (c->other_b != NULL) {
+        overlap_of(c, onto, from, STORAGE, c->other_b);
+        link[from].by_vertical += moved_by(c, a, a);
+    }
     return true;
 }
 
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, overlap_link *link,
-                        wt_error *err)
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, const double *other_b,
+                        overlap_link *link, wt_error *err)
 {
     const size_t n = set->n;
     size_t longest = 0;
@@ -191,8 +218,9 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, ov
     if (!set->used[STORAGE])
         return WT_OK;
     pool memory = {0};
-    struct chain c = {.set = set, .b = b};
-    c.slope = pool_numbers(&memory, set->n_points);
+    struct chain c = {.set = set, .b = b, .other_b = other_b};
+    for (int q = 0; q < MODULI; q++)
+        c.slope[q] = pool_numbers(&memory, set->n_points);
     c.first = pool_alloc(&memory, n, sizeof *c.first);
     c.overlap.gap = pool_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
     c.overlap.scratch = pool_numbers(&memory, 2 * longest);
@@ -202,7 +230,9 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, ov
     }
     for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
         c.first[i] = k;
-        storage_slopes(&set->curves[i], c.slope + k);
+        for (int q = 0; q < MODULI; q++)
+            if (set->used[q])
+                find_slopes(&set->curves[i], q, c.slope[q] + k);
     }
     for (size_t i = anchor + 1; i < n; i++)
         for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !link[i].placed; k++)

@@ -30,17 +30,6 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
-/* What a step of Newton's method would still move any of the unknowns by, in standard errors, at
- * most. */
-static double step_left(const spectrum *s)
-{
-    double sum = 0.0;
-    spectrum_solve(s, s->gradient->data, s->direction->data);
-    for (size_t u = 0; u < s->n_unknowns; u++)
-        sum += s->gradient->data[u] * s->direction->data[u];
-    return sqrt(fmax(sum, 0.0));
-}
-
 /* Its covariance, and the factor of the inverse of that. */
 static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *err)
 {
@@ -82,7 +71,7 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
-    p->step_left = fmax(p->step_left, step_left(s));
+    p->step_left = fmax(p->step_left, spectrum_step_left(s));
     memcpy(c->value, s->value, n * sizeof *c->value);
     if (c->smooth != NULL)
         vertical_smooth_part(s->prior, n_curves, c->smooth);

@@ -3,6 +3,7 @@
 #include "fit/sweeps/posterior.h"
 
 #include "base/mix.h"
+#include "base/normal.h"
 #include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
@@ -222,26 +223,52 @@ wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
                       1.0 / M_LN10, 1.0);
 }
 
+/* Sums of terms from one to another, and derivatives of ln of it times `sign` [n_unknowns]. */
+static double sum_terms(const double *value, size_t from, size_t end, double sign,
+                        double *by_unknown)
+{
+    double sum = 0.0;
+    for (size_t j = from; j < end; j++)
+        sum += exp(value[j]);
+    for (size_t j = from; j < end; j++)
+        by_unknown[j] = sign * exp(value[j]) / sum;
+    return sum;
+}
+
+/* The modulus at the end of the measured times is measured, and the share of it that relaxes later
+ * is not: where terms are not measured their logarithms are normal, and so is that of what they sum
+ * up to over what is left. */
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    mixture_part part[SPECTRUM_ENDS * MOST_PARTS];
+    mixture_part share[SPECTRUM_ENDS * MOST_PARTS], measured[MOST_PARTS];
     const spectrum *s = &p->frame;
     double *by_unknown = p->scratch + s->n_curves;
+    double left = 0.0;
     size_t n = 0;
     memset(by_unknown, 0, s->n_unknowns * sizeof *by_unknown);
-    for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
-        const size_t end = spectrum_end(s, place);
-        for (size_t i = 0; i < p->n_parts; i++) {
-            const double *value = p->parts[i].cell->value;
-            const double rest = spectrum_rest(s, value, end);
-            for (size_t j = s->n_measured; j <= s->n_terms; j++)
-                by_unknown[j] = j >= end ? exp(value[j]) / rest : 0.0;
-            const struct quantity x = {.value = log(rest), .by_unknown = by_unknown};
-            part[n] = of_part(p, &p->parts[i], &x, p->scratch);
-            part[n++].weight /= SPECTRUM_ENDS;
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const double *value = p->parts[i].cell->value;
+        const double all = sum_terms(value, s->n_measured, s->n_terms + 1, 1.0, by_unknown);
+        const struct quantity modulus = {.value = log(all), .by_unknown = by_unknown};
+        measured[i] = of_part(p, &p->parts[i], &modulus, p->scratch);
+        for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
+            const size_t end = spectrum_end(s, place);
+            const double later = sum_terms(value, s->n_measured, end, 1.0, by_unknown);
+            const double rest = sum_terms(value, end, s->n_terms + 1, -1.0, by_unknown);
+            const struct quantity x = {.value = log(later / rest), .by_unknown = by_unknown};
+            share[n] = of_part(p, &p->parts[i], &x, p->scratch);
+            share[n].weight /= SPECTRUM_ENDS;
+            left -= share[n].weight * log1p(exp(share[n].mean));
+            n++;
         }
     }
-    return mixture_interval(part, n);
+    const wt_interval of_share = mixture_interval(share, n),
+                      at_end = mixture_interval(measured, p->n_parts);
+    wt_interval e = {.value = at_end.value + left};
+    e.low = e.value - hypot(left + log1p(exp(of_share.high)), at_end.value - at_end.low);
+    e.high = e.value + hypot(left + log1p(exp(of_share.low)), at_end.high - at_end.value);
+    e.standard_error = (e.high - e.low) / (2.0 * NORMAL_95);
+    return e;
 }
 
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)

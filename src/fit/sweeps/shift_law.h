@@ -19,6 +19,8 @@ enum { LAW_LEAST_TOLD = 4 };
  * no chamber holds, by factors of 2 to 4 K, which none is off by. */
 enum { LAW_SPREADS = 11 };
 double law_spread(size_t i);
+/* What temperatures are believed to [K]. */
+extern const double law_believed;
 
 /* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured, for
  * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955); farther, the law

@@ -163,10 +163,9 @@ extern const double spectrum_fast_margin, spectrum_slow_margin;
 void spectrum_set_bends(spectrum *s);
 /* Where a spectrum ends that is slower than what was measured is open: at any of so many places,
  * from the first decade behind the measured range on, alike. The terms from spectrum_end() on are
- * then not there, and what is left at long times is spectrum_rest(). */
+ * then part of the equilibrium modulus. */
 enum { SPECTRUM_ENDS = 6 };
 size_t spectrum_end(const spectrum *s, size_t place);
-double spectrum_rest(const spectrum *s, const double *value, size_t end);
 
 /* ---- spectrum_prior.c */
 /* precision and gradient for the present noise and smoothness. */
@@ -188,10 +187,14 @@ typedef enum spectrum_mode {
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Of -2 ln likelihood by a step: its root is what it still moves in standard errors, 3 %. */
 #define SPECTRUM_LEAST_GAIN 1e-3
+/* What a step of Newton's method would still move any of the unknowns by, in standard errors, at
+ * most; after a fit. */
+double spectrum_step_left(const spectrum *s);
 
 /* ---- spectrum_noise.c */
-/* Of both moduli and the smoothness; the largest relative change. */
-double spectrum_noise_update(spectrum *s);
+/* Of both moduli and the smoothness, by this share of what they ask for; the largest relative
+ * change that they ask for. */
+double spectrum_noise_update(spectrum *s, double share);
 void spectrum_criterion(spectrum *s);
 void spectrum_student_weights(spectrum *s);
 /* A transition bends more than a plateau: weights of the second differences by what is near. Beyond

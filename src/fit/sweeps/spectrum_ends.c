@@ -28,14 +28,6 @@ size_t spectrum_end(const spectrum *s, size_t place)
     return s->n_measured + (s->n_terms - s->n_measured) * (place + 1) / SPECTRUM_ENDS;
 }
 
-double spectrum_rest(const spectrum *s, const double *value, size_t end)
-{
-    double sum = exp(value[s->n_terms]);
-    for (size_t j = end; j < s->n_terms; j++)
-        sum += exp(value[j]);
-    return sum;
-}
-
 void spectrum_set_bends(spectrum *s)
 {
     const size_t margin = (size_t)ceil(near * M_LN10 / s->step);

@@ -8,14 +8,21 @@
 #include <math.h>
 #include <string.h>
 
-/* Bounds of time for what does not settle. Twelve dampings by ten leave a trillionth of a step. */
-enum { MAX_DAMPINGS = 12 };
+/* Bounds of time for what does not settle. Twelve dampings by ten leave a trillionth of a step.
+ * What is steep across is curved along where one spectrum is far off: there a half or an eighth of
+ * the way gains what a damped step, which goes across alone, does not. */
+enum { MAX_DAMPINGS = 12, MAX_HALVINGS = 4 };
 /* What has not settled by then is said to be unsettled; a start need not. */
 static const int most_steps[] = {[SPECTRUM_NOISE] = 300,
                                  [SPECTRUM_ROUGH] = 80,
                                  [SPECTRUM_ROBUST] = 40,
                                  [SPECTRUM_HELD] = 80,
                                  [SPECTRUM_TRIAL] = 80};
+/* Each step follows noise and smoothness, and they follow it: where one spectrum is far off the two
+ * may go round in a circle. What has not settled after so many steps, three times what a sweep that
+ * holds takes, goes less and less of the way (Robbins and Monro, Ann. Math. Stat. 22 (1951) 400).
+ */
+static const double whole_steps = 30.0;
 /* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
  * smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
@@ -23,8 +30,9 @@ static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
  * that are five standard deviations off are looked for; and where only the objective is wanted, by
  * differences of which weights are made, exp(-0.01). */
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
-/* Where a trial only asks whether much less is left, 30 % of the noise: share of the objective. */
-static const double trial_gain = 0.005;
+/* Where a trial only asks whether much less is left, 30 % of the noise, which is half of the
+ * objective: shares of that which a step gains, and which the next may. */
+static const double trial_gain = 0.005, trial_left = 0.1;
 
 /* Of a diagonal: more is no rounding. */
 static const double most_rounding = 1e-8;
@@ -87,10 +95,38 @@ static wt_status invert_precision(spectrum *s, wt_error *err)
     return WT_OK;
 }
 
+double spectrum_step_left(const spectrum *s)
+{
+    double sum = 0.0;
+    spectrum_solve(s, s->gradient->data, s->direction->data);
+    for (size_t u = 0; u < s->n_unknowns; u++)
+        sum += s->gradient->data[u] * s->direction->data[u];
+    return sqrt(fmax(sum, 0.0));
+}
+
+/* Noise and smoothness may ask for another step, and a part of one gains little. */
+static bool is_at_end(spectrum *s, double enough_gain)
+{
+    return !factor_damped(s, 0.0) || spectrum_step_left(s) < sqrt(enough_gain);
+}
+
+/* The whole of a direction, or less of it, as long as it raises the objective; what that gained, or
+ * a negative number. */
+static double go_along(spectrum *s)
+{
+    double gain = -1.0, share = 1.0;
+    for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also for NaN */
+        for (size_t u = 0; u < s->n_unknowns; u++)
+            s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
+        spectrum_evaluate(s, s->trial, false);
+        gain = s->objective - spectrum_objective(s, s->trial);
+    }
+    return gain >= 0.0 ? gain : -1.0;
+}
+
 /* A step that does not raise the objective; what it gained. */
 static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error *err)
 {
-    const size_t n = s->n_unknowns;
     *gain = 0.0;
     for (int i = 0; i < MAX_DAMPINGS; i++) {
         if (!factor_damped(s, *damping)) {
@@ -98,13 +134,10 @@ static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error 
             continue;
         }
         spectrum_solve(s, s->gradient->data, s->direction->data);
-        for (size_t u = 0; u < n; u++)
-            s->trial[u] = s->value[u] + gsl_vector_get(s->direction, u);
-        spectrum_evaluate(s, s->trial, false);
-        const double next = spectrum_objective(s, s->trial);
-        if (next <= s->objective) { /* also false for NaN */
-            memcpy(s->value, s->trial, n * sizeof *s->value);
-            *gain = s->objective - next;
+        const double gained = go_along(s);
+        if (gained >= 0.0) {
+            memcpy(s->value, s->trial, s->n_unknowns * sizeof *s->value);
+            *gain = gained;
             *damping = *damping > 1e-6 ? *damping / 10.0 : 0.0;
             return WT_OK;
         }
@@ -133,7 +166,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
     const bool held = mode == SPECTRUM_HELD || mode == SPECTRUM_TRIAL;
-    const double enough_gain = rough ? rough_gain : held ? held_gain : least_gain;
+    const double least = rough ? rough_gain : held ? held_gain : least_gain;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;
@@ -149,7 +182,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
             status = invert_precision(s, err);
             if (status != WT_OK)
                 break;
-            change = spectrum_noise_update(s);
+            change = spectrum_noise_update(s, fmin(1.0, whole_steps / (double)(i + 1)));
         }
         if (mode == SPECTRUM_ROBUST) {
             spectrum_student_weights(s);
@@ -157,8 +190,10 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         } else {
             assemble_objective(s);
         }
-        done = gain < enough_gain && change < (rough ? rough_change : least_change);
-        done = done || (mode == SPECTRUM_TRIAL && gain < trial_gain * s->objective);
+        const bool trial = mode == SPECTRUM_TRIAL;
+        const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
+        done = gain < enough && change < (rough ? rough_change : least_change) &&
+               is_at_end(s, trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;
     if (status == WT_OK)

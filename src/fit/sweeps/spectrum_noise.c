@@ -52,7 +52,7 @@ static double trace_of_product(const bordered *covariance, const bordered *norma
     return sum + 2.0 * sides;
 }
 
-double spectrum_noise_update(spectrum *s)
+double spectrum_noise_update(spectrum *s, double share)
 {
     double change = 0.0;
     for (int q = 0; q < MODULI; q++) {
@@ -60,8 +60,9 @@ double spectrum_noise_update(spectrum *s)
         s->freedom[q] = trace_of_product(&s->covariance, &s->normal[q]) / square;
         const double left = fmax(count_used(s, q) - s->freedom[q], 1.0);
         const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
-        change = fmax(change, fabs(log(next / s->noise[q])));
-        s->noise[q] = next;
+        const double move = log(next / s->noise[q]);
+        change = fmax(change, fabs(move));
+        s->noise[q] = share < 1.0 ? s->noise[q] * exp(share * move) : next;
     }
     const double rank = (double)(s->bend_end - s->bend_first);
     const double used = rank - spectrum_roughness_trace(s) / (s->smooth * s->smooth);
@@ -72,7 +73,9 @@ double spectrum_noise_update(spectrum *s)
     /* its steps shrink geometrically: the ratio of two tells how far there is to go */
     const double ratio = s->smooth_move != 0.0 ? move / s->smooth_move : 0.0;
     s->smooth_move = move;
-    if (ratio > 0.2) {
+    if (share < 1.0) {
+        move *= share;
+    } else if (ratio > 0.2) {
         move *= fmin(1.0 / (1.0 - fmin(ratio, 0.9)), 1.0 / fmax(fabs(move), 0.1));
         s->smooth_move = 0.0; /* the next step starts a new pair */
     }

@@ -383,12 +383,13 @@ static void layer_caveats(answer_story *story)
 
 void answer_caveats(answer_story *story)
 {
-    if (story->failures.n_rows > 0)
+    const size_t failed = story->failures.n_rows;
+    if (failed > 0)
         answer_caveat(story, CAVEAT_WHOLE,
-                      "%zu files or stages failed and are not in these results; the table failures "
-                      "lists them.",
-                      story->failures.n_rows);
-    warnings(story);
+                      "%zu file%s or stage%s failed and %s not in these results; the table "
+                      "failures lists them.",
+                      failed, failed == 1 ? "" : "s", failed == 1 ? "" : "s",
+                      failed == 1 ? "is" : "are");
     indentation_caveats(story);
     calibration_caveats(story);
     comparison_caveats(story);
@@ -397,4 +398,5 @@ void answer_caveats(answer_story *story)
     layer_caveats(story);
     temperature_caveats(story);
     ratio_caveats(story);
+    warnings(story); /* behind what the results say of the data themselves */
 }

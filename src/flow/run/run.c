@@ -108,6 +108,7 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
     }
     plan->outcome[i] = FLOW_FAILED;
     d->failure = status;
+    flow_case_advice(&failure);
     const bool again = is_tried_again(d, level);
     snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
              again ? flow_stages[i].more[level - 1].words : "");

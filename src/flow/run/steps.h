@@ -30,6 +30,9 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
                             wt_error *err) WT_NODISCARD;
 wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
 
+/* Adds to advice that names an option how a case says it. */
+void flow_case_advice(wt_error *failure);
+
 #define STEP_PROTOTYPE(id, name, title, needs, any, more, gives, step)                             \
     wt_status step(flow_run *run, wt_error *err);
 STAGES(STEP_PROTOTYPE)

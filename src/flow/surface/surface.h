@@ -43,8 +43,9 @@ double surface_law_density(const wt_self_affine *law, double q);
 /* rms slope at which rubber stops following a surface, by practice. */
 extern const double surface_steep;
 
-wt_status surface_tables_make(const wt_topography_job *job, const surface_scan *scans, size_t n,
-                              const surface_whole *whole, wt_topography_tables *tables,
-                              wt_error *err) WT_NODISCARD;
+/* params: of the job, for the words of its choices. */
+wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
+                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
 
 #endif

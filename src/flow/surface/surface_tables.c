@@ -3,6 +3,7 @@
 
 #include "base/clocale.h"
 #include "base/normal.h"
+#include "base/param.h"
 #include "data/tables/rows.h"
 #include "fit/students_t.h"
 #include "fit/surface/surface.h"
@@ -140,15 +141,16 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
 
 /* ---- the scans ------------------------------------------------------------------------------- */
 
-static wt_status make_surfaces(const wt_topography_job *job, const surface_scan *scans, size_t n,
-                               wt_table **table, wt_error *err)
+static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
+                               const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
 {
-    static const char *const forms[] = {"mean", "plane", "quadratic"};
-    static const char *const windows[] = {"hann", "welch", "none"};
+    char form[PARAM_WORD], window[PARAM_WORD];
+    param_word(params, "form", job->options.form, form, sizeof form);
+    param_word(params, "window", job->options.window, window, sizeof window);
     table_writer t = table_begin(&surfaces_schema, err);
     for (size_t i = 0; i < n; i++)
         surfaces_add_row(&t, &scans[i]);
-    TABLE_SET(surfaces, &t, forms[job->options.form], windows[job->options.window]);
+    TABLE_SET(surfaces, &t, form, window);
     return table_end(&t, table);
 }
 
@@ -178,14 +180,14 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     *tables = (wt_topography_tables){NULL, NULL, NULL};
 }
 
-wt_status surface_tables_make(const wt_topography_job *job, const surface_scan *scans, size_t n,
-                              const surface_whole *whole, wt_topography_tables *tables,
-                              wt_error *err)
+wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
+                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              wt_topography_tables *tables, wt_error *err)
 {
     wt_topography_tables made = {NULL, NULL, NULL};
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
     if (status == WT_OK)
-        status = make_surfaces(job, scans, n, &made.surfaces, err);
+        status = make_surfaces(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)
         status = make_scans(scans, n, &made.scan_spectra, err);
     if (status == WT_OK)

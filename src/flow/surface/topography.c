@@ -196,7 +196,8 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
         status = surface_end_find(job, work, &whole, err);
     }
     if (status == WT_OK)
-        status = surface_tables_make(job, scans, n, &whole, tables, err);
+        status =
+            surface_tables_make(wt_topography_job_params(), job, scans, n, &whole, tables, err);
     cost_say(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
     for (size_t i = 0; i < n; i++)
         wt_surface_spectrum_clear(&scans[i].spectrum);

@@ -7,6 +7,7 @@
 #include "flow/work/inputs.h"
 
 #include "base/array.h"
+#include "base/param.h"
 #include "data/tables/rows.h"
 #include "model/material.h"
 
@@ -65,12 +66,6 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_master_clear(tables->fit);
     free(tables->fit);
     *tables = (wt_master_tables){0};
-}
-
-static const char *vertical_name(wt_vertical_shift vertical)
-{
-    static const char *const names[] = {"none", "physical", "free", "tied"};
-    return names[vertical];
 }
 
 static const char *shifted_by_name(const wt_master *m)
@@ -165,7 +160,9 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
     set_law(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
-    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(m->vertical));
+    char word[PARAM_WORD];
+    param_word(wt_master_options_params(), "vertical-shift", m->vertical, word, sizeof word);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, word);
     if (wt_master_shifted_by(m) != WT_BY_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shifted_by_name(m));
     set_route(&t, m);
@@ -180,7 +177,7 @@ TABLE_ROW(master_curve, MASTER_CURVE, double angular_frequency, storage_modulus,
           wt_interval fitted_storage, fitted_loss, fitted_loss_factor;
           double own_frequency, own_storage, own_loss; bool left_out;
           double time, relaxation_modulus, creep_compliance;
-          wt_interval fitted_relaxation, fitted_creep; double own_relaxation, own_creep;)
+          wt_interval fitted_relaxation, fitted_creep; double own_relaxation, own_creep, own_time;)
 
 TABLE_KEYS_OF(master_curve, MASTER_CURVE, wt_master)
 
@@ -197,6 +194,7 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
                  loss = m->log_loss[i], step = m->log_step[i], none = (double)NAN;
     const double own_step = step - shift->log_b.value;
     const wt_interval unknown = {none, none, none, none};
+    const double own_frequency = pow(10, frequency - shift->log_a.value + m->offset.value);
     const bool relaxes = m->loading == WT_RELAXATION, creeps = m->loading == WT_CREEP;
     TABLE_ADD(master_curve, t, .angular_frequency = pow(10, frequency),
               .storage_modulus = pow(10, storage), .loss_modulus = pow(10, loss),
@@ -204,8 +202,7 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
               .fitted_storage = flow_power_of_ten(m->fitted_storage[i]),
               .fitted_loss = flow_power_of_ten(m->fitted_loss[i]),
               .fitted_loss_factor = flow_power_of_ten(m->fitted_loss_factor[i]),
-              .own_frequency = pow(10, frequency - shift->log_a.value + m->offset.value),
-              .own_storage = pow(10, storage - shift->log_b.value),
+              .own_frequency = own_frequency, .own_storage = pow(10, storage - shift->log_b.value),
               .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->left_out[i],
               .time = relaxes || creeps ? pow(10, -frequency) : none,
               .relaxation_modulus = relaxes ? pow(10, step) : none,
@@ -213,7 +210,8 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
               .fitted_relaxation = relaxes ? flow_power_of_ten(m->fitted_step[i]) : unknown,
               .fitted_creep = creeps ? inverse_of(m->fitted_step[i]) : unknown,
               .own_relaxation = relaxes ? pow(10, own_step) : none,
-              .own_creep = creeps ? pow(10, -own_step) : none);
+              .own_creep = creeps ? pow(10, -own_step) : none,
+              .own_time = relaxes || creeps ? 1 / own_frequency : none);
 }
 
 /* Columns of what was not measured. */
@@ -226,7 +224,9 @@ static uint64_t not_measured(const wt_master *m)
     static const master_curve_column creep[] = {
         MASTER_CURVE_CREEP_COMPLIANCE, MASTER_CURVE_FITTED_CREEP, MASTER_CURVE_FITTED_CREEP_LOW,
         MASTER_CURVE_FITTED_CREEP_HIGH, MASTER_CURVE_OWN_CREEP};
-    uint64_t left = m->loading == WT_OSCILLATION ? SCHEMA_BIT(MASTER_CURVE_TIME) : 0;
+    uint64_t left = m->loading == WT_OSCILLATION
+                        ? SCHEMA_BIT(MASTER_CURVE_TIME) | SCHEMA_BIT(MASTER_CURVE_OWN_TIME)
+                        : 0;
     for (size_t i = 0; m->loading != WT_RELAXATION && i < COUNT_OF(relaxation); i++)
         left |= SCHEMA_BIT(relaxation[i]);
     for (size_t i = 0; m->loading != WT_CREEP && i < COUNT_OF(creep); i++)
