@@ -89,6 +89,7 @@ typedef struct wt_friction_node {
     double wavenumber;                              /* [rad/m] */
     double stress_variance, area_ratio, hysteresis; /* G, P and mu up to here */
     double numerical_error;                         /* of area_ratio */
+    double hysteresis_error;                        /* numerical, of hysteresis */
 } wt_friction_node;
 
 typedef struct wt_friction_workspace wt_friction_workspace;
