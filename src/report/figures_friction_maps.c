@@ -68,7 +68,7 @@ static void draw_collapse(figure_drawing *d)
     d->width = with_scale;
     d->height = 1.7;
     axis_linear(d, "cb", "Temperature", &field[FRICTION_MAP_TEMPERATURE], colour);
-    text_add(&d->script, "set multiplot layout 2,1\nunset key\n");
+    text_add(&d->script, "set cblabel offset 1.5,0\nset multiplot layout 2,1\nunset key\n");
     axis_linear(d, "y", label_of(friction), &field[friction], height);
     draw_lines(d, section, AT_VELOCITY, "Sliding velocity v", &field[FRICTION_MAP_VELOCITY]);
     draw_lines(d, section, AT_REDUCED, "Reduced velocity v a_T",
@@ -198,7 +198,7 @@ static void draw_map(figure_drawing *d, const char *against, const map_side *up)
     (up->is_log ? axis_log : axis_linear)(d, "y", up->label, &field[up->column], y);
     axis_linear(d, "cb", label_of(friction), &field[friction], colour);
     d->width = with_scale;
-    text_add(&d->script, "unset key\nset border 15\n");
+    text_add(&d->script, "set cblabel offset 1.5,0\nunset key\nset border 15\n");
     const char *const offset = up->is_log ? "" : "+y_offset";
     plot_item(d, section,
               "(sqrt($1*$2)*x_unit):(($3+$4)/2*y_unit%s):($1*x_unit):($2*x_unit):($3*y_unit%s):"
@@ -297,7 +297,6 @@ const figure_description figures_friction_maps[] = {
     {.name = "friction_collapse",
      .title = "Friction at several temperatures",
      .table = &friction_map_schema,
-     .nothing = "no friction at several temperatures",
      .words = "Friction against sliding velocity at each temperature and, below, against the "
               "velocity times the shift factor a_T of the material: where moduli follow "
               "time-temperature superposition without a vertical shift, the hysteresis friction of "
