@@ -18,7 +18,7 @@ int cmd_layer(int argc, char **argv)
     /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
-        "anisotropy-4 texture-angle-4";
+        "anisotropy-fourth texture-angle-fourth";
     wt_layer_tables tables = {0};
     wt_table *energy_density = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))

@@ -42,12 +42,12 @@
          .value = "T",                                                                             \
          .help = "from the velocity to the direction of the most roughness, such as 30deg: 0 "     \
                  "is sliding across grooves, 90deg along them"},                                   \
-        {PARAM("anisotropy-4", type, anisotropy.amplitude[1], WT_Q_NONE, FROM_TO(-2, 2)),          \
+        {PARAM("anisotropy-fourth", type, anisotropy.amplitude[1], WT_Q_NONE, FROM_TO(-2, 2)),     \
          .value = "A", .help = "the same with cos(4 (phi - T)) of a texture angle of its own"},    \
     {                                                                                              \
-        PARAM("texture-angle-4", type, anisotropy.angle[1], WT_Q_ANGLE,                            \
+        PARAM("texture-angle-fourth", type, anisotropy.angle[1], WT_Q_ANGLE,                       \
               FROM_TO(-2 * M_PI, 2 * M_PI)),                                                       \
-            .value = "T", .help = "that of --anisotropy-4"                                         \
+            .value = "T", .help = "that of --anisotropy-fourth"                                    \
     }
 
 /* What is on the surface. `in` stands before the member. */

@@ -243,6 +243,72 @@ static void all_orders(void **state)
     }
 }
 
+/* ---- grooves --------------------------------------------------------------------------------- */
+
+static void groove_modulus(const wt_material *m, const double *omega, size_t n, double *e1,
+                           double *e2)
+{
+    (void)m;
+    for (size_t i = 0; i < n; i++) {
+        e1[i] = 5e6;
+        e2[i] = modulus_loss(omega[i]);
+        for (size_t k = 0; k < TERMS; k++) {
+            const double z = omega[i] * times[k];
+            e1[i] += terms[k] * z * z / (1 + z * z);
+        }
+    }
+}
+
+/* All waves run along the velocity: C(q, phi) = C(q) pi [delta(phi) + delta(phi - pi)]. */
+static void groove_angular(const wt_material *m, const double *omega, size_t n, double *j1,
+                           double *j2)
+{
+    for (size_t i = 0; i < n; i++) {
+        double e1, e2;
+        groove_modulus(m, &omega[i], 1, &e1, &e2);
+        j1[i] = 2 * M_PI * e2;
+        j2[i] = 2 * M_PI * (e1 * e1 + e2 * e2);
+    }
+}
+
+/* Perfect grooves across, whose profile has the spectrum C1: C = C1 / (pi q). What anisotropy of
+ * all orders goes to, which four do not reach. */
+static void grooves_across(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-grooves.txt", "r");
+    numeric_case *c = malloc(sizeof *c);
+    assert_true(in != NULL && c != NULL && case_read(in, c));
+    fclose(in);
+    static const wt_material_law law = {
+        .name = "grooves", .modulus = groove_modulus, .angular = groove_angular};
+    const wt_material material = {.law = &law,
+                                  .poisson_ratio = 0.5,
+                                  .frequency_min = (double)NAN,
+                                  .frequency_max = (double)NAN};
+    const double q[3] = {500, 2000, 1e6}, velocity = case_number(c, false, "velocity", 0);
+    double density[3];
+    for (size_t i = 0; i < 3; i++)
+        density[i] = 1e-12 * (i < 2 ? 1 : pow(q[i] / 2000, -2.6)) / (M_PI * q[i]);
+    wt_friction_options options = wt_friction_defaults();
+    options.tolerance = 1e-13;
+    wt_roughness *roughness = NULL;
+    wt_friction_workspace *ws = NULL;
+    wt_friction_point p;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_roughness_table(q, density, 3, &roughness, &err), WT_OK);
+    assert_int_equal(wt_friction_workspace_new(&material, roughness, &options, &ws, &err), WT_OK);
+    assert_int_equal(
+        wt_friction_compute(ws, case_number(c, false, "pressure", 0), &velocity, 1, &p, &err),
+        WT_OK);
+    assert_near(p.stress_variance.value, case_number(c, true, "stress_variance", 0), 1e-12);
+    assert_near(p.area_ratio.value, case_number(c, true, "area_ratio", 0), 1e-12);
+    assert_near(p.hysteresis.value, case_number(c, true, "hysteresis", 0), 1e-12);
+    wt_friction_workspace_free(ws);
+    wt_roughness_free(roughness);
+    free(c);
+}
+
 static void what_cannot_be(void **state)
 {
     (void)state;
@@ -285,10 +351,10 @@ static void no_static_limit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),   cmocka_unit_test(none_is_isotropic_to_the_bit),
-        cmocka_unit_test(directions),      cmocka_unit_test(full_contact_is_linear),
-        cmocka_unit_test(all_orders),      cmocka_unit_test(what_cannot_be),
-        cmocka_unit_test(no_static_limit),
+        cmocka_unit_test(numeric_cases),  cmocka_unit_test(none_is_isotropic_to_the_bit),
+        cmocka_unit_test(directions),     cmocka_unit_test(full_contact_is_linear),
+        cmocka_unit_test(all_orders),     cmocka_unit_test(grooves_across),
+        cmocka_unit_test(what_cannot_be), cmocka_unit_test(no_static_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

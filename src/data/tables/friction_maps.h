@@ -17,8 +17,8 @@
       SI(VELOCITY))                                                                                \
     X(FRICTION_MAP_SHIFT_FACTOR, AS(shift_factor), "horizontal shift factor a_T", NUMBER)          \
     X(FRICTION_MAP_TOTAL, "friction",                                                              \
-      "friction coefficient, hysteresis and shearing of the real contact", NUMBER,                 \
-      SHOWS(total), NUMERICAL_ERROR(FRICTION_MAP_TOTAL))                                                         \
+      "friction coefficient, hysteresis and shearing of the real contact", NUMBER, SHOWS(total),   \
+      NUMERICAL_ERROR(FRICTION_MAP_TOTAL))                                                         \
     X(FRICTION_MAP_TOTAL_NUMERICAL_ERROR, "friction_numerical_error", "its numerical error",       \
       NUMBER)                                                                                      \
     X(FRICTION_MAP_HYSTERESIS, AS(hysteresis), "hysteresis friction", NUMBER,                      \
