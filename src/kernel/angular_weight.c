@@ -76,6 +76,7 @@ wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
     if (least >= -8 * WT_ANISOTROPY_ORDERS * DBL_EPSILON)
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "the anisotropy makes the power spectrum negative");
+    wt_error_place(err, "%s", anisotropy->amplitude[0] != 0 ? "anisotropy" : "anisotropy-fourth");
     wt_error_expected(err, "a density of at least 0 in every direction");
     wt_error_found(err, "%.3g of the mean at %.0f deg from the velocity", least,
                    where * 180 / M_PI);

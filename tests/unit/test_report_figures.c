@@ -225,7 +225,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"friction_pressure_map", "boxxyerror fc palette",
          "velocity_from velocity_to from to value"},
         {"friction_decades", "boxxyerror ls 21", "from to hysteresis"},
-        {"friction_decades", "boxxyerror ls 23", "from to hysteresis"},
+        {"friction_decades", "boxxyerror ls 23", "to from hysteresis"},
         {"anisotropy", "title 'against the velocity'", "velocity hysteresis"},
         {"anisotropy", "title 'to the side'", "velocity side"},
         {"anisotropy", "title 'the same roughness in all directions'",
