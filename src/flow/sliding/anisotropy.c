@@ -79,6 +79,7 @@ static wt_status make_table(const sides *s, wt_table **table, wt_error *err)
     for (size_t i = 0; i + 1 < s->n; i++)
         anisotropy_add_row(&t, &s->rows[i]);
     anisotropy_keys keys = {.side = reference->with.side};
+    keys.side.standard_error = (double)NAN; /* no replicates are drawn here */
     anisotropy_describe(&s->sliding->anisotropy, keys.texture, sizeof keys.texture);
     say_effect(reference, keys.effect, sizeof keys.effect);
     anisotropy_set_keys(&t, &keys);
