@@ -339,6 +339,26 @@ static inline void fixture_record(void)
     wt_formats_free(formats);
 }
 
+/* Adds a table of one of the other cases. */
+static inline void fixture_of_case(const char *name, const char *asked)
+{
+    char path[256];
+    const fixture_change no_change = {.table = NULL};
+    wt_run_options few = wt_run_defaults();
+    few.replicates = 3;
+    wt_case *other = NULL;
+    wt_result *result = NULL;
+    size_t failed = 0;
+    snprintf(path, sizeof path, WT_SOURCE_DIR "/fixtures/%s/case.xml", name);
+    fixture_check(wt_case_read(path, &other, NULL));
+    fixture_check(wt_case_ask(other, asked, NULL));
+    fixture_check(wt_run(other, &few, NULL, &result, &failed, NULL));
+    fixture_check(
+        wt_result_add(fixture_case, fixture_copy(wt_result_find(result, asked), &no_change), NULL));
+    wt_result_free(result);
+    wt_case_free(other);
+}
+
 /* What a case does not give unless it is asked for by name, and what needs no case. */
 static inline void fixture_accuracy(wt_case *read)
 {
@@ -365,15 +385,10 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(fixture_case,
                                 fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
-    wt_case *directed = NULL;
-    wt_result *other = NULL;
-    fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/transverse/case.xml", &directed, NULL));
-    fixture_check(wt_case_ask(directed, "directions", NULL));
-    fixture_check(wt_run(directed, &few, NULL, &other, &failed, NULL));
-    fixture_check(wt_result_add(
-        fixture_case, fixture_copy(wt_result_find(other, "directions"), &no_change), NULL));
-    wt_result_free(other);
-    wt_case_free(directed);
+    fixture_of_case("transverse", "directions");
+    fixture_of_case("texture", "anisotropy");
+    fixture_of_case("texture", "friction_map");
+    fixture_of_case("texture", "friction_decades");
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);

@@ -749,6 +749,12 @@ typedef struct wt_sliding {
     double reference_velocity;   /* of the answer and the layer [m/s]; NaN = middle of the list */
     const wt_softness *softness; /* borrowed; NULL = none */
     double strain_factor;        /* as in wt_friction_options; default 1 */
+    wt_anisotropy anisotropy;    /* of the roughness; default none */
+    const double *temperatures;  /* [n_temperatures] K, of the friction map, borrowed */
+    size_t n_temperatures;
+    const double *pressures; /* [n_pressures] Pa, likewise */
+    size_t n_pressures;
+    bool decades; /* the friction by decades of the wavenumber is asked for */
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -793,6 +799,21 @@ WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work
  * it has no directions. */
 WT_API wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                                     wt_error *err) WT_NODISCARD;
+
+/* Table "anisotropy": hysteresis friction, contact area and the force to the side with the
+ * anisotropy of `sliding` and without it. WT_E_ARG if there is none. */
+WT_API wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                    wt_error *err) WT_NODISCARD;
+/* Table "friction_map": friction at every velocity and temperature at the nominal pressure, then at
+ * every velocity and pressure at the nominal temperature. One preparation of the kernel at the
+ * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
+ * WT_E_ARG if neither temperatures nor pressures are given. */
+WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_job *work,
+                                      wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "friction_decades": what the roughness of each decade of the wavenumber makes of the
+ * hysteresis friction, at the slowest, the reference and the fastest velocity. */
+WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_job *work,
+                                          wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 

@@ -38,6 +38,19 @@ typedef struct wt_softening {
 /* WT_E_ARG or WT_E_RANGE naming the point that is wrong. */
 WT_API wt_status wt_softening_check(const wt_softening *softening, wt_error *err) WT_NODISCARD;
 
+/* Roughness that is not the same in all directions, such as that of grinding: its power spectrum is
+ *   C(q, phi) = C(q) [1 + sum_k amplitude[k] cos(2 (k + 1) (phi - angle[k]))],
+ * phi from the velocity and turning with the side force. All 0: the same in all directions. */
+enum { WT_ANISOTROPY_ORDERS = 4 };
+typedef struct wt_anisotropy {
+    double amplitude[WT_ANISOTROPY_ORDERS]; /* of orders 2, 4, 6, 8 */
+    double angle[WT_ANISOTROPY_ORDERS];     /* of a maximum of each from the velocity [rad] */
+} wt_anisotropy;
+/* WT_E_RANGE unless it is finite and nowhere negative. */
+WT_API wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err) WT_NODISCARD;
+/* C(q, phi) / C(q) at an angle from the velocity [rad]. */
+WT_API double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle);
+
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
     double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson,
@@ -48,6 +61,7 @@ typedef struct wt_friction_options {
     struct angular_law *series; /* of the library: that of the material, borrowed; default NULL */
     const wt_softening *softening; /* borrowed while the workspace is made; NULL (default) = none */
     double strain_factor;          /* of the softening, > 0; default 1 */
+    wt_anisotropy anisotropy;      /* of the roughness; default none */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
@@ -66,6 +80,8 @@ typedef struct wt_friction_point {
                                   angle is cut where q v cos(phi) leaves it; good to 1e-5 */
     size_t nodes;              /* q nodes of the rules that sufficed */
     bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
+    wt_estimate side; /* mu_side of anisotropic roughness: the force on the rubber is -pressure
+                         (mu_hys x + mu_side y), x along the velocity, y at +90 deg from it */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */
@@ -73,6 +89,7 @@ typedef struct wt_friction_node {
     double wavenumber;                              /* [rad/m] */
     double stress_variance, area_ratio, hysteresis; /* G, P and mu up to here */
     double numerical_error;                         /* of area_ratio */
+    double hysteresis_error;                        /* numerical, of hysteresis */
 } wt_friction_node;
 
 typedef struct wt_friction_workspace wt_friction_workspace;

@@ -2,6 +2,48 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding.h"
 
+/* The tables that follow that of friction, each where it has something to say. */
+enum { AREA, DIRECTIONS, SOFTENING, ANISOTROPY, MAP, DECADES, N_FURTHER };
+
+static bool is_wanted(const wt_sliding *s, size_t k)
+{
+    switch (k) {
+    case DIRECTIONS:
+        return s->rubber->is_transverse;
+    case SOFTENING:
+        return s->softness != NULL;
+    case ANISOTROPY:
+        return s->anisotropy.amplitude[0] != 0 || s->anisotropy.amplitude[1] != 0;
+    case MAP:
+        return s->n_temperatures + s->n_pressures > 0;
+    case DECADES:
+        return s->decades;
+    default:
+        return true;
+    }
+}
+
+static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
+{
+    static const struct {
+        const char *stage;
+        wt_status (*make)(const wt_sliding *, const wt_job *, wt_table **, wt_error *);
+    } made[N_FURTHER] = {[AREA] = {"contact_area", wt_contact_area_table},
+                         [DIRECTIONS] = {"directions", wt_directions_make},
+                         [SOFTENING] = {"softening", wt_softening_make},
+                         [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
+                         [MAP] = {"friction_map", wt_friction_map_make},
+                         [DECADES] = {"friction_decades", wt_friction_decades_make}};
+    wt_status status = WT_OK;
+    for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
+        if (!is_wanted(&s->conditions, k))
+            continue;
+        wt_cost_stage(s->session.cost, made[k].stage);
+        status = made[k].make(&s->conditions, &s->session.work, &further[k], &s->session.err);
+    }
+    return status;
+}
+
 int cmd_friction(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -16,7 +58,7 @@ int cmd_friction(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
-    wt_table *contact_area = NULL, *directions = NULL, *softening = NULL, *what_if = NULL;
+    wt_table *further[N_FURTHER] = {NULL}, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     const bool has_layer = cmd_given(own, "layer-thickness");
@@ -27,24 +69,15 @@ int cmd_friction(int argc, char **argv)
         wt_cost_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
         wt_status made =
             wt_friction_make(&s.conditions, known, &s.session.work, &tables, &s.session.err);
-        wt_cost_stage(s.session.cost, "contact_area");
         if (made == WT_OK)
-            made = wt_contact_area_table(&s.conditions, &s.session.work, &contact_area,
-                                         &s.session.err);
-        if (made == WT_OK && s.rubber.is_transverse) {
-            wt_cost_stage(s.session.cost, "directions");
-            made = wt_directions_make(&s.conditions, &s.session.work, &directions, &s.session.err);
-        }
-        if (made == WT_OK && s.conditions.softness != NULL) {
-            wt_cost_stage(s.session.cost, "softening");
-            made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
-        }
+            made = make_further(&s, further);
         wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.friction, &contact_area, &directions, &softening,
-                                    &what_if};
+        wt_table **const parts[] = {
+            &tables.friction,     &further[AREA], &further[DIRECTIONS], &further[SOFTENING],
+            &further[ANISOTROPY], &further[MAP],  &further[DECADES],    &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

@@ -16,7 +16,9 @@ int cmd_layer(int argc, char **argv)
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
     /* the energy knows nothing of the shear stress */
-    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature gamma strain-factor";
+    s.parts[CMD_CONDITIONS].only =
+        "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
+        "anisotropy-fourth texture-angle-fourth";
     wt_layer_tables tables = {0};
     wt_table *energy_density = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))

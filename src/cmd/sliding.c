@@ -77,6 +77,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
+    if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
+        return cmd_param_error(session);
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");

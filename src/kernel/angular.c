@@ -9,6 +9,7 @@
 #include "base/exponential.h"
 #include "base/wide.h"
 #include "kernel/angular_panels.h"
+#include "kernel/chebyshev.h"
 
 #include <float.h>
 #include <math.h>
@@ -17,12 +18,10 @@
 
 /* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
  * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
-enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3 };
+enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, DEGREES = 3 };
 /* A piece is halved down to 1/4096 of its width, or until three cuts in a row gained less than ten:
  * then it is rounding that is left. */
 enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
-/* Room for the coefficients of one degree, in whole registers. */
-enum { FIT_ROOM = 20 };
 
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
  * smooth: its poles lie at pi/2 beside the axis. */
@@ -64,8 +63,9 @@ typedef struct series_list {
 
 struct angular_law {
     const wt_material *material;
-    bool closed; /* there is a closed form */
-    double piece_width;
+    const angular_weight *weight; /* NULL: none */
+    bool closed;                  /* there is a closed form, and no weight */
+    double tolerance, piece_width;
     const gauss_rule *rule;
     double goal;
     angular_panels panels;
@@ -97,62 +97,6 @@ static void make_fits(angular_law *a)
             }
 }
 
-/* From values at cos(pi k / degree), each `step` of them, by the columns of that degree. */
-WIDE_REGISTERS
-static void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
-                          double *restrict coefficient)
-{
-    const size_t step = LONG_DEGREE / degree;
-    double sum[FIT_ROOM] = {0};
-    for (size_t k = 0; k <= degree; k++)
-        for (size_t j = 0; j < FIT_ROOM; j++)
-            sum[j] += value[k * step] * fit[k * FIT_ROOM + j];
-    memcpy(coefficient, sum, (LONG_DEGREE + 1) * sizeof *coefficient);
-}
-
-/* What the series leaves out, relative to the smallest value. */
-static double series_tail(const double *coefficient, const double *value, size_t degree)
-{
-    double least = (double)INFINITY, most = 0;
-    for (size_t k = 0; k <= LONG_DEGREE; k += LONG_DEGREE / degree) {
-        least = fmin(least, value[k]);
-        most = fmax(most, value[k]);
-    }
-    const double last = fmax(fabs(coefficient[degree]), fabs(coefficient[degree - 1]));
-    const double tail = 2 * fmax(last, 0.1 * fabs(coefficient[degree - 2]));
-    return most > 0 ? tail / (least > 0 ? least : most) : 0;
-}
-
-/* As many terms as the error needs that is there anyway, as powers of z instead of T_n(z): twice as
- * fast to sum, and what rounding makes of them is about the sum of their magnitudes. Returns that,
- * relative to `least`, and what was cut. */
-static double make_powers(double *coefficient, size_t *degree, double allowed)
-{
-    double t[LONG_DEGREE + 1] = {0}, last[LONG_DEGREE + 1] = {1}, now[LONG_DEGREE + 1] = {0, 1};
-    double cut = 0, sum = 0;
-    size_t kept = *degree;
-    while (kept > 2 && cut + fabs(coefficient[kept]) <= allowed)
-        cut += fabs(coefficient[kept--]);
-    t[0] = coefficient[0];
-    for (size_t n = 1; n <= kept; n++) {
-        double next[LONG_DEGREE + 1] = {0};
-        for (size_t k = 0; k <= n; k++) {
-            t[k] += coefficient[n] * now[k];
-            next[k] -= last[k];
-        }
-        for (size_t k = 0; k <= n && k < LONG_DEGREE; k++)
-            next[k + 1] += 2 * now[k];
-        memcpy(last, now, sizeof last);
-        memcpy(now, next, sizeof now);
-    }
-    for (size_t k = 0; k <= LONG_DEGREE; k++) {
-        coefficient[k] = t[k];
-        sum += fabs(t[k]);
-    }
-    *degree = kept;
-    return cut + 2 * DBL_EPSILON * sum;
-}
-
 static double least_of(const double *value, size_t step)
 {
     double least = value[0];
@@ -171,7 +115,7 @@ static void series_powers(series *s, const double *j1, const double *j2, double 
     double more = 0;
     for (size_t i = 0; i < 2; i++) {
         const double left =
-            make_powers(coefficient[i], &degree[i], 0.3 * fmax(goal, s->error) * least[i]);
+            chebyshev_powers(coefficient[i], &degree[i], 0.3 * fmax(goal, s->error) * least[i]);
         more = fmax(more, least[i] > 0 ? left / least[i] : 0);
     }
     s->degree = degree[0] > degree[1] ? degree[0] : degree[1];
@@ -235,7 +179,7 @@ static series series_fit(const angular_law *a, double low, double high, double a
         chebyshev_fit(j1, degree, fit, s.j1);
         chebyshev_fit(j2, degree, fit, s.j2);
         s.degree = degree;
-        s.error = fmax(series_tail(s.j1, j1, degree), series_tail(s.j2, j2, degree));
+        s.error = fmax(chebyshev_tail(s.j1, j1, degree), chebyshev_tail(s.j2, j2, degree));
         if (s.error <= goal)
             break;
     }
@@ -329,7 +273,10 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
     a->panels_low = low;
     a->panels_high = high;
     /* past the end, where rounding may put a frequency: the integrand has a pole there */
-    return angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
+    const wt_status status =
+        angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
+    a->panels.weight = a->weight;
+    return status;
 }
 
 /* In whole multiples of piece_width: what there is, and with it what is asked for. */
@@ -530,9 +477,11 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
     const double low = fmin(limit[0], limit[1]);
     wt_status status = WT_OK;
     for (size_t k = 0; k < 2 && status == WT_OK; k++)
-        if (!isnan(limit[k]) && angular->below[k].n == 0)
+        if (!isnan(limit[k]) && angular->below[k].n == 0) {
             status = angular_panels_new(angular->material, angular->rule, low, limit[k], most_goal,
                                         &angular->below[k], err);
+            angular->below[k].weight = angular->weight;
+        }
     return status;
 }
 
@@ -563,6 +512,20 @@ static double limit_of(double frequency)
     return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
 }
 
+static void choose_pieces(angular_law *a, bool closed)
+{
+    a->closed = closed;
+    a->goal =
+        fmin(fmax(goal_share * a->tolerance, least_goal), closed ? most_closed_goal : most_goal);
+    a->piece_width = !closed ? law_width : a->goal >= loose_goal ? loose_width : closed_width;
+}
+
+void angular_weigh(angular_law *angular, const angular_weight *weight)
+{
+    angular->weight = weight;
+    choose_pieces(angular, false);
+}
+
 wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
                       angular_law **angular, wt_error *err)
 {
@@ -570,13 +533,9 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
-    made->closed = material->law->angular != NULL;
     make_fits(made);
-    made->goal =
-        fmin(fmax(goal_share * tolerance, least_goal), made->closed ? most_closed_goal : most_goal);
-    made->piece_width = !made->closed              ? law_width
-                        : made->goal >= loose_goal ? loose_width
-                                                   : closed_width;
+    made->tolerance = tolerance;
+    choose_pieces(made, material->law->angular != NULL);
     made->limit[0] = limit_of(material->frequency_min);
     made->limit[1] = limit_of(material->frequency_max);
     *angular = made;

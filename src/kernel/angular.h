@@ -2,6 +2,7 @@
  *
  *   J1(w) = int_0^2pi cos(phi) E''(w cos phi) dphi,   J2(w) = int_0^2pi |E(w cos phi)|^2 dphi
  *
+ * each with the weight of anisotropic roughness under the integral, if there is one.
  * From the closed form of the law where it has one; otherwise integrated once and then read from
  * Chebyshev series in ln w, so that the cost per velocity does not know the material; a closed form
  * of many terms likewise.
@@ -12,6 +13,7 @@
 #define WT_KERNEL_ANGULAR_H
 
 #include "base/pool.h"
+#include "kernel/angular_weight.h"
 #include "weartrack/model.h"
 
 typedef struct angular_law angular_law;
@@ -24,6 +26,8 @@ typedef struct angular_law angular_law;
 wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
                       angular_law **angular, wt_error *err) WT_NODISCARD;
 void angular_clear(angular_law *angular); /* NULL: nothing */
+/* Weighs both from the beginning, before anything is covered. The weight is borrowed. */
+void angular_weigh(angular_law *angular, const angular_weight *weight);
 
 /* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form of few terms.
  * A series, once made, does not change; but a closed form for which there is one is read from it

@@ -390,7 +390,9 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     const double c = a->edge_omega[edge] / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
-    for (size_t m = 0; m < a->terms && power > DBL_EPSILON / 64; m++) {
+    if (a->weight != NULL)
+        weight_far(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
+    for (size_t m = 0; a->weight == NULL && m < a->terms && power > DBL_EPSILON / 64; m++) {
         sum1 += b * power * s1[m];
         sum2 += b * power * s2[m];
         b *= (double)(2 * m + 1) / (double)(2 * m + 2);
@@ -434,6 +436,15 @@ static void add_middle(size_t n, const double *restrict omega, const double *res
     }
 }
 
+static void add_nodes(const angular_panels *a, size_t n, const double *omega, const double *f1,
+                      const double *f2, double w, double *j1, double *j2)
+{
+    if (a->weight != NULL)
+        weight_middle(a->weight, n, omega, f1, f2, w, j1, j2);
+    else
+        add_middle(n, omega, f1, f2, w, j1, j2);
+}
+
 /* From ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
 static void add_near(const angular_panels *a, double x, double from, double to, double w,
                      double *j1, double *j2)
@@ -452,9 +463,16 @@ static void add_near(const angular_panels *a, double x, double from, double to, 
         weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
     }
     a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
+    const angular_weight *in_direction = a->weight;
     for (size_t i = 0; i < PANEL_NODES; i++) {
-        *j1 += weight[i] * cosine[i] * loss[i];
-        *j2 += weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
+        double part1 = weight[i] * cosine[i] * loss[i];
+        double part2 = weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
+        if (in_direction != NULL) {
+            part1 *= weight_at(in_direction->power[0], 1 + gap[i]);
+            part2 *= weight_at(in_direction->power[1], 1 + gap[i]);
+        }
+        *j1 += part1;
+        *j2 += part2;
     }
 }
 
@@ -472,7 +490,8 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
             const panel_group *group;
             const size_t grouped = group_at(a, p, x, &group);
             if (grouped > 0) {
-                add_middle(GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1, j2);
+                add_nodes(a, GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
+                          j2);
                 p += grouped;
                 continue;
             }
@@ -481,8 +500,8 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
                    (p * PANEL_NODES == from || group_at(a, p, x, &group) == 0))
                 p++;
             for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
-                add_middle(end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
-                           a->value[0] + from, a->value[1] + from, w, j1, j2);
+                add_nodes(a, end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
+                          a->value[0] + from, a->value[1] + from, w, j1, j2);
             /* narrow ones may follow */
             for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
                 add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
@@ -504,6 +523,8 @@ double angular_panels_error(const angular_panels *panels, double w, double j1, d
     const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* at the edge, and less below it */
     const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
     const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
-    return fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) + pow(4, -(double)a->terms) +
-           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + largest);
+    const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +
+                         pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
+                         2 * DBL_EPSILON * (4 + largest);
+    return a->weight != NULL ? error * a->weight->caution : error;
 }

@@ -8,6 +8,7 @@
 #ifndef WT_KERNEL_ANGULAR_PANELS_H
 #define WT_KERNEL_ANGULAR_PANELS_H
 
+#include "kernel/angular_weight.h"
 #include "kernel/rule.h"
 #include "weartrack/model.h"
 
@@ -37,6 +38,7 @@ typedef struct angular_panels {
     double *moved[2];      /* [n + 1] error of `below`, m = 0, from the rounding of ln omega */
     double *numbers;       /* all of them */
     panel_group *group[GROUP_LEVELS]; /* of dense panels, GROUP_LEAST 2^k of them each */
+    const angular_weight *weight;     /* borrowed, set once they are made; NULL: 1 */
 } angular_panels;
 
 /* For w from `low` to `high` > 0 and relative errors of about `goal`. The rule is borrowed. */

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/friction.h"
+#include "kernel/friction_side.h"
 #include "kernel/params.h"
 
 #include "base/array.h"
@@ -35,7 +36,7 @@ wt_friction_options wt_friction_defaults(void)
 static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
     FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
-    PARAM_THREADS(wt_friction_options),
+    PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
@@ -103,7 +104,8 @@ static const double seen_closed = 0.65, seen_knots = 0.5;
 static void choose_panels(wt_friction_workspace *ws)
 {
     const wt_layer_state *layer = &ws->options.layer;
-    const bool smooth = ws->material->law->angular != NULL && ws->softening == NULL;
+    const bool smooth =
+        ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
     const bool bulk = !(layer->thickness > 0) || layer->modulus_ratio == 1;
     ws->seen = smooth ? seen_closed : seen_knots;
     const double width =
@@ -131,15 +133,47 @@ static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
     return WT_OK;
 }
 
+static wt_status new_angular(wt_friction_workspace *ws, const wt_material *material,
+                             angular_law **made, wt_error *err)
+{
+    const wt_status status = angular_new(material, ws->options.tolerance, &ws->memory, made, err);
+    if (status == WT_OK && ws->anisotropic)
+        angular_weigh(*made, &ws->along);
+    return status;
+}
+
+/* Which way the roughness goes; series that are given know nothing of it. */
+static wt_status begin_anisotropy(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_anisotropy *anisotropy = &ws->options.anisotropy;
+    ws->anisotropic = anisotropy_is_any(anisotropy);
+    if (!ws->anisotropic)
+        return WT_OK;
+    ws->along = weight_along(anisotropy);
+    ws->options.series = NULL;
+    return wt_anisotropy_check(anisotropy, err);
+}
+
 static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
     const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
                                            ws->roughness, &ws->memory, &ws->softening, err);
     ws->options.softening = NULL; /* its table was borrowed until now */
-    return status == WT_OK
-               ? angular_new(&ws->softening->loss, o->tolerance, &ws->memory, &ws->loss, err)
-               : status;
+    return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
+}
+
+/* The angular integrals of the material, if none are given, and what goes to the side. */
+static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_friction_options *o = &ws->options;
+    ws->angular = o->series;
+    wt_status status = WT_OK;
+    if (o->series == NULL)
+        status = new_angular(ws, ws->material, &ws->angular, err);
+    if (status == WT_OK && anisotropy_is_aside(&o->anisotropy))
+        status = friction_side_new(ws->material, o, &ws->memory, &ws->side, err);
+    return status;
 }
 
 wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
@@ -168,13 +202,13 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
 
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
-    if (o.softening != NULL)
+    status = begin_anisotropy(ws, err);
+    if (status == WT_OK && o.softening != NULL)
         status = begin_softening(ws, err);
     choose_panels(ws);
 
-    ws->angular = o.series;
-    if (status == WT_OK && o.series == NULL)
-        status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
+    if (status == WT_OK)
+        status = begin_angular(ws, err);
     if (status == WT_OK)
         status = make_rules(ws, err);
     if (status == WT_OK)
@@ -200,6 +234,7 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     if (ws->options.series == NULL)
         angular_clear(ws->angular);
     angular_clear(ws->loss);
+    friction_side_clear(ws->side);
     pool_free(&ws->memory);
     free(ws);
 }
@@ -250,12 +285,14 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
-    if (!material->law->angular &&
+    if ((!material->law->angular || ws->anisotropic) &&
         !(least * ws->roughness->q0 >= ANGULAR_LEAST && highest <= DBL_MAX)) {
         (void)range_error("velocity", highest <= DBL_MAX ? least : fastest,
                           "not 0, and so that q v is a frequency in range", err);
-        wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
-                        material->law->name);
+        wt_error_advice(err,
+                        "a material of kind %s has no static limit%s; a Prony series has where the "
+                        "roughness is the same in all directions",
+                        material->law->name, ws->anisotropic ? " on anisotropic roughness" : "");
         return WT_E_RANGE;
     }
     if (!material->law->angular && material->law->check != NULL)
@@ -264,8 +301,10 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         status = leave_given(ws, lowest, highest, err);
     if (status == WT_OK)
         status = angular_cover(ws->angular, lowest, highest, err);
-    return status == WT_OK && ws->softening != NULL ? angular_cover(ws->loss, lowest, highest, err)
-                                                    : status;
+    if (status == WT_OK && ws->softening != NULL)
+        status = angular_cover(ws->loss, lowest, highest, err);
+    return status == WT_OK && ws->side != NULL ? friction_side_cover(ws->side, lowest, highest, err)
+                                               : status;
 }
 
 friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity)
@@ -308,8 +347,8 @@ static bool with_share(const wt_friction_workspace *ws)
     return !ws->options.without_share && angular_limited(ws->angular);
 }
 
-static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
-                          wt_friction_point *point)
+static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                               wt_friction_point *point)
 {
     const wt_friction_workspace *ws = job->ws;
     const friction_load at = friction_load_at(ws, job->pressure, velocity);
@@ -317,7 +356,9 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     const double tolerance = ws->options.tolerance;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
     friction_pass pass;
-    friction_evaluate(ws, scratch, plan, (friction_effort){0}, at, with_share(ws), NULL, &pass);
+    friction_record record = {0};
+    friction_evaluate(ws, scratch, plan, (friction_effort){0}, at, with_share(ws),
+                      ws->side != NULL ? &record : NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, &pass);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -335,13 +376,21 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     point->extrapolated_share = ws->options.without_share ? (double)NAN
                                 : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
                                                           : 0;
+    point->side = estimate_of(0, 0);
+    const wt_status status =
+        ws->side != NULL ? friction_side_of(ws, at, sign, &record, error_mu, &point->side) : WT_OK;
+    free(record.q);
+    free(record.mu);
+    return status;
 }
 
 static wt_status compute_one(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
     wt_friction_point *point = &job->points[i];
-    compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
+    const wt_status status = compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
+    if (status != WT_OK)
+        return status;
     return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
                                                                                        : WT_E_RANGE;
 }

@@ -40,7 +40,10 @@ struct wt_friction_workspace {
     angular_law *angular;
     strain_law *softening; /* NULL: none */
     angular_law *loss;     /* of its loss modulus */
-    double stiffness;      /* 1 / (1 - nu^2) */
+    angular_weight along;  /* of anisotropic roughness */
+    bool anisotropic;
+    struct friction_side *side; /* of its force to the side; NULL: none */
+    double stiffness;           /* 1 / (1 - nu^2) */
     double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */

@@ -36,10 +36,10 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
     const friction_effort effort = {.all_along = true};
     friction_evaluate(workspace, scratch, plan, effort, at, false, NULL, &pass);
 
-    const double relative = friction_relative_error(workspace, &pass).variance;
+    const friction_relative relative = friction_relative_error(workspace, &pass);
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - pass.level;
-    double variance = 0, difference = 0, hysteresis = 0;
+    double variance = 0, difference = 0, hysteresis = 0, error = 0;
     size_t part = 0; /* the next one; part p ends at end[p] */
     for (size_t i = 0; i < n; i++) {
         while (part < pass.parts) {
@@ -50,14 +50,16 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
             variance += scratch->panel_g[part];
             hysteresis += scratch->panel_mu[part];
             difference += scratch->error_g[part];
+            error += scratch->error_mu[part];
             part++;
         }
-        nodes[i] = (wt_friction_node){
-            .wavenumber = wavenumber[i],
-            .stress_variance = variance,
-            .area_ratio = contact_area(variance),
-            .hysteresis = sign * hysteresis,
-            .numerical_error = contact_area_error(variance, difference + relative * variance)};
+        nodes[i] = (wt_friction_node){.wavenumber = wavenumber[i],
+                                      .stress_variance = variance,
+                                      .area_ratio = contact_area(variance),
+                                      .hysteresis = sign * hysteresis,
+                                      .numerical_error = contact_area_error(
+                                          variance, difference + relative.variance * variance),
+                                      .hysteresis_error = error + relative.hysteresis * hysteresis};
     }
 }
 

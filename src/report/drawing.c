@@ -92,19 +92,20 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
     return section_take(d, section, any);
 }
 
-int drawing_point(figure_drawing *d, const char *title, const char *const *columns,
-                  const char *const *units, const double *values)
+int drawing_numbers(figure_drawing *d, const char *title, const char *const *columns,
+                    const char *const *units, const double *values, size_t n_rows)
 {
-    if (d->status != WT_OK)
+    if (d->status != WT_OK || n_rows == 0)
         return NO_SECTION;
-    wt_table *point = section_new(d, title);
+    wt_table *section = section_new(d, title);
     for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
-        d->status = wt_table_add_column(point, columns[i], units[i], columns[i], d->err);
-    if (d->status == WT_OK)
-        d->status = wt_table_add_row(point, d->err);
-    for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
-        wt_table_put(point, i, values[i]);
-    return section_take(d, point, true);
+        d->status = wt_table_add_column(section, columns[i], units[i], columns[i], d->err);
+    for (size_t row = 0; d->status == WT_OK && row < n_rows; row++) {
+        d->status = wt_table_add_row(section, d->err);
+        for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
+            wt_table_put(section, i, *values++);
+    }
+    return section_take(d, section, true);
 }
 
 size_t drawing_rows(const figure_drawing *d, int section)

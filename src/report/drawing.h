@@ -86,9 +86,10 @@ typedef struct row_filter {
 int drawing_section(figure_drawing *d, const table_view *table, const char *title,
                     const row_filter *rows, const unsigned *columns, size_t n_columns,
                     size_t needed);
-/* A section of one row of numbers in a unit each. */
-int drawing_point(figure_drawing *d, const char *title, const char *const *columns,
-                  const char *const *units, const double *values);
+/* A section of rows of numbers, one after the other, in columns with a unit each; NULL ends them.
+ */
+int drawing_numbers(figure_drawing *d, const char *title, const char *const *columns,
+                    const char *const *units, const double *values, size_t n_rows);
 size_t drawing_rows(const figure_drawing *d, int section);
 /* Draw every n-th point only, so that about `limit` are left: 1 = all. */
 size_t drawing_every(const figure_drawing *d, int section, size_t limit);

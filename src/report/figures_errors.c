@@ -111,7 +111,7 @@ static int add_section(figure_drawing *d, const panel *p, const char *title, dou
     const char *unit = schema_unit(&d->table->schema->columns[p->column]);
     const char *const units[] = {unit, unit, unit, NULL};
     const double values[] = {p->used.value, low, high};
-    return drawing_point(d, title, columns, units, values);
+    return drawing_numbers(d, title, columns, units, values, 1);
 }
 
 static void draw_panel(figure_drawing *d, const panel *p)

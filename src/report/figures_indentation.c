@@ -43,7 +43,7 @@ static int contact_section(figure_drawing *d, size_t i)
         force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_FORCE).value;
     const double values[] = {contact.value, contact.standard_error, force};
     return isfinite(contact.value) && isfinite(force)
-               ? drawing_point(d, "contact point", columns, units, values)
+               ? drawing_numbers(d, "contact point", columns, units, values, 1)
                : NO_SECTION;
 }
 

@@ -75,10 +75,19 @@ static const struct {
 };
 
 /* What the energy of a layer knows nothing of is an option of friction alone. */
+static bool is_of_friction(const char *name)
+{
+    static const char *const names[] = {"shear-stress", "temperatures", "pressures", "decades"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], name) == 0)
+            return true;
+    return false;
+}
+
 static bool is_option(size_t s, const wt_param *p)
 {
     return (p->flags & PARAM_NO_OPTION) == 0 &&
-           !(strcmp(subcommands[s].name, "layer") == 0 && strcmp(p->name, "shear-stress") == 0);
+           !(strcmp(subcommands[s].name, "layer") == 0 && is_of_friction(p->name));
 }
 
 static bool is_refused_option(size_t s, const char *name, const char *text)

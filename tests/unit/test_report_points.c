@@ -109,6 +109,7 @@ static void test_whole_tables(void **state)
                                            {"contact_area", "contact_area"},
                                            {"friction_scales", "contact_area"},
                                            {"softening", "softening"},
+                                           {"anisotropy", "anisotropy"},
                                            {"energy_density", "energy_density"},
                                            {"layer", "layer"},
                                            {"cost", "cost"},

@@ -202,15 +202,20 @@ static void test_cases(void **state)
 {
     (void)state;
     run_case("", "");
-    run_case_at(1e-16, "", ""); /* which nothing reaches */
+    run_case_at(1e-16, "<temperature>30degC", /* which nothing reaches */
+                "<temperatures>20degC,40degC</temperatures><temperature>30degC");
     run_case("<temperature>23degC", "<temperature>90degC");
     run_case("<temperature>23degC", "<track-temperature>24degC</track-temperature>"
                                     "<cantilevers>two</cantilevers>"
                                     "<sensitivity-error>0.3</sensitivity-error>"
                                     "<temperature>23degC");
     run_case("<temperature>30degC", "<temperature>90degC");
-    run_case("<temperature>30degC", "<strain-softening><file>softening.txt</file>"
-                                    "</strain-softening><temperature>30degC");
+    run_case("<temperature>30degC</temperature>",
+             "<strain-softening><file>softening.txt</file></strain-softening>"
+             "<temperature>30degC</temperature>"
+             "<anisotropy>0.6</anisotropy><decades>yes</decades>"
+             "<texture-angle>30deg</texture-angle>"
+             "<temperatures>20degC,90degC</temperatures>");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");

@@ -56,6 +56,8 @@
     X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)     \
     X(FRICTION_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)       \
     X(FRICTION_KEY_STRAIN, AS(strain), NUMBER, LABEL("Largest strain met"), OPTIONAL)              \
+    X(FRICTION_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),      \
+      OPTIONAL)                                                                                    \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)   \
     X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER, OPTIONAL)                 \
@@ -175,6 +177,8 @@
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)        \
     X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
+    X(LAYER_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),         \
+      OPTIONAL)                                                                                    \
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \

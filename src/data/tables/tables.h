@@ -16,6 +16,7 @@
 #include "data/tables/coverage.h"
 #include "data/tables/dwell.h"
 #include "data/tables/error_budget.h"
+#include "data/tables/friction_maps.h"
 #include "data/tables/indentation.h"
 #include "data/tables/materials.h"
 #include "data/tables/measured.h"
@@ -107,6 +108,11 @@
       "friction")                                                                                  \
     X(directions, DIRECTIONS, "directions", "What the directions of the material do", "friction")  \
     X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
+    X(anisotropy, ANISOTROPY, "anisotropy", "What the direction of sliding does", "friction")      \
+    X(friction_map, FRICTION_MAP, "friction_map",                                                  \
+      "Friction against velocity at several temperatures and pressures", "friction")               \
+    X(friction_decades, FRICTION_DECADES, "friction_decades",                                      \
+      "Friction by decades of the wavenumber", "friction")                                         \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \

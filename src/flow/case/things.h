@@ -30,7 +30,14 @@
       c->record.n > 0)                                                                             \
     X(GIVEN_WEAR, "what was worn",                                                                 \
       "nothing that was worn (<track-area>, <mass-loss> or <ball-radius> in <record>)",            \
-      c->has_wear)
+      c->has_wear)                                                                                 \
+    X(GIVEN_ANISOTROPY, "anisotropic roughness", "no anisotropy (<anisotropy> in <sliding>)",      \
+      c->sliding.anisotropy.amplitude[0] != 0 || c->sliding.anisotropy.amplitude[1] != 0)          \
+    X(ASKED_MAP, "temperatures and pressures of a map",                                            \
+      "no map asked for (<temperatures> or <pressures> in <sliding>)",                             \
+      c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
+    X(ASKED_DECADES, "decades of the wavenumber", "no decades asked for (<decades> in <sliding>)", \
+      c->sliding.decades)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -68,6 +75,9 @@
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(DIRECTIONS, "directions", &directions_schema, "")                                            \
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
+    X(ANISOTROPY, "anisotropy", &anisotropy_schema, "")                                            \
+    X(FRICTION_MAP, "friction_map", &friction_map_schema, "")                                      \
+    X(FRICTION_DECADES, "friction_decades", &friction_decades_schema, "")                          \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")                                                  \

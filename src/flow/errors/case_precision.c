@@ -7,6 +7,7 @@
 #include "flow/sliding/sliding_contact.h"
 #include "flow/sweeps/master.h"
 #include "flow/work/cost.h"
+#include "kernel/angular_weight.h"
 
 #include "base/array.h"
 #include "base/clocale.h"
@@ -181,8 +182,9 @@ static wt_status sweep_tolerance(own_case *o, wt_error *err)
             reference[k].numerical_error / fabs(reference[k].value);
     if (status == WT_OK)
         status = sweep_values(o, BY_TOLERANCE, solve_tolerance, reference, err);
-    /* the textbook knows neither softening nor gamma, and no layer */
-    if (status != WT_OK || o->first > 0 || o->now.has_softness || o->now.sliding.gamma < 1)
+    /* the textbook knows neither softening nor directions nor gamma, and no layer */
+    if (status != WT_OK || o->first > 0 || o->now.has_softness || o->now.sliding.gamma < 1 ||
+        anisotropy_is_any(&o->now.sliding.anisotropy))
         return status;
     const wt_layer_state none = {.thickness = 0, .modulus_ratio = 1};
     status = sliding_contact_make(&o->now.sliding, &o->work, WT_NO_REPLICATE, NULL, none,

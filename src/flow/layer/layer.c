@@ -1,6 +1,7 @@
 /* The layer job: energy density with depth, formation against wear, thickness at balance and in
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/anisotropy.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
@@ -309,7 +310,7 @@ TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 
 TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
-           char softening[256], numerical[512];)
+           char softening[256], anisotropy[192], numerical[512];)
 
 static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
@@ -332,6 +333,7 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         keys.observed.value = (double)NAN;
     if (task->sliding->softness != NULL)
         softness_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
+    anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (run->source.numerical_error > task->work->tolerance)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, run->source.numerical_error);

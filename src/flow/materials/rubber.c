@@ -241,6 +241,18 @@ static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw,
     return WT_OK;
 }
 
+wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
+                            wt_error *err)
+{
+    bool held = false;
+    *shift = (rubber_shift){.a = 1, .b = 1};
+    const wt_status status = factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &shift->a,
+                                        &shift->b, &held, err);
+    if (status == WT_OK)
+        make_statement(rubber, temperature, held, shift->statement);
+    return status;
+}
+
 wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
                        wt_material **material, char statement[256], wt_error *err)
 {

@@ -12,6 +12,15 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
 void flow_rubber_drop_draws(wt_rubber *rubber);
 /* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
 bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
+/* Factors by which times and moduli at the reference temperature become those at another one (NaN:
+ * the reference): E(w) is E_reference(w a_T) / b_T; and what must be said of them, "" if nothing.
+ */
+typedef struct rubber_shift {
+    double a, b;
+    char statement[256];
+} rubber_shift;
+wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
+                            wt_error *err) WT_NODISCARD;
 /* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
 wt_zener flow_zener_defaults(void);
 const wt_params *flow_zener_params(void);

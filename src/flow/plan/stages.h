@@ -77,6 +77,15 @@ typedef enum flow_extra {
     X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING_EFFECT), \
       flow_step_softening_effect)                                                                  \
+    X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_NO_MORE,               \
+      B(ANISOTROPY), flow_step_anisotropy)                                                         \
+    X(FRICTION_MAP, friction_map, "Friction at several temperatures and pressures",                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_MAP), 0, FLOW_NO_MORE, B(FRICTION_MAP),     \
+      flow_step_friction_map)                                                                      \
+    X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_DECADES), 0, FLOW_NO_MORE,                  \
+      B(FRICTION_DECADES), flow_step_friction_decades)                                             \
     X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
       flow_step_what_if)                                                                           \

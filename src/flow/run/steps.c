@@ -479,6 +479,24 @@ wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
     return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
 }
 
+wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_anisotropy_make(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
+}
+
+wt_status flow_step_friction_map(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_friction_map_make(&sliding, &run->job, &run->table[FLOW_FRICTION_MAP], err);
+}
+
+wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_friction_decades_make(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES], err);
+}
+
 /* ---- what if, error budget, coverage, error against run time ----------------------------------
  */
 

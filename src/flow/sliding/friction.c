@@ -2,6 +2,7 @@
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/error_nodes.h"
+#include "flow/sliding/anisotropy.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
@@ -137,7 +138,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           char material[512], softening[512], numerical[512];)
+           char material[512], softening[512], anisotropy[192], numerical[512];)
 
 /* Of the values themselves, with what the replicates scatter. */
 static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
@@ -225,6 +226,7 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
         softness_describe(s->softness, keys.softening, sizeof keys.softening);
         keys.strain.value = task->strain;
     }
+    anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (task->worst > 0)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, task->worst);

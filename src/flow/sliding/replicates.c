@@ -2,6 +2,7 @@
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
+#include "kernel/angular_weight.h"
 
 #include "model/cholesky.h"
 
@@ -62,6 +63,8 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
                    measured ? "places of the surface" : "roughness");
     if (measured)
         add_drawn(&r, "scatter of the spectrum");
+    if (anisotropy_is_any(&sliding->anisotropy))
+        add_words(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
     if (sliding->softness != NULL) {
         const bool drawn = softness_has_errors(sliding->softness);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");

@@ -41,6 +41,18 @@ static const wt_param rows[] = {
              "friction"},
     FRICTION_GAMMA(wt_sliding),
     FRICTION_STRAIN_FACTOR(wt_sliding),
+    FRICTION_ANISOTROPY(wt_sliding),
+    {PARAM_LIST_OF("temperatures", wt_sliding, temperatures, n_temperatures, WT_Q_TEMPERATURE,
+                   ABOVE(0)),
+     .value = "T", .unset = "",
+     .help = "also a map of the friction at these temperatures of the rubber, such as "
+             "-20degC:60degC:lin:9 or a list; needs a WLF law"},
+    {PARAM_LIST_OF("pressures", wt_sliding, pressures, n_pressures, WT_Q_PRESSURE, ABOVE(0)),
+     .value = "P", .unset = "",
+     .help = "also a map of the friction at these nominal pressures, such as 0.1:1MPa:log:9 or a "
+             "list"},
+    {PARAM_FLAG_OF("decades", wt_sliding, decades),
+     .help = "also what each decade of the wavenumber makes of the friction"},
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
@@ -55,6 +67,8 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_e
     wt_status status = param_check(wt_sliding_params(), sliding, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), work, err);
+    if (status == WT_OK)
+        status = wt_anisotropy_check(&sliding->anisotropy, err);
     if (status == WT_OK && sliding->pressure.value > most_borne)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
@@ -140,6 +154,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     wt_friction_options options = wt_friction_defaults();
     options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
     options.gamma = sliding->gamma;
+    options.anisotropy = sliding->anisotropy;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
     options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
