@@ -203,7 +203,11 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "Pa",                             \
       "shear relaxation modulus G(t)")                                                             \
     X(WT_Q_CREEP_COMPLIANCE, "creep_compliance", "1/Pa", "tensile creep compliance D(t)")          \
-    X(WT_Q_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "1/Pa", "shear creep compliance J(t)")
+    X(WT_Q_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "1/Pa",                               \
+      "shear creep compliance J(t)")                                                               \
+    X(WT_Q_HEAT_CAPACITY, "heat_capacity", "J/(m^3 K)", "heat capacity per volume")                \
+    X(WT_Q_DIFFUSIVITY, "diffusivity", "m^2/s", "thermal diffusivity")                             \
+    X(WT_Q_ENERGY, "energy", "J", "energy")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

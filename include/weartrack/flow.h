@@ -709,6 +709,10 @@ typedef struct wt_sliding {
     double reference_velocity;   /* of the answer and the layer [m/s]; NaN = middle of the list */
     const wt_softness *softness; /* borrowed; NULL = none */
     double strain_factor;        /* as in wt_friction_options; default 1 */
+    wt_area_law area_law;        /* likewise */
+    wt_flash flash;              /* likewise; `temperature` is then that of the surroundings */
+    wt_shear_law shear_law;      /* of the shear stress, which is that of its peak */
+    bool sensitivities;          /* of the friction at the reference velocity; default false */
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -748,6 +752,11 @@ WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *
  * without it, and the shares from strains that it does not know. WT_E_ARG if there is none. */
 WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
+/* Table "flash_temperature": hysteresis friction, contact area and temperature at every velocity
+ * with the flash temperature of `sliding`, the same of a second solution where there is one, and
+ * without it. WT_E_ARG if it is not asked for. */
+WT_API wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                               wt_error *err) WT_NODISCARD;
 /* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
  * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
  * it has no directions. */

@@ -38,6 +38,24 @@ typedef struct wt_softening {
 /* WT_E_ARG or WT_E_RANGE naming the point that is wrong. */
 WT_API wt_status wt_softening_check(const wt_softening *softening, wt_error *err) WT_NODISCARD;
 
+/* Contact area in partial contact, where Persson 2001 finds too little of it: Yang and Persson, J.
+ * Phys.: Condens. Matter 20 (2008) 215214; Wang and Mueser, Tribol. Lett. 65 (2017) 103; Xu et al.
+ * 2024. */
+typedef enum wt_area_law { WT_AREA_PERSSON, WT_AREA_YP08, WT_AREA_WM17, WT_AREA_XU24 } wt_area_law;
+
+/* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of every length
+ * scale warms the rubber there for as long as a macroscopic contact lasts; the moduli shift by it.
+ */
+typedef struct wt_flash {
+    bool on;              /* default false */
+    double contact_size;  /* R of a macroscopic contact, which lasts R/v [m]; default 1 mm */
+    double heat_capacity; /* rho c [J/(m^3 K)]; default 2.2e6, typical of rubber */
+    double diffusivity;   /* D of heat [m^2/s]; default 1e-7, typical of rubber */
+    double macroscopic;   /* P_m, share of the area in macroscopic contacts, (0, 1]; default 0.3 */
+    bool clipped;         /* P/P_m is 1 at most: heat is not where the contact is larger */
+} wt_flash;
+WT_API wt_flash wt_flash_defaults(void);
+
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
     double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson,
@@ -48,9 +66,18 @@ typedef struct wt_friction_options {
     struct angular_law *series; /* of the library: that of the material, borrowed; default NULL */
     const wt_softening *softening; /* borrowed while the workspace is made; NULL (default) = none */
     double strain_factor;          /* of the softening, > 0; default 1 */
+    wt_area_law area_law;          /* default that of Persson */
+    wt_flash flash;                /* default off */
+    wt_shift_law shift;            /* of the material, for a flash temperature */
+    double temperature; /* of the surroundings, which is that of the material [K]; likewise */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
+
+/* Another solution at a velocity. */
+typedef struct wt_friction_branch {
+    double hysteresis, area_ratio, temperature;
+} wt_friction_branch;
 
 /* At one velocity. numerical_error is a bound that tells whether the tolerance is met, and no
  * estimate: the true error is some hundreds of times smaller as a rule, and was larger in none of
@@ -66,6 +93,11 @@ typedef struct wt_friction_point {
                                   angle is cut where q v cos(phi) leaves it; good to 1e-5 */
     size_t nodes;              /* q nodes of the rules that sufficed */
     bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
+    bool unsettled;            /* no temperature was found, and the numbers are NaN */
+    wt_estimate temperature;   /* of the finest scale, T(q1) [K]; NaN without a flash temperature */
+    wt_friction_branch
+        hot; /* a second solution: the contact stays hot if it was; NaN: there is none
+              */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */
@@ -73,6 +105,7 @@ typedef struct wt_friction_node {
     double wavenumber;                              /* [rad/m] */
     double stress_variance, area_ratio, hysteresis; /* G, P and mu up to here */
     double numerical_error;                         /* of area_ratio */
+    double temperature; /* T of this scale [K]; NaN without a flash temperature */
 } wt_friction_node;
 
 typedef struct wt_friction_workspace wt_friction_workspace;
@@ -99,6 +132,15 @@ WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pr
 WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                                      double velocity, const double *wavenumber, size_t n,
                                      wt_friction_node *nodes, wt_error *err) WT_NODISCARD;
+/* By how many percent mu_hys changes with one percent of each. That of the pressure is that of the
+ * modulus with the other sign where there is no flash temperature. */
+typedef struct wt_friction_sensitivity {
+    double modulus, density, pressure;
+    double cutoff; /* q1; the temperatures, if there are any, stay as they are */
+} wt_friction_sensitivity;
+WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
+                                           double velocity, wt_friction_sensitivity *sensitivity,
+                                           wt_error *err) WT_NODISCARD;
 /* mu = mu_hys + tau_f (A/A0) / pressure with errors carried through; shear_stress is an estimate
  * [Pa]. */
 WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

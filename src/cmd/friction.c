@@ -16,7 +16,8 @@ int cmd_friction(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
-    wt_table *contact_area = NULL, *directions = NULL, *softening = NULL, *what_if = NULL;
+    wt_table *contact_area = NULL, *directions = NULL, *softening = NULL, *flash = NULL,
+             *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     const bool has_layer = cmd_given(own, "layer-thickness");
@@ -39,12 +40,16 @@ int cmd_friction(int argc, char **argv)
             wt_cost_stage(s.session.cost, "softening");
             made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
         }
+        if (made == WT_OK && s.conditions.flash.on) {
+            wt_cost_stage(s.session.cost, "flash_temperature");
+            made = wt_flash_make(&s.conditions, &s.session.work, &flash, &s.session.err);
+        }
         wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.friction, &contact_area, &directions, &softening,
-                                    &what_if};
+        wt_table **const parts[] = {&tables.friction, &contact_area, &directions,
+                                    &softening,       &flash,        &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

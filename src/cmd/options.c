@@ -7,7 +7,7 @@
 #include "base/nearest.h"
 #include "cmd/cmd.h"
 
-enum { MAX_OPTIONS = 64, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
+enum { MAX_OPTIONS = 96, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 
 cmd_common cmd_common_defaults(void)
 {

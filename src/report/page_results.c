@@ -85,7 +85,7 @@ void page_results(page_writer *page)
         &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
         &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
         &t->coverage,         &t->work_precision, &t->directions, &t->softening,
-        &t->common_law,       &t->modulus_budget};
+        &t->common_law,       &t->modulus_budget, &t->flash};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -123,6 +123,7 @@ void page_results(page_writer *page)
     page_keys(page, &t->friction, "Conditions of the friction");
     page_keys(page, &t->directions, "What the directions of the material do");
     page_keys(page, &t->softening, "What softening with strain does");
+    page_keys(page, &t->flash, "What the flash temperature does");
     page_keys(page, &t->layer, "Balance of the modified layer");
     page_whole_table(page, &t->what_if,
                      "What if: one choice of the model moved in each row, and the relative changes "

@@ -107,6 +107,8 @@ static void test_whole_tables(void **state)
                                            {"contact_area", "contact_area"},
                                            {"friction_scales", "contact_area"},
                                            {"softening", "softening"},
+                                           {"flash_temperature", "flash_temperature"},
+                                           {"flash_friction", "flash_temperature"},
                                            {"energy_density", "energy_density"},
                                            {"layer", "layer"},
                                            {"cost", "cost"},

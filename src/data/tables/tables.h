@@ -103,6 +103,7 @@
       "friction")                                                                                  \
     X(directions, DIRECTIONS, "directions", "What the directions of the material do", "friction")  \
     X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
+    X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \

@@ -25,7 +25,9 @@
       c->softening.n > 0)                                                                          \
     X(ASKED_SOFTENING, "softening by strain sweeps",                                               \
       "no softening by strain sweeps (<sweeps> in <strain-softening>)",                            \
-      c->softens && c->softening.n == 0)
+      c->softens && c->softening.n == 0)                                                           \
+    X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
+      c->has_sliding && c->sliding.flash.on)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -60,6 +62,7 @@
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(DIRECTIONS, "directions", &directions_schema, "")                                            \
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
+    X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")                                                  \

@@ -73,6 +73,9 @@ typedef enum flow_extra {
     X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING_EFFECT), \
       flow_step_softening_effect)                                                                  \
+    X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_FLASH), 0, FLOW_NO_MORE, B(FLASH_EFFECT),   \
+      flow_step_flash_effect)                                                                      \
     X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
       flow_step_what_if)                                                                           \

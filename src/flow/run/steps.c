@@ -454,6 +454,12 @@ wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
     return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
 }
 
+wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_flash_make(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
+}
+
 /* ---- what if, error budget, coverage, error against run time ----------------------------------
  */
 
