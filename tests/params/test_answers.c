@@ -76,7 +76,7 @@ static const struct {
 static bool is_option(size_t s, const wt_param *p)
 {
     return (p->flags & PARAM_NO_OPTION) == 0 &&
-           !(strcmp(subcommands[s].name, "layer") == 0 && strcmp(p->name, "shear-stress") == 0);
+           !(strcmp(subcommands[s].name, "layer") == 0 && strncmp(p->name, "shear-", 6) == 0);
 }
 
 static bool is_refused_option(size_t s, const char *name, const char *text)
