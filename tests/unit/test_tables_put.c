@@ -652,6 +652,16 @@ static void test_flash(void **state)
     assert_non_null(strstr(wt_table_key(table, "law_range"), "above the isotherms"));
     see(table);
     wt_table_free(table);
+    sliding.temperature.value = 293.15;
+    sliding.pressure.value = 30e6;
+    sliding.flash.contact_size = 1;
+    sliding.flash.macroscopic = 0.01;
+    velocity[1] = 100;
+    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(strstr(wt_table_key(table, "unsettled"), "no temperature below 300 degC"));
+    see(table);
+    wt_table_free(table);
 }
 
 /* Strain sweeps that reach half of the fall and its double. */
