@@ -229,6 +229,43 @@ static inline void fixture_common_law(void)
     wt_formats_free(formats);
 }
 
+/* Friction at three velocities with and without flash temperature; at the last two of them a
+ * contact that was hot stays hot. */
+static inline void fixture_flash(void)
+{
+    static const double velocity[] = {1e-3, 1e-1, 10}, with[] = {0.1, 0.3, 0.4},
+                        without[] = {0.1, 0.35, 0.7}, temperature[] = {293.2, 297, 322},
+                        hot[] = {(double)NAN, 0.5, 0.6};
+    wt_table *table = NULL;
+    table_writer t = table_begin(&flash_schema, NULL);
+    for (size_t i = 0; i < 3; i++) {
+        table_row(&t);
+        flash_put(&t, FLASH_VELOCITY, velocity[i]);
+        flash_put(&t, FLASH_TEMPERATURE, temperature[i]);
+        flash_put(&t, FLASH_TEMPERATURE_NUMERICAL_ERROR, 1e-9);
+        flash_put(&t, FLASH_HYSTERESIS, with[i]);
+        flash_put(&t, FLASH_HYSTERESIS_NUMERICAL_ERROR, 1e-12);
+        flash_put(&t, FLASH_HYSTERESIS_WITHOUT, without[i]);
+        flash_put(&t, FLASH_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, 1e-12);
+        flash_put(&t, FLASH_AREA_RATIO, 0.1);
+        flash_put(&t, FLASH_AREA_RATIO_NUMERICAL_ERROR, 1e-12);
+        flash_put(&t, FLASH_AREA_RATIO_WITHOUT, 0.09);
+        flash_put(&t, FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, 1e-12);
+        flash_put(&t, FLASH_HOT_HYSTERESIS, hot[i]);
+        flash_put(&t, FLASH_HOT_AREA_RATIO, hot[i] / 2);
+        flash_put(&t, FLASH_HOT_TEMPERATURE, 100 + 500 * hot[i]);
+    }
+    flash_set_value(&t, FLASH_KEY_SURROUNDINGS, 293.15, (double)NAN, (double)NAN);
+    flash_set_value(&t, FLASH_KEY_CONTACT_SIZE, 1e-3, 0, 0);
+    flash_set_value(&t, FLASH_KEY_HEAT_CAPACITY, 2.2e6, 0, 0);
+    flash_set_value(&t, FLASH_KEY_DIFFUSIVITY, 1e-7, 0, 0);
+    flash_set_value(&t, FLASH_KEY_MACROSCOPIC, 0.3, 0, 0);
+    flash_set_text(&t, FLASH_KEY_EFFECT, "28.9 K warmer");
+    flash_set_text(&t, FLASH_KEY_BRANCHES, "hot at 2 of 3 velocities");
+    fixture_check(table_end(&t, &table));
+    fixture_check(wt_result_add(fixture_case, table, NULL));
+}
+
 /* Friction at three velocities with and without softening. */
 static inline void fixture_softening(void)
 {
@@ -410,6 +447,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_record();
         fixture_common_law();
         fixture_softening();
+        fixture_flash();
         fixture_spot();
         fixture_surface();
         wt_case_free(read);

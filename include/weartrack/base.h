@@ -212,7 +212,10 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_LAPS, "laps", "1", "revolutions or double strokes since the start")                     \
     X(WT_Q_WEAR_DEPTH, "wear_depth", "m", "depth that a contact has sunk in")                      \
     X(WT_Q_AREA, "area", "m^2", "area")                                                            \
-    X(WT_Q_MASS, "mass", "kg", "mass")
+    X(WT_Q_MASS, "mass", "kg", "mass")                                                             \
+    X(WT_Q_HEAT_CAPACITY, "heat_capacity", "J/(m^3 K)", "heat capacity per volume")                \
+    X(WT_Q_DIFFUSIVITY, "diffusivity", "m^2/s", "thermal diffusivity")                             \
+    X(WT_Q_ENERGY, "energy", "J", "energy")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,
@@ -353,7 +356,7 @@ WT_API void wt_provenance_free(wt_provenance *p);
 WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
                                            char *const argv[]) WT_NODISCARD;
 WT_API wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
-    WT_NODISCARD;                                                 /* copied */
+    WT_NODISCARD; /* copied */
 /* Of the program that made it: of this one, unless a file was read. Borrowed. */
 WT_API const char *wt_provenance_version(const wt_provenance *p);
 WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */

@@ -754,7 +754,11 @@ typedef struct wt_sliding {
     size_t n_temperatures;
     const double *pressures; /* [n_pressures] Pa, likewise */
     size_t n_pressures;
-    bool decades; /* the friction by decades of the wavenumber is asked for */
+    bool decades;           /* the friction by decades of the wavenumber is asked for */
+    wt_area_law area_law;   /* likewise */
+    wt_flash flash;         /* likewise; `temperature` is then that of the surroundings */
+    wt_shear_law shear_law; /* of the shear stress, which is that of its peak */
+    bool sensitivities;     /* of the friction at the reference velocity; default false */
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -794,6 +798,11 @@ WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *
  * without it, and the shares from strains that it does not know. WT_E_ARG if there is none. */
 WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
+/* Table "flash_temperature": hysteresis friction, contact area and temperature at every velocity
+ * with the flash temperature of `sliding`, the same of a second solution where there is one, and
+ * without it. WT_E_ARG if it is not asked for. */
+WT_API wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                               wt_error *err) WT_NODISCARD;
 /* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
  * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
  * it has no directions. */
@@ -969,9 +978,10 @@ WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NO
 WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 /* Whether `result`, read from its file, is what the case would give again by `command` (as
- * wt_provenance_command tells it): *current is false, and `why` says what differs first, if version,
- * command line, case or a file that was read is another, a file is new or gone, or it was answered in
- * part. What nothing asked for is not looked at, descriptions of --formats are not either. */
+ * wt_provenance_command tells it): *current is false, and `why` says what differs first, if
+ * version, command line, case or a file that was read is another, a file is new or gone, or it was
+ * answered in part. What nothing asked for is not looked at, descriptions of --formats are not
+ * either. */
 WT_API wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
                                    bool *current, char *why, size_t size,
                                    wt_error *err) WT_NODISCARD;

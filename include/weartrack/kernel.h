@@ -50,6 +50,23 @@ typedef struct wt_anisotropy {
 WT_API wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err) WT_NODISCARD;
 /* C(q, phi) / C(q) at an angle from the velocity [rad]. */
 WT_API double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle);
+/* Contact area in partial contact, where Persson 2001 finds too little of it: Yang and Persson, J.
+ * Phys.: Condens. Matter 20 (2008) 215214; Wang and Mueser, Tribol. Lett. 65 (2017) 103; Xu et al.
+ * 2024. */
+typedef enum wt_area_law { WT_AREA_PERSSON, WT_AREA_YP08, WT_AREA_WM17, WT_AREA_XU24 } wt_area_law;
+
+/* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of every length
+ * scale warms the rubber there for as long as a macroscopic contact lasts; the moduli shift by it.
+ */
+typedef struct wt_flash {
+    bool on;              /* default false */
+    double contact_size;  /* R of a macroscopic contact, which lasts R/v [m]; default 1 mm */
+    double heat_capacity; /* rho c [J/(m^3 K)]; default 2.2e6, typical of rubber */
+    double diffusivity;   /* D of heat [m^2/s]; default 1e-7, typical of rubber */
+    double macroscopic;   /* P_m, share of the area in macroscopic contacts, (0, 1]; default 0.3 */
+    bool clipped;         /* P/P_m is 1 at most: heat is not where the contact is larger */
+} wt_flash;
+WT_API wt_flash wt_flash_defaults(void);
 
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
@@ -62,9 +79,18 @@ typedef struct wt_friction_options {
     const wt_softening *softening; /* borrowed while the workspace is made; NULL (default) = none */
     double strain_factor;          /* of the softening, > 0; default 1 */
     wt_anisotropy anisotropy;      /* of the roughness; default none */
+    wt_area_law area_law;          /* default that of Persson */
+    wt_flash flash;                /* default off */
+    wt_shift_law shift;            /* of the material, for a flash temperature */
+    double temperature; /* of the surroundings, which is that of the material [K]; likewise */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
+
+/* Another solution at a velocity. */
+typedef struct wt_friction_branch {
+    double hysteresis, area_ratio, temperature;
+} wt_friction_branch;
 
 /* At one velocity. numerical_error is a bound that tells whether the tolerance is met, and no
  * estimate: the true error is some hundreds of times smaller as a rule, and was larger in none of
@@ -82,6 +108,11 @@ typedef struct wt_friction_point {
     bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
     wt_estimate side; /* mu_side of anisotropic roughness: the force on the rubber is -pressure
                          (mu_hys x + mu_side y), x along the velocity, y at +90 deg from it */
+    bool unsettled;   /* no temperature was found, and the numbers are NaN */
+    wt_estimate temperature; /* of the finest scale, T(q1) [K]; NaN without a flash temperature */
+    wt_friction_branch
+        hot; /* a second solution: the contact stays hot if it was; NaN: there is none
+              */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */
@@ -90,6 +121,7 @@ typedef struct wt_friction_node {
     double stress_variance, area_ratio, hysteresis; /* G, P and mu up to here */
     double numerical_error;                         /* of area_ratio */
     double hysteresis_error;                        /* numerical, of hysteresis */
+    double temperature; /* T of this scale [K]; NaN without a flash temperature */
 } wt_friction_node;
 
 typedef struct wt_friction_workspace wt_friction_workspace;
@@ -116,6 +148,15 @@ WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pr
 WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                                      double velocity, const double *wavenumber, size_t n,
                                      wt_friction_node *nodes, wt_error *err) WT_NODISCARD;
+/* By how many percent mu_hys changes with one percent of each. That of the pressure is that of the
+ * modulus with the other sign where there is no flash temperature. */
+typedef struct wt_friction_sensitivity {
+    double modulus, density, pressure;
+    double cutoff; /* q1; the temperatures, if there are any, stay as they are */
+} wt_friction_sensitivity;
+WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
+                                           double velocity, wt_friction_sensitivity *sensitivity,
+                                           wt_error *err) WT_NODISCARD;
 /* mu = mu_hys + tau_f (A/A0) / pressure with errors carried through; shear_stress is an estimate
  * [Pa]. */
 WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

@@ -103,6 +103,26 @@ typedef struct wt_shift_law {
 /* log10 aT, 0 at the reference temperature. NaN where the law has no value. */
 WT_API double wt_shift_law_log_a(const wt_shift_law *law, double temperature);
 
+/* ---- shear stress of the real contact ----------------------------------------------------------
+ */
+
+typedef enum wt_shear_kind { WT_SHEAR_CONSTANT, WT_SHEAR_LOG_NORMAL } wt_shear_kind;
+
+/* tau_f(v, T) = tau_f0 exp(-width log10(v / v0)^2), v0 = peak_velocity exp(E/kB (1/Tref - 1/T)):
+ * Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys. 142 (2015) 194701, from which the defaults are.
+ */
+typedef struct wt_shear_law {
+    wt_shear_kind kind;           /* default constant */
+    double peak_velocity;         /* at the reference temperature [m/s]; default 6 mm/s */
+    double width;                 /* default 0.1 */
+    double activation_energy;     /* [J]; default 0.97 eV */
+    double reference_temperature; /* [K]; default 293.15 */
+} wt_shear_law;
+WT_API wt_shear_law wt_shear_law_defaults(void);
+WT_API double wt_shear_peak_velocity(const wt_shear_law *law, double temperature);
+/* tau_f over tau_f0 > 0; 1 of a constant one. */
+WT_API double wt_shear_factor(const wt_shear_law *law, double velocity, double temperature);
+
 /* ---- materials ------------------------------------------------------------------------------- */
 
 /* A viscoelastic material: E(w) = E' + i E'' of the isotropic solid, E(-w) = conj E(w). The kernel

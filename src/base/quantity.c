@@ -76,7 +76,10 @@ static const unit_words *unit_words_of(wt_quantity quantity)
                                          {"kg/m^3", "1100kg/m^3", 1e6},
                                          {"1/K", "2e-4K^-1", 1e3},
                                          {"m^2", "2e-9m^2", 1e12},
-                                         {"kg", "3mg", 1e9}};
+                                         {"kg", "3mg", 1e9},
+                                         {"J/(m^3 K)", "2.2e6J/(m^3 K)", 1e12},
+                                         {"m^2/s", "1e-7m^2/s", 1e6},
+                                         {"J", "0.97eV", 1e12}};
     size_t i = 0;
     while (strcmp(by_unit[i].unit, wt_quantity_unit(quantity)) != 0)
         i++;

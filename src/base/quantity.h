@@ -4,7 +4,10 @@
 
 #include "weartrack/base.h"
 
-#define GAS_CONSTANT 8.31446261815324 /* J/(mol K), exact since 2019 */
+/* Exact since 2019. */
+#define GAS_CONSTANT 8.31446261815324 /* J/(mol K) */
+#define BOLTZMANN 1.380649e-23        /* J/K */
+#define ELECTRONVOLT 1.602176634e-19  /* J */
 
 /* As it is written: "250nm". */
 const char *quantity_example(wt_quantity quantity);

@@ -3,7 +3,7 @@
 #include "cmd/sliding.h"
 
 /* The tables that follow that of friction, each where it has something to say. */
-enum { AREA, DIRECTIONS, SOFTENING, ANISOTROPY, MAP, DECADES, N_FURTHER };
+enum { AREA, DIRECTIONS, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
 
 static bool is_wanted(const wt_sliding *s, size_t k)
 {
@@ -12,6 +12,8 @@ static bool is_wanted(const wt_sliding *s, size_t k)
         return s->rubber->is_transverse;
     case SOFTENING:
         return s->softness != NULL;
+    case FLASH:
+        return s->flash.on;
     case ANISOTROPY:
         return s->anisotropy.amplitude[0] != 0 || s->anisotropy.amplitude[1] != 0;
     case MAP:
@@ -31,6 +33,7 @@ static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
     } made[N_FURTHER] = {[AREA] = {"contact_area", wt_contact_area_table},
                          [DIRECTIONS] = {"directions", wt_directions_make},
                          [SOFTENING] = {"softening", wt_softening_make},
+                         [FLASH] = {"flash_temperature", wt_flash_make},
                          [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
                          [MAP] = {"friction_map", wt_friction_map_make},
                          [DECADES] = {"friction_decades", wt_friction_decades_make}};
@@ -75,9 +78,9 @@ int cmd_friction(int argc, char **argv)
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {
-            &tables.friction,     &further[AREA], &further[DIRECTIONS], &further[SOFTENING],
-            &further[ANISOTROPY], &further[MAP],  &further[DECADES],    &what_if};
+        wt_table **const parts[] = {&tables.friction,    &further[AREA],    &further[DIRECTIONS],
+                                    &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],
+                                    &further[MAP],       &further[DECADES], &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

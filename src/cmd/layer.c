@@ -18,9 +18,10 @@ int cmd_layer(int argc, char **argv)
     /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
-        "anisotropy-fourth texture-angle-fourth";
+        "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
+        "heat-capacity heat-diffusivity macroscopic-area clip-heat";
     wt_layer_tables tables = {0};
-    wt_table *energy_density = NULL, *softening = NULL, *what_if = NULL;
+    wt_table *energy_density = NULL, *softening = NULL, *flash = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
@@ -37,11 +38,15 @@ int cmd_layer(int argc, char **argv)
             wt_cost_stage(s.session.cost, "softening");
             made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
         }
+        if (made == WT_OK && s.conditions.flash.on) {
+            wt_cost_stage(s.session.cost, "flash_temperature");
+            made = wt_flash_make(&s.conditions, &s.session.work, &flash, &s.session.err);
+        }
         wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.layer, &energy_density, &softening, &what_if};
+        wt_table **const parts[] = {&tables.layer, &energy_density, &softening, &flash, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

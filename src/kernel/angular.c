@@ -435,8 +435,12 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
         double z[BATCH];
         while (k + 1 < pieces->n && x[from] > pieces->items[k].high)
             k++;
+        while (k > 0 && x[from] < pieces->items[k].low)
+            k--;
         const series *s = &pieces->items[k];
-        for (count = 1; count < BATCH && from + count < n && !(x[from + count] > s->high); count++)
+        for (count = 1; count < BATCH && from + count < n && !(x[from + count] > s->high) &&
+                        !(x[from + count] < s->low);
+             count++)
             ;
         place_in(s, x + from, count, z);
         const size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;

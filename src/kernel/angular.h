@@ -38,7 +38,8 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max,
 bool angular_covers(const angular_law *angular, double w_min, double w_max);
 /* Prepares angular_outside. */
 wt_status angular_cover_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
-/* J1 and J2 at n rising values of w inside the covered range; x = ln w. */
+/* J1 and J2 at n values of w inside the covered range, of which the first and the last are on the
+ * same side of where a series begins; x = ln w. It is fastest where they rise. */
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
                   double *j1, double *j2);
 /* Whether the closed form gives J1 and J2 for ln w from x_min to x_max. */

@@ -44,13 +44,15 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status != WT_OK)
         return status;
-    const friction_load at = friction_load_at(workspace, pressure, velocity);
+    friction_load at = friction_load_at(workspace, pressure, velocity);
     friction_scratch scratch;
     pool memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
     status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
+    if (status == WT_OK)
+        status = friction_heat(workspace, &scratch, &at, err);
     const panel_plan *plan =
-        status == WT_OK ? friction_plan(workspace, &scratch, at.speed, NULL, 0) : NULL;
+        status == WT_OK ? friction_plan(workspace, &scratch, &at, NULL, 0) : NULL;
     size_t now = 0;
     double error = (double)INFINITY;
     for (size_t k = 0; status == WT_OK && k < MOST_HALVES && error > workspace->options.tolerance;
@@ -73,7 +75,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         if (k > 0 && status == WT_OK)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error = error + friction_relative_error(workspace, &pass).hysteresis;
+        s->numerical_error = error + friction_relative_error(workspace, &pass, at).hysteresis;
     }
     if (status == WT_OK)
         status = energy_check(&pair[now], err);

@@ -24,19 +24,28 @@ static const struct {
                {3e-11, {12, 17}, 1.6},
                {0, {14, 20}, 1.6}};
 
+/* Typical of filled rubber on asphalt: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. */
+wt_flash wt_flash_defaults(void)
+{
+    return (wt_flash){
+        .contact_size = 1e-3, .heat_capacity = 2.2e6, .diffusivity = 1e-7, .macroscopic = 0.3};
+}
+
 wt_friction_options wt_friction_defaults(void)
 {
     return (wt_friction_options){.tolerance = 1e-10,
                                  .gamma = 1,
                                  .layer = {.thickness = 0, .modulus_ratio = 1},
                                  .threads = 1,
-                                 .strain_factor = 1};
+                                 .strain_factor = 1,
+                                 .flash = wt_flash_defaults()};
 }
 
 static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
     FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
     PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
+    FRICTION_AREA_LAW(wt_friction_options),      FLASH_ROWS(wt_friction_options, flash.),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
@@ -75,6 +84,8 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                  &scratch->rough_mu, &scratch->of_variance};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
         *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+    if (ws->flash != NULL)
+        scratch->flash = flash_scratch_new(ws, memory);
     return memory->failed ? no_memory(err) : WT_OK;
 }
 
@@ -213,6 +224,10 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         status = make_rules(ws, err);
     if (status == WT_OK)
         ws->rounding = rounding_of(ws);
+    if (status == WT_OK)
+        status = area_law_of(o.area_law, &ws->area, err);
+    if (status == WT_OK && o.flash.on)
+        status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
         status = prepare_plan(ws, err);
     if (status == WT_OK && ws->memory.failed)
@@ -264,6 +279,15 @@ static wt_status leave_given(wt_friction_workspace *ws, double lowest, double hi
     return status;
 }
 
+/* Of the lowest frequency, for the hottest rubber that there can be. */
+static double lowest_shift(const wt_friction_workspace *ws)
+{
+    double log_shift = 0;
+    if (ws->flash != NULL)
+        flash_log_shift(ws->flash, &ws->flash->hottest, 1, &log_shift);
+    return exp(log_shift);
+}
+
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err)
 {
@@ -280,13 +304,14 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         fastest = fmax(fastest, speed);
     }
     const wt_material *material = ws->material;
-    const double lowest = (isfinite(slowest) ? slowest : 0) * ws->roughness->q0;
+    const double shift = lowest_shift(ws);
+    const double lowest = (isfinite(slowest) ? slowest : 0) * ws->roughness->q0 * shift;
     const double highest = fastest * ws->roughness->q1;
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
     if ((!material->law->angular || ws->anisotropic) &&
-        !(least * ws->roughness->q0 >= ANGULAR_LEAST && highest <= DBL_MAX)) {
+        !(least * ws->roughness->q0 * shift >= ANGULAR_LEAST && highest <= DBL_MAX)) {
         (void)range_error("velocity", highest <= DBL_MAX ? least : fastest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err,
@@ -310,21 +335,42 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
 friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity)
 {
     const double speed = fabs(velocity);
-    return (friction_load){pressure, speed, log(ws->roughness->q0) + log(speed)};
+    return (friction_load){.pressure = pressure,
+                           .speed = speed,
+                           .log_lowest = log(ws->roughness->q0) + log(speed),
+                           .modulus = 1,
+                           .density = 1};
 }
 
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                double speed, const double *cuts, size_t n_cuts)
+                                const friction_load *at, const double *cuts, size_t n_cuts)
 {
     if (!ws->n_knots && !n_cuts)
         return &ws->plan;
     for (size_t k = 0; k < ws->n_knots; k++)
-        scratch->knots[k] = log(ws->knots[k] / (speed * ws->roughness->q0));
+        scratch->knots[k] = log(ws->knots[k] / (at->speed * ws->roughness->q0));
+    if (at->heat != NULL)
+        friction_move_knots(ws, &at->heat->heat, scratch->knots);
     panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
                    scratch->bounds);
     for (size_t k = 0; k < FRICTION_RULES; k++)
         grid_begin(&scratch->grids[k], &scratch->plan);
     return &scratch->plan;
+}
+
+friction_relative friction_relative_error(const wt_friction_workspace *ws,
+                                          const friction_pass *pass, friction_load at)
+{
+    /* J2 goes with the square of the frequency at most, J1 with it, P with G as below */
+    const double shifted =
+        at.heat != NULL ? at.heat->steepest * friction_heat_off(at.heat, pass) : 0;
+    const double of_g = 2 * shifted, of_mu = shifted + FRICTION_AREA_POWER * of_g;
+    friction_relative e = {ws->rounding + of_g, ws->rounding + of_mu};
+    if (pass->variance > 0)
+        e.variance += pass->variance_moved / pass->variance;
+    if (pass->hysteresis > 0)
+        e.hysteresis += pass->hysteresis_moved / pass->hysteresis;
+    return e;
 }
 
 /* ---- velocities ------------------------------------------------------------------------------ */
@@ -347,29 +393,31 @@ static bool with_share(const wt_friction_workspace *ws)
     return !ws->options.without_share && angular_limited(ws->angular);
 }
 
-static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
-                               wt_friction_point *point)
+/* Of a load whose temperatures are known, forwards. */
+static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const friction_load *at, wt_friction_point *point)
 {
-    const wt_friction_workspace *ws = job->ws;
-    const friction_load at = friction_load_at(ws, job->pressure, velocity);
-    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
-    const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
+    const panel_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
     friction_pass pass;
     friction_record record = {0};
-    friction_evaluate(ws, scratch, plan, (friction_effort){0}, at, with_share(ws),
+    friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, with_share(ws),
                       ws->side != NULL ? &record : NULL, &pass);
-    const friction_relative relative = friction_relative_error(ws, &pass);
+    const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
-    const double area = contact_area(pass.variance);
-    const double error_area = contact_area_error(pass.variance, error_g);
-    point->velocity = velocity;
+    const double corrected = area_law_variance(ws->area, pass.variance);
+    const double area = contact_area(corrected);
+    const double error_area = contact_area_error(corrected, error_g);
     point->stress_variance = estimate_of(pass.variance, error_g);
     point->area_ratio = estimate_of(area, error_area);
     point->one_minus_area =
-        estimate_of(contact_gap(pass.variance), contact_gap_error(pass.variance, error_g));
-    point->hysteresis = estimate_of(sign * pass.hysteresis, error_mu);
+        estimate_of(contact_gap(corrected), contact_gap_error(corrected, error_g));
+    point->hysteresis = estimate_of(pass.hysteresis, error_mu);
+    if (at->heat != NULL)
+        point->temperature = (wt_estimate){.value = ws->options.temperature + at->heat->rise,
+                                           .numerical_error = friction_heat_off(at->heat, &pass),
+                                           .unit = "K"};
     point->nodes = pass.nodes;
     point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
                      error_mu <= tolerance * pass.hysteresis;
@@ -378,9 +426,31 @@ static wt_status compute_point(const compute_job *job, friction_scratch *scratch
                                                           : 0;
     point->side = estimate_of(0, 0);
     const wt_status status =
-        ws->side != NULL ? friction_side_of(ws, at, sign, &record, error_mu, &point->side) : WT_OK;
+        ws->side != NULL ? friction_side_of(ws, *at, &record, error_mu, &point->side) : WT_OK;
     free(record.q);
     free(record.mu);
+    return status;
+}
+
+static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                               wt_friction_point *point)
+{
+    const wt_friction_workspace *ws = job->ws;
+    wt_status status;
+    friction_load at = friction_load_at(ws, job->pressure, velocity);
+    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
+    if (ws->flash == NULL || sign == 0) {
+        status = compute_load(ws, scratch, &at, point);
+        point->temperature = estimate_of((double)NAN, (double)NAN);
+        point->hot = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
+        point->unsettled = false;
+    } else {
+        status = friction_heated_point(ws, scratch, at, compute_load, point);
+    }
+    point->velocity = velocity;
+    point->hysteresis.value *= sign;
+    point->side.value *= sign;
+    point->hot.hysteresis *= sign;
     return status;
 }
 
@@ -391,8 +461,8 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     const wt_status status = compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
     if (status != WT_OK)
         return status;
-    return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
-                                                                                       : WT_E_RANGE;
+    const bool number = isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value);
+    return number || point->unsettled ? WT_OK : WT_E_RANGE;
 }
 
 wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,

@@ -6,6 +6,8 @@
 #define WT_KERNEL_FRICTION_H
 
 #include "kernel/angular.h"
+#include "kernel/area_law.h"
+#include "kernel/flash.h"
 #include "kernel/grid.h"
 
 #include <float.h>
@@ -29,7 +31,9 @@ typedef struct friction_scratch {
     /* [room + 1], by panel: G and the hysteresis at full contact by the first rule, and what an
      * error of G makes of the hysteresis */
     double *rough_g, *rough_mu, *of_variance;
-    size_t nodes; /* at which J1 and J2 were evaluated so far */
+    size_t nodes;         /* at which J1 and J2 were evaluated so far */
+    flash_scratch *flash; /* NULL: no flash temperature */
+    flash_solution heat;  /* of friction_heat */
 } friction_scratch;
 
 struct wt_friction_workspace {
@@ -43,6 +47,8 @@ struct wt_friction_workspace {
     angular_weight along;  /* of anisotropic roughness */
     bool anisotropic;
     struct friction_side *side; /* of its force to the side; NULL: none */
+    const area_law *area;       /* NULL: that of Persson */
+    flash_law *flash;           /* NULL: the rubber is as warm as its surroundings */
     double stiffness;           /* 1 / (1 - nu^2) */
     double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
@@ -57,10 +63,13 @@ struct wt_friction_workspace {
 
 /* How hard and how fast. */
 typedef struct friction_load {
-    double pressure, speed; /* speed >= 0 */
-    double log_lowest;      /* ln(q0 speed) */
+    double pressure, speed;     /* speed >= 0 */
+    double log_lowest;          /* ln(q0 speed) */
+    double modulus, density;    /* factors of the moduli and of the spectrum, 1 */
+    const flash_solution *heat; /* NULL: as warm as the surroundings at all scales */
 } friction_load;
 
+/* Without heat. */
 friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity);
 
 /* What a pass begins with and how far it goes. */
@@ -104,21 +113,44 @@ size_t friction_nodes(const wt_friction_workspace *ws);
 /* WT_E_RANGE unless pressure > 0 and the velocities are usable; then prepares J1 and J2. */
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err) WT_NODISCARD;
-/* Lays the plan of this speed with these extra cuts, or returns the common one. */
+/* Lays the plan of this load with these extra cuts, or returns the common one. */
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                double speed, const double *cuts, size_t n_cuts);
+                                const friction_load *at, const double *cuts, size_t n_cuts);
 /* Evaluates all panels with the first rule, those again with the check for which it does not
  * suffice, and halves where that does not either. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const panel_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass);
 
+/* Finds the temperatures of a load that the moduli then are shifted by; nothing without a flash
+ * temperature. WT_E_CONVERGENCE if there are none to be found. */
+wt_status friction_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
+                        friction_load *at, wt_error *err) WT_NODISCARD;
+
+/* A point of a load by `compute`, at the temperatures that it makes, and its second solution. */
+wt_status friction_heated_point(
+    const wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
+    wt_status (*compute)(const wt_friction_workspace *ws, friction_scratch *scratch,
+                         const friction_load *at, wt_friction_point *point),
+    wt_friction_point *point);
+/* What the temperatures are wrong by [K], from a pass at them. */
+double friction_heat_off(const flash_solution *solution, const friction_pass *pass);
+/* Frequencies at n <= RULE_MOST wavenumbers, by the temperatures there. */
+void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
+                          double *log_omega);
+/* Knots t of the material go to where the temperatures shift them. */
+void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots);
+
 /* Relative errors of G and of the hysteresis of a pass from J1 and J2 and from rounding. */
 typedef struct friction_relative {
     double variance, hysteresis;
 } friction_relative;
 friction_relative friction_relative_error(const wt_friction_workspace *ws,
-                                          const friction_pass *pass);
+                                          const friction_pass *pass, friction_load at);
+
+/* S P falls no faster than G to the power of minus this: P = erf(1/(2 sqrt G)) as G^(-1/2), and
+ * S = gamma + (1 - gamma) P^2 as 1/G at most. */
+#define FRICTION_AREA_POWER 1.5
 
 /* Relative rounding error of a sum of positive terms that are each good to some ulps; what steep
  * integrands add stands in the workspace. */

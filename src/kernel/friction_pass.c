@@ -14,17 +14,6 @@
 
 #include <math.h>
 
-friction_relative friction_relative_error(const wt_friction_workspace *ws,
-                                          const friction_pass *pass)
-{
-    friction_relative e = {ws->rounding, ws->rounding};
-    if (pass->variance > 0)
-        e.variance += pass->variance_moved / pass->variance;
-    if (pass->hysteresis > 0)
-        e.hysteresis += pass->hysteresis_moved / pass->hysteresis;
-    return e;
-}
-
 /* |d ln J| over n nodes. */
 static double steepness(const double *j, size_t n)
 {
@@ -33,18 +22,16 @@ static double steepness(const double *j, size_t n)
     return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
-/* S P falls no faster than G to the power of minus this: P = erf(1/(2 sqrt G)) as G^(-1/2), and
- * S = gamma + (1 - gamma) P^2 as 1/G at most. */
-static const double area_power = 1.5;
-
 static double series_error(const wt_friction_workspace *ws, double low, double high,
                            friction_pass *pass)
 {
-    const double error = angular_error(ws->angular, low, high, &pass->piece);
-    return ws->softening == NULL
-               ? error
-               : ws->softening->caution *
-                     (error + angular_error(ws->loss, low, high, &pass->loss_piece));
+    if (ws->flash != NULL) /* the frequencies need not rise from panel to panel */
+        pass->piece = pass->loss_piece = 0;
+    const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
+    return ws->softening == NULL ? error
+                                 : ws->softening->caution *
+                                       (error + angular_error(ws->loss, fmin(low, high),
+                                                              fmax(low, high), &pass->loss_piece));
 }
 
 /* What the errors of J1 and J2 and rounding make of the part of a pass whose n nodes are at ln
@@ -69,7 +56,7 @@ static void add_moved(const wt_friction_workspace *ws, const grid_panel *panel, 
         hysteresis * (nodes + series + (closed ? 0 : moved * steepness(j1, n)));
     if (variance_so_far > 0)
         pass->hysteresis_moved +=
-            hysteresis * area_power * (pass->variance_moved / variance_so_far);
+            hysteresis * FRICTION_AREA_POWER * (pass->variance_moved / variance_so_far);
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -137,6 +124,8 @@ static void place_nodes(size_t n, const double *restrict q, const double *restri
 static void place_omega(const node_view *view, friction_load at)
 {
     place_nodes(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
+    if (at.heat != NULL)
+        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega);
 }
 
 /* J1 and J2 at n nodes whose omega has been placed. */
@@ -158,8 +147,8 @@ typedef struct pass_scale {
 
 static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
 {
-    const double ratio = ws->stiffness / at.pressure;
-    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
+    const double ratio = ws->stiffness * at.modulus / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8 * at.density, .mu = ratio / 2 * at.density};
 }
 
 static void scale_parts(size_t n, double scale, const double *restrict factor,
@@ -283,7 +272,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
                 least = fmin(least, mu[i] / g[i]);
                 most = fmax(most, mu[i] / g[i]);
             }
-        const double integral = contact_integral(part->variance, ws->options.gamma);
+        const double integral = area_law_integral(ws->area, part->variance, ws->options.gamma);
         contact = integral / part->variance;
         part->closed_error = (most - least) * integral;
     }
@@ -373,6 +362,8 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
         below += rule->weight[j] * g[j];
         running[j] = highest = here > highest ? here : highest;
     }
+    for (size_t j = 0; ws->area != NULL && j < rule->n; j++)
+        running[j] = area_law_variance(ws->area, running[j]);
     contact_areas(running, rule->n, area);
     for (size_t j = 0; j < rule->n; j++)
         mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);
@@ -412,7 +403,7 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
               part->hysteresis, variance, pass);
     double error = part->hysteresis_error + part->closed_error;
     if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
-        error += area_power * part->hysteresis * (pass->variance_error / variance);
+        error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);
     scratch->error_g[place] += part->variance_error;
     scratch->error_mu[place] += error;
     scratch->panel_g[place] += part->variance;
@@ -471,7 +462,7 @@ static void begin_pass(walk *w, size_t level, const pass_part *core)
         const double part = rough_part(w->ws, scratch, p, variance);
         variance += scratch->rough_g[p];
         hysteresis += part;
-        scratch->of_variance[p] = variance > 0 ? area_power * part / variance : 0;
+        scratch->of_variance[p] = variance > 0 ? FRICTION_AREA_POWER * part / variance : 0;
     }
     for (size_t p = last; p > first; p--)
         scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];

@@ -31,12 +31,12 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
     const wt_roughness *roughness = workspace->roughness;
     for (size_t i = 0; i < n; i++)
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
-    const panel_plan *plan = friction_plan(workspace, scratch, at.speed, cuts, n);
+    const panel_plan *plan = friction_plan(workspace, scratch, &at, cuts, n);
     friction_pass pass;
     const friction_effort effort = {.all_along = true};
     friction_evaluate(workspace, scratch, plan, effort, at, false, NULL, &pass);
 
-    const friction_relative relative = friction_relative_error(workspace, &pass);
+    const friction_relative relative = friction_relative_error(workspace, &pass, at);
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - pass.level;
     double variance = 0, difference = 0, hysteresis = 0, error = 0;
@@ -53,13 +53,19 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
             error += scratch->error_mu[part];
             part++;
         }
+        const double corrected = area_law_variance(workspace->area, variance);
         nodes[i] = (wt_friction_node){.wavenumber = wavenumber[i],
                                       .stress_variance = variance,
-                                      .area_ratio = contact_area(variance),
+                                      .area_ratio = contact_area(corrected),
                                       .hysteresis = sign * hysteresis,
                                       .numerical_error = contact_area_error(
-                                          variance, difference + relative.variance * variance),
-                                      .hysteresis_error = error + relative.hysteresis * hysteresis};
+                                          corrected, difference + relative.variance * variance),
+                                      .hysteresis_error = error + relative.hysteresis * hysteresis,
+                                      .temperature = (double)NAN};
+        if (at.heat != NULL) {
+            heat_rise(&at.heat->heat, &wavenumber[i], 1, &nodes[i].temperature);
+            nodes[i].temperature += workspace->options.temperature;
+        }
     }
 }
 
@@ -76,11 +82,13 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK || n == 0)
         return status;
 
-    const friction_load at = friction_load_at(workspace, pressure, velocity);
+    friction_load at = friction_load_at(workspace, pressure, velocity);
     friction_scratch scratch;
     pool memory = {0};
     double *cuts = pool_alloc(&memory, n, sizeof *cuts);
     status = friction_scratch_init(&scratch, workspace, n, &memory, err);
+    if (status == WT_OK)
+        status = friction_heat(workspace, &scratch, &at, err);
     if (status == WT_OK)
         fill_nodes(workspace, at,
                    velocity < 0   ? -1

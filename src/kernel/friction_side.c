@@ -65,6 +65,9 @@ static bool place_nodes(const friction_record *record, friction_load at, side_no
         nodes->omega[i] = record->q[i] * at.speed;
         nodes->log_omega[i] = log(record->q[i]) + log(at.speed);
     }
+    for (size_t i = 0; at.heat != NULL && i < n; i += RULE_MOST)
+        friction_shift_nodes(at.heat, record->q + i, n - i < RULE_MOST ? n - i : RULE_MOST,
+                             nodes->omega + i, nodes->log_omega + i);
     return true;
 }
 
@@ -74,7 +77,7 @@ static const double closed_error = 16 * DBL_EPSILON;
  * and moves what the rules see by no more than itself again. */
 static const double of_rules = 2;
 
-wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at, double sign,
+wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
                            const friction_record *record, double hysteresis_error,
                            wt_estimate *side)
 {
@@ -90,7 +93,12 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at, do
     angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
     angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);
     angular_eval(s->plain, k.omega, k.log_omega, n, k.plain, k.j2);
-    const double first = k.log_omega[0], last = k.log_omega[n - 1];
+    double first = k.log_omega[0],
+           last = first; /* where it is warmer, a finer scale may be slower */
+    for (size_t i = 1; i < n; i++) {
+        first = fmin(first, k.log_omega[i]);
+        last = fmax(last, k.log_omega[i]);
+    }
     const double error_shifted = angular_error(s->shifted, first, last, &piece[0]) + closed_error;
     const double error_plain = angular_error(s->plain, first, last, &piece[1]) + closed_error;
     double largest = 0, error = 0;
@@ -103,7 +111,6 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at, do
         error += record->mu[i] *
                  (error_shifted * k.shifted[i] + s->shift * error_plain * k.plain[i]) / k.j1[i];
     }
-    side->value *= sign;
     side->numerical_error = error + of_rules * largest * hysteresis_error;
     free(k.numbers);
     return WT_OK;

@@ -21,9 +21,8 @@ void friction_side_clear(friction_side *side); /* NULL: nothing */
 /* As angular_cover. */
 wt_status friction_side_cover(friction_side *side, double lowest, double highest,
                               wt_error *err) WT_NODISCARD;
-/* Of a pass whose nodes are recorded and whose hysteresis has this error; the sign is that of the
- * velocity. */
-wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at, double sign,
+/* Of a pass whose nodes are recorded and whose hysteresis has this error; of a velocity forwards. */
+wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
                            const friction_record *record, double hysteresis_error,
                            wt_estimate *side) WT_NODISCARD;
 

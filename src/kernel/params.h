@@ -50,6 +50,53 @@
             .value = "T", .help = "that of --anisotropy-fourth"                                    \
     }
 
+#define FRICTION_AREA_LAW(type)                                                                    \
+    {                                                                                              \
+        PARAM_CHOICE_OF("area-law", type, area_law, "persson|yp08|wm17|xu24"),                     \
+            .help = "contact area in partial contact: as Persson 2001 has it, or larger, as "      \
+                    "simulations do: Yang and Persson 2008, Wang and Mueser 2017, Xu 2024"         \
+    }
+
+/* `in` stands before the member. */
+#define FLASH_ROWS(type, in)                                                                       \
+    {PARAM_FLAG_OF("flash-temperature", type, in on),                                              \
+     .help = "the heat of sliding warms the rubber at every length scale (Persson 2006); the "     \
+             "sliding temperature is that of the surroundings"},                                   \
+        {PARAM("contact-size", type, in contact_size, WT_Q_LENGTH, FROM_TO(1e-6, 1)),              \
+         .value = "R",                                                                             \
+         .help = "of a macroscopic contact, which lasts R/v, for the flash temperature; 1 mm is "  \
+                 "typical of asphalt (Persson 2006)"},                                             \
+        {PARAM("heat-capacity", type, in heat_capacity, WT_Q_HEAT_CAPACITY, FROM_TO(1e4, 1e8)),    \
+         .value = "C", .help = "of the rubber by volume; 2.2 MJ/(m^3 K) is typical"},              \
+        {PARAM("heat-diffusivity", type, in diffusivity, WT_Q_DIFFUSIVITY, FROM_TO(1e-12, 1)),     \
+         .value = "D", .help = "of the rubber; 1e-7 m^2/s is typical"},                            \
+        {PARAM("macroscopic-area", type, in macroscopic, WT_Q_NONE, FROM_TO(0.01, 1)),             \
+         .value = "X",                                                                             \
+         .help = "share of the nominal area in macroscopic contacts, in which the heat is made "   \
+                 "(Persson 2006)"},                                                                \
+    {                                                                                              \
+        PARAM_FLAG_OF("clip-heat", type, in clipped),                                              \
+            .help = "heat is made in no more than all of the area where the contact at a scale "   \
+                    "is larger than the macroscopic contacts"                                      \
+    }
+
+/* `in` stands before the member. */
+#define SHEAR_LAW_ROWS(type, in)                                                                   \
+    {PARAM_CHOICE_OF("shear-law", type, in kind, "constant|log-normal"),                           \
+     .help = "the shear stress is that of every velocity and temperature, or of the peak of "      \
+             "tau_f exp(-c log10(v/v0)^2), v0 = v0* exp(E/kB (1/Tref - 1/T)) (Lorenz et al. "      \
+             "2015)"},                                                                             \
+        {PARAM("shear-peak-velocity", type, in peak_velocity, WT_Q_VELOCITY, ABOVE(0)),            \
+         .value = "V", .help = "v0* of the log-normal shear stress; 6 mm/s in that paper"},        \
+        {PARAM("shear-width", type, in width, WT_Q_NONE, AT_LEAST(0)), .value = "C",               \
+         .help = "c of the log-normal shear stress, per decade squared; 0.1 in that paper"},       \
+        {PARAM("shear-activation", type, in activation_energy, WT_Q_ENERGY, AT_LEAST(0)),          \
+         .value = "E", .help = "of the peak of the shear stress; 0.97 eV in that paper"},          \
+    {                                                                                              \
+        PARAM("shear-temperature", type, in reference_temperature, WT_Q_TEMPERATURE, ABOVE(0)),    \
+            .value = "T", .help = "Tref, at which the peak is at v0*; 20 degC in that paper"       \
+    }
+
 /* What is on the surface. `in` stands before the member. */
 #define LAYER_STATE_ROWS(type, in)                                                                 \
     {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \

@@ -121,8 +121,12 @@ static void add_place(growing_text *item, const figure_drawing *d, const char *l
                       const figure_axis *axis, unsigned column, bool above_zero)
 {
     size_t n = place_of(d, column) + 1;
+    const bool of_temperature =
+        d->figure->table->columns[column].quantity == WT_Q_TEMPERATURE; /* drawn in degC */
     if (axis->scale == AXIS_NUMBER)
         text_format(item, "%zu", n);
+    else if (of_temperature && axis->scale == AXIS_LINEAR)
+        text_format(item, "($%zu+%s_offset)", n, letter);
     else if (above_zero)
         text_format(item, "($%zu > 0 ? $%zu*%s_unit : NaN)", n, n, letter);
     else

@@ -87,6 +87,21 @@ static void caption_softening(figure_drawing *d)
                 softening_words(d->table, SOFTENING_KEY_EFFECT));
 }
 
+/* ---- flash temperature ----------------------------------------------------------------------- */
+
+static void caption_flash(figure_drawing *d)
+{
+    const char *two = flash_words(d->table, FLASH_KEY_BRANCHES),
+               *none = flash_words(d->table, FLASH_KEY_UNSETTLED);
+    text_format(&d->caption, " Surroundings at %s; %s.",
+                VALUE(WT_Q_TEMPERATURE, NULL, flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
+                flash_words(d->table, FLASH_KEY_EFFECT));
+    if (two != NULL)
+        text_format(&d->caption, " Two solutions: %s.", two);
+    if (none != NULL)
+        text_format(&d->caption, " Without one: %s.", none);
+}
+
 /* ---- directions ------------------------------------------------------------------------------ */
 
 static void draw_directions(figure_drawing *d)
@@ -212,5 +227,33 @@ const figure_description figures_friction[] = {
          "that soften with strain, and with those at small strain. The strain at a length "
          "scale is taken from the rms slope of the roughness down to it.",
      .caption = caption_softening},
+    {.name = "flash_temperature",
+     .title = "Flash temperature",
+     .table = &flash_schema,
+     .data_title = "temperature",
+     .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{FLASH_TEMPERATURE, AXIS_LINEAR, "Temperature at the finest scale"}},
+     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21, .title = "from cold"),
+                CURVE(FLASH_HOT_TEMPERATURE, LINE, .style = 24,
+                      .title = "of a contact that stays hot")},
+     .nothing = "no temperature is a number",
+     .words = "Temperature of the rubber at the finest scale of the contact against sliding "
+              "velocity: the heat of friction at every length scale warms it there.",
+     .caption = caption_flash},
+    {.name = "flash_friction",
+     .title = "What the flash temperature does to friction",
+     .table = &flash_schema,
+     .data_title = "hysteresis",
+     .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{FLASH_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(FLASH_HYSTERESIS, LINE, .style = 21, .title = "with flash temperature"),
+                CURVE(FLASH_HYSTERESIS_WITHOUT, LINE, .style = 23,
+                      .title = "as warm as the surroundings"),
+                CURVE(FLASH_HOT_HYSTERESIS, LINE, .style = 24,
+                      .title = "of a contact that stays hot")},
+     .nothing = "no hysteresis friction is a number",
+     .words = "Hysteresis part of the friction coefficient against sliding velocity with the "
+              "temperatures that sliding makes, and with rubber as warm as its surroundings.",
+     .caption = caption_flash},
     {.name = NULL},
 };

@@ -79,14 +79,16 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {
-        &t->modulus_groups,   &t->modulus_depth,  &t->comparison,      &t->dma_comparison,
-        &t->material_ratio,   &t->shift_factors,  &t->prony,           &t->prony_reduced,
-        &t->glass_transition, &t->moduli_at,      &t->payne,           &t->roughness,
-        &t->friction,         &t->layer,          &t->what_if,         &t->error_budget,
-        &t->coverage,         &t->work_precision, &t->directions,      &t->softening,
-        &t->common_law,       &t->modulus_budget, &t->record,          &t->wear,
-        &t->anisotropy,       &t->friction_map,   &t->friction_decades};
+    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,  &t->comparison,
+                                       &t->dma_comparison, &t->material_ratio, &t->shift_factors,
+                                       &t->prony,          &t->prony_reduced,  &t->glass_transition,
+                                       &t->moduli_at,      &t->payne,          &t->roughness,
+                                       &t->friction,       &t->layer,          &t->what_if,
+                                       &t->error_budget,   &t->coverage,       &t->work_precision,
+                                       &t->directions,     &t->softening,      &t->common_law,
+                                       &t->modulus_budget, &t->record,         &t->wear,
+                                       &t->anisotropy,     &t->friction_map,   &t->friction_decades,
+                                       &t->flash};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -127,6 +129,7 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->wear, "Wear as measured", NULL, 0);
     page_keys(page, &t->directions, "What the directions of the material do");
     page_keys(page, &t->softening, "What softening with strain does");
+    page_keys(page, &t->flash, "What the flash temperature does");
     page_keys(page, &t->anisotropy, "What the direction of sliding does");
     page_keys(page, &t->friction_map, "Friction at several temperatures and pressures");
     page_keys(page, &t->friction_decades, "Which length scales make the friction");

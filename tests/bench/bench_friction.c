@@ -1,6 +1,7 @@
 /* Hysteresis friction of several materials on a self-affine road, set-up included; the textbook
  * method is that of flow/accuracy/textbook.h. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
 #include "bench/bench.h"
 #include "flow/accuracy/textbook.h"
@@ -13,12 +14,16 @@ static const double moduli[TERMS] = {1e6, 1.2e6, 1.6e6, 2.4e6, 4e6, 8e6,
                                      2e7, 6e7,   2e8,   5e8,   7e8, 4e8};
 static const double equilibrium = 5e6;
 
+/* Of the surroundings and of the law, at which the moduli are. */
+static const double temperature = 293.15;
+
 typedef struct friction_case {
     double velocity[VELOCITIES], textbook[VELOCITIES];
     wt_friction_point points[VELOCITIES];
     wt_material *material;
     wt_roughness *roughness;
     double tolerance;
+    bool flash;
 } friction_case;
 
 static wt_material *prony(void)
@@ -82,6 +87,10 @@ static void friction_weartrack(void *data)
     wt_friction_workspace *workspace = NULL;
     options.threads = 1;
     options.tolerance = c->tolerance;
+    options.flash.on = c->flash;
+    options.temperature = temperature;
+    options.shift = (wt_shift_law){
+        .kind = WT_LAW_WLF, .wlf = {.c1 = 7.4, .c2 = 121.6, .reference_temperature = temperature}};
     bench_check(wt_friction_workspace_new(c->material, c->roughness, &options, &workspace, &err),
                 &err);
     bench_check(wt_friction_compute(workspace, pressure, c->velocity, VELOCITIES, c->points, &err),
@@ -138,8 +147,40 @@ static void bench_material(const char *name, const char *loose, wt_material *mat
     wt_material_free(c.material);
 }
 
+/* Velocities from where nothing warms up to where 30 K do. The textbook has no such thing: beside
+ * it stand the same velocities without. */
+static void bench_flash(double tolerance)
+{
+    static friction_case c;
+    static wt_friction_point rough[VELOCITIES];
+    wt_error err = WT_ERROR_INIT;
+    char name[64], words[96];
+    c.material = prony();
+    c.tolerance = tolerance;
+    for (int i = 0; i < VELOCITIES; i++)
+        c.velocity[i] = 1e-6 * pow(10, 7.0 * i / (VELOCITIES - 1));
+    bench_check(wt_roughness_self_affine(q0, qr, q1, hurst, c0, &c.roughness, &err), &err);
+    const double without = bench_time(friction_weartrack, &c);
+    c.flash = true;
+    const double ours = bench_time(friction_weartrack, &c);
+    memcpy(rough, c.points, sizeof rough);
+    c.tolerance = 1e-12;
+    friction_weartrack(&c);
+    double off = 0;
+    for (int i = 0; i < VELOCITIES; i++)
+        off = fmax(off, fabs(rough[i].hysteresis.value / c.points[i].hysteresis.value - 1));
+    snprintf(name, sizeof name, "friction with flash temperature, tolerance %.0e", tolerance);
+    snprintf(words, sizeof words, "beside it without; true error %.0e", off);
+    bench_row(name, ours, without, 1e-3 * VELOCITIES, "per millisecond", words);
+    wt_roughness_free(c.roughness);
+    wt_material_free(c.material);
+    c = (friction_case){0};
+}
+
 void bench_friction(void)
 {
+    bench_flash(1e-7);
+    bench_flash(1e-10);
     bench_material("friction velocities, Prony", "the same, tolerance 1e-2", prony());
     bench_material("friction, table of 107 knots", "the same, tolerance 1e-2", table(107));
     bench_material("friction, table of 1,000 knots", NULL, table(MOST_KNOTS));

@@ -67,6 +67,15 @@ static const struct {
     {"replicates", "5", NULL, NULL},
     {"seed", "2", NULL, NULL},
     {"strain-softening", CASE "softening.txt", NULL, NULL},
+    {"contact-size", "5mm", "flash-temperature yes", NULL},
+    {"heat-capacity", "1e6J/(m^3 K)", "flash-temperature yes", NULL},
+    {"heat-diffusivity", "2e-7m^2/s", "flash-temperature yes", NULL},
+    {"macroscopic-area", "0.2", "flash-temperature yes", NULL},
+    {"clip-heat", "yes", "flash-temperature yes", NULL},
+    {"shear-peak-velocity", "1mm/s", "shear-law log-normal", NULL},
+    {"shear-width", "0.2", "shear-law log-normal", NULL},
+    {"shear-activation", "0.5eV", "shear-law log-normal", NULL},
+    {"shear-temperature", "40degC", "shear-law log-normal", NULL},
     {"strain-factor", "2", "strain-softening " CASE "softening.txt", NULL},
     {"anisotropy", "0.6", NULL, NULL},
     {"texture-angle", "30deg", "anisotropy 0.6", NULL},
@@ -319,6 +328,17 @@ static void base_options(const char *base, const char *without, char *options, s
     }
 }
 
+static bool is_flag(const char *name)
+{
+    for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++)
+        for (size_t i = 0; i < wt_params_count(tables[t]()); i++) {
+            const wt_param *p = wt_params_get(tables[t](), i);
+            if (strcmp(p->name, name) == 0)
+                return p->kind == PARAM_FLAG;
+        }
+    return false;
+}
+
 static size_t try_option(size_t s, const char *option, const char *text, const char *with,
                          const char *without)
 {
@@ -326,6 +346,9 @@ static size_t try_option(size_t s, const char *option, const char *text, const c
     char base[TEXT], options[TEXT + 512], further[256], call[TEXT + 64];
     size_t n;
     base_options(with, "", further, sizeof further);
+    char *const yes = strstr(further, " 'yes'"); /* a flag has no value here */
+    if (yes != NULL)
+        *yes = '\0';
     base_options(subcommands[s].base, without, base, sizeof base);
     for (const char *p = with; *p != '\0'; p += strcspn(p, "|"), p += strspn(p, "|")) {
         char name[64];
@@ -368,7 +391,7 @@ static void test_options(void **state)
                 continue;
             const char *with = "", *without = "", *value = NULL;
             bool found = is_listed(name, text, sizeof text, &with, &without);
-            if (found)
+            if (found && !is_flag(name))
                 value = text;
             for (size_t t = 0; t < sizeof tables / sizeof tables[0] && !found; t++)
                 for (size_t i = 0; i < wt_params_count(tables[t]()) && !found; i++) {

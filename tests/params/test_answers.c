@@ -77,11 +77,11 @@ static const struct {
 /* What the energy of a layer knows nothing of is an option of friction alone. */
 static bool is_of_friction(const char *name)
 {
-    static const char *const names[] = {"shear-stress", "temperatures", "pressures", "decades"};
+    static const char *const names[] = {"temperatures", "pressures", "decades", "sensitivities"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;
-    return false;
+    return strncmp(name, "shear-", strlen("shear-")) == 0;
 }
 
 static bool is_option(size_t s, const wt_param *p)

@@ -234,6 +234,11 @@ static void test_curves_are_drawn_from_their_columns(void **state)
          "velocity hysteresis_without"},
         {"softening", "title 'moduli soften with strain'", "velocity hysteresis"},
         {"softening", "title 'moduli at small strain'", "velocity hysteresis_without"},
+        {"flash_temperature", "title 'from cold'", "velocity temperature"},
+        {"flash_temperature", "title 'of a contact that stays hot'", "velocity hot_temperature"},
+        {"flash_friction", "title 'with flash temperature'", "velocity hysteresis"},
+        {"flash_friction", "title 'as warm as the surroundings'", "velocity hysteresis_without"},
+        {"flash_friction", "title 'of a contact that stays hot'", "velocity hot_hysteresis"},
         {"directions", "title 'both'", "velocity hysteresis"},
         {"energy_density", "lines ls 21", "depth energy_density"},
         {"layer", "ls 71 notitle", "time thickness thickness_standard_error"},
@@ -525,6 +530,8 @@ static void test_numbers_of_captions(void **state)
         {"friction_decades", " The most: 1e+05 to 1e+06 rad/m"},
         {"anisotropy", " Power spectrum over its mean at an angle phi from the velocity: 1 + 0.6 "
                        "cos 2(phi - 30 deg). at 300 mm/s"},
+        {"flash_temperature", " Surroundings at 20 °C; 28.9 K warmer. Two solutions: hot at 2 of 3 "
+                              "velocities."},
         {"common_law", " Reference temperatures: NR 20.00 °C, SBR 10% 20.00 °C. One law? "},
         {"isotherms", " 12 isotherms. Those that superposition"},
         {"vertical_shifts", " are off it by up to "},

@@ -110,6 +110,8 @@ static void test_whole_tables(void **state)
                                            {"friction_scales", "contact_area"},
                                            {"softening", "softening"},
                                            {"anisotropy", "anisotropy"},
+                                           {"flash_temperature", "flash_temperature"},
+                                           {"flash_friction", "flash_temperature"},
                                            {"energy_density", "energy_density"},
                                            {"layer", "layer"},
                                            {"cost", "cost"},

@@ -216,6 +216,10 @@ static void test_cases(void **state)
              "<anisotropy>0.6</anisotropy><decades>yes</decades>"
              "<texture-angle>30deg</texture-angle>"
              "<temperatures>20degC,90degC</temperatures>");
+    run_case("<temperature>30degC",
+             "<shear-law>log-normal</shear-law><area-law>yp08</area-law>"
+             "<sensitivities>yes</sensitivities><flash-temperature>yes</flash-temperature>"
+             "<temperature>30degC");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");
@@ -620,6 +624,51 @@ static void test_no_hysteresis(void **state)
     wt_table_free(table);
 }
 
+/* Rubber in its glassy state, of which a contact that was hot stays hot, and that burns where it
+ * slides fast. */
+static void test_flash(void **state)
+{
+    (void)state;
+    static double velocity[] = {1e-3, 10, 1e4},
+                  tau[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11},
+                  term[] = {1e6, 1.2e6, 1.6e6, 2.4e6, 4e6, 8e6, 2e7, 6e7, 2e8, 5e8, 7e8, 4e8};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(velocity, 3);
+    rubber.prony.n = COUNT_OF(tau);
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    rubber.prony.equilibrium_modulus = 5e6;
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF,
+                                .wlf = {.c1 = 7.4, .c2 = 121.6, .reference_temperature = 293.15}};
+    rubber.temperature_min = 210;
+    rubber.temperature_max = 230;
+    surface = (wt_surface){.self_affine = true, .q0 = 500, .qr = 2000, .q1 = 1e6, .hurst = 0.8};
+    surface.c0 = (wt_estimate){6e-16, 0, 0, "m^4"};
+    sliding.temperature.value = 213.15;
+    sliding.pressure.value = 10e6;
+    sliding.flash.on = true;
+    sliding.flash.contact_size = 5e-3;
+    sliding.flash.macroscopic = 0.1;
+    sliding.reference_velocity = 1e-3;
+    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(strstr(wt_table_key(table, "branches"), "stays hot at "));
+    assert_non_null(strstr(wt_table_key(table, "law_range"), "above the isotherms"));
+    see(table);
+    wt_table_free(table);
+    sliding.temperature.value = 293.15;
+    sliding.pressure.value = 30e6;
+    sliding.flash.contact_size = 1;
+    sliding.flash.macroscopic = 0.01;
+    velocity[1] = 100;
+    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(strstr(wt_table_key(table, "unsettled"), "no temperature below 300 degC"));
+    see(table);
+    wt_table_free(table);
+}
+
 /* Strain sweeps that reach half of the fall and its double. */
 static void test_strain_sweeps(void **state)
 {
@@ -1019,16 +1068,27 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_jobs),          cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),    cmocka_unit_test(test_no_superposition),
-        cmocka_unit_test(test_common_law),    cmocka_unit_test(test_no_hysteresis),
-        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_record),
-        cmocka_unit_test(test_dwell),         cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),    cmocka_unit_test(test_spot),
-        cmocka_unit_test(test_surface),       cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(step_jobs),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_flash),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_record),
+        cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

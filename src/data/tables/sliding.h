@@ -59,6 +59,22 @@
     X(FRICTION_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),      \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)   \
+    X(FRICTION_KEY_AREA_LAW, AS(area_law), TEXT, LABEL("Contact area in partial contact"),         \
+      OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_FLASH, "flash_temperature", TEXT, SHOWS(flash), LABEL("Flash temperature"),     \
+      OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_SHEAR_LAW, AS(shear_law), TEXT, LABEL("Shear stress of the real contact"),      \
+      OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_SHEAR_AT_REFERENCE, "shear_stress_at_reference", SI(PRESSURE),                  \
+      SHOWS(shear_at_reference), LABEL("Shear stress at the reference velocity"), OPTIONAL)        \
+    X(FRICTION_KEY_BY_MODULUS, "sensitivity_to_modulus", NUMBER, SHOWS(by_modulus),                \
+      LABEL("Change of the hysteresis in % by 1 % of modulus"), OPTIONAL)                          \
+    X(FRICTION_KEY_BY_DENSITY, "sensitivity_to_spectrum", NUMBER, SHOWS(by_density),               \
+      LABEL("Change of the hysteresis in % by 1 % of the power spectrum"), OPTIONAL)               \
+    X(FRICTION_KEY_BY_PRESSURE, "sensitivity_to_pressure", NUMBER, SHOWS(by_pressure),             \
+      LABEL("Change of the hysteresis in % by 1 % of pressure"), OPTIONAL)                         \
+    X(FRICTION_KEY_BY_CUTOFF, "sensitivity_to_cutoff", NUMBER, SHOWS(by_cutoff),                   \
+      LABEL("Change of the hysteresis in % by 1 % of the largest wavenumber"), OPTIONAL)           \
     X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER, OPTIONAL)                 \
     X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER, SHOWS(with_layer),      \
@@ -127,6 +143,53 @@
       LABEL("Share of the hysteresis from strains above those known, largest"))                    \
     X(SOFTENING_KEY_UNKNOWN, "shares_unknown", TEXT, LABEL("Shares not known"), OPTIONAL)          \
     X(SOFTENING_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))
+
+#define FLASH_COLUMNS(X)                                                                           \
+    X(FLASH_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                              \
+    X(FLASH_TEMPERATURE, IN(with, temperature),                                                    \
+      "temperature of the rubber at the finest scale of the contact", SI(TEMPERATURE),             \
+      NUMERICAL_ERROR(FLASH_TEMPERATURE))                                                          \
+    X(FLASH_TEMPERATURE_NUMERICAL_ERROR, "temperature_numerical_error", "its numerical error",     \
+      SI(TEMPERATURE_DIFFERENCE))                                                                  \
+    X(FLASH_HYSTERESIS, IN(with, hysteresis), "hysteresis friction", NUMBER,                       \
+      NUMERICAL_ERROR(FLASH_HYSTERESIS))                                                           \
+    X(FLASH_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",       \
+      NUMBER)                                                                                      \
+    X(FLASH_HYSTERESIS_WITHOUT, "hysteresis_without",                                              \
+      "hysteresis friction of rubber as warm as its surroundings", NUMBER,                         \
+      SHOWS(without.hysteresis), NUMERICAL_ERROR(FLASH_HYSTERESIS_WITHOUT))                        \
+    X(FLASH_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, "hysteresis_without_numerical_error",              \
+      "its numerical error", NUMBER)                                                               \
+    X(FLASH_AREA_RATIO, IN(with, area_ratio), "real over nominal contact area", NUMBER,            \
+      NUMERICAL_ERROR(FLASH_AREA_RATIO))                                                           \
+    X(FLASH_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",       \
+      NUMBER)                                                                                      \
+    X(FLASH_AREA_RATIO_WITHOUT, "area_ratio_without", "the same without flash temperature",        \
+      NUMBER, SHOWS(without.area_ratio), NUMERICAL_ERROR(FLASH_AREA_RATIO_WITHOUT))                \
+    X(FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",              \
+      "its numerical error", NUMBER)                                                               \
+    X(FLASH_HOT_HYSTERESIS, "hot_hysteresis",                                                      \
+      "hysteresis friction of a contact that was hot before and stays so; nan: there is none",     \
+      NUMBER, SHOWS(with.hot.hysteresis))                                                          \
+    X(FLASH_HOT_AREA_RATIO, "hot_area_ratio", "its real over nominal contact area", NUMBER,        \
+      SHOWS(with.hot.area_ratio))                                                                  \
+    X(FLASH_HOT_TEMPERATURE, "hot_temperature", "its temperature at the finest scale",             \
+      SI(TEMPERATURE), SHOWS(with.hot.temperature))
+
+#define FLASH_KEYS(X)                                                                              \
+    X(FLASH_KEY_SURROUNDINGS, "surroundings", SI(TEMPERATURE), SHOWS(surroundings),                \
+      LABEL("Temperature of the surroundings"))                                                    \
+    X(FLASH_KEY_CONTACT_SIZE, AS(contact_size), SI(LENGTH),                                        \
+      LABEL("Size of a macroscopic contact"))                                                      \
+    X(FLASH_KEY_HEAT_CAPACITY, AS(heat_capacity), SI(HEAT_CAPACITY), LABEL("Heat capacity"))       \
+    X(FLASH_KEY_DIFFUSIVITY, "heat_diffusivity", SI(DIFFUSIVITY), SHOWS(diffusivity),              \
+      LABEL("Diffusivity of heat"))                                                                \
+    X(FLASH_KEY_MACROSCOPIC, "macroscopic_area", PLAIN, SHOWS(macroscopic),                        \
+      LABEL("Share of the area in macroscopic contacts"))                                          \
+    X(FLASH_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))                                   \
+    X(FLASH_KEY_BRANCHES, AS(branches), TEXT, LABEL("Two solutions"), OPTIONAL)                    \
+    X(FLASH_KEY_UNSETTLED, AS(unsettled), TEXT, LABEL("Without a solution"), OPTIONAL)             \
+    X(FLASH_KEY_LAW_RANGE, AS(law_range), TEXT, LABEL("Shift law"), OPTIONAL)
 
 #define CONTACT_AREA_COLUMNS(X)                                                                    \
     X(CONTACT_AREA_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                       \

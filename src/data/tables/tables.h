@@ -113,6 +113,7 @@
       "Friction against velocity at several temperatures and pressures", "friction")               \
     X(friction_decades, FRICTION_DECADES, "friction_decades",                                      \
       "Friction by decades of the wavenumber", "friction")                                         \
+    X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \

@@ -286,15 +286,19 @@ static void material_caveats(answer_story *story)
 static void tell_theory(telling *t, const table_view *friction)
 {
     const char *softening = friction_words(friction, FRICTION_KEY_SOFTENING);
+    const bool flash = friction_words(friction, FRICTION_KEY_FLASH) != NULL;
+    const char *temperature = flash ? "with a flash temperature" : "at one temperature";
+    const char *heating = flash ? "" : "no flash heating, ";
     if (softening != NULL)
         tell(t,
-             "Friction is that of Persson's theory at one temperature with moduli that soften with "
-             "strain (%s; the largest strain met is %.3g): no flash heating, dry contact.",
-             softening, friction_value(friction, FRICTION_KEY_STRAIN).value);
+             "Friction is that of Persson's theory %s with moduli that soften with "
+             "strain (%s; the largest strain met is %.3g): %sdry contact.",
+             temperature, softening, friction_value(friction, FRICTION_KEY_STRAIN).value, heating);
     else
         tell(t,
-             "Friction is that of Persson's theory for small strain at one temperature: no flash "
-             "heating, no strain softening, dry contact.");
+             "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
+             "contact.",
+             temperature, heating);
     if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
         tell(t,
              " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "

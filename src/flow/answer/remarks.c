@@ -37,6 +37,16 @@ static void of_softening(const table_view *v, wt_parselog *log)
                         100 * share, softening_value(v, SOFTENING_KEY_STRAIN).value);
 }
 
+static void of_flash(const table_view *v, wt_parselog *log)
+{
+    static const flash_key keys[] = {FLASH_KEY_UNSETTLED, FLASH_KEY_BRANCHES, FLASH_KEY_LAW_RANGE};
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        const char *words = flash_words(v, keys[i]);
+        if (words != NULL)
+            wt_parselog_add(log, WT_WARNING, NULL, NULL, "flash temperature: %s", words);
+    }
+}
+
 static void of_comparison(const table_view *v, wt_parselog *log)
 {
     const size_t n = n_extrapolated(v);
@@ -92,6 +102,8 @@ void wt_result_remarks(const wt_result *result, wt_parselog *log)
                     what_if_words(&view, WHAT_IF_KEY_MATERIAL_STATEMENT), log);
     if (table_bind_of(result, &softening_schema, "", &view, NULL) == WT_OK)
         of_softening(&view, log);
+    if (table_bind_of(result, &flash_schema, "", &view, NULL) == WT_OK)
+        of_flash(&view, log);
     if (table_bind_of(result, &dma_comparison_schema, "", &view, NULL) == WT_OK)
         of_comparison(&view, log);
     if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK)

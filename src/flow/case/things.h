@@ -37,7 +37,9 @@
       "no map asked for (<temperatures> or <pressures> in <sliding>)",                             \
       c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
     X(ASKED_DECADES, "decades of the wavenumber", "no decades asked for (<decades> in <sliding>)", \
-      c->sliding.decades)
+      c->sliding.decades)                                                                          \
+    X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
+      c->has_sliding && c->sliding.flash.on)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -78,6 +80,7 @@
     X(ANISOTROPY, "anisotropy", &anisotropy_schema, "")                                            \
     X(FRICTION_MAP, "friction_map", &friction_map_schema, "")                                      \
     X(FRICTION_DECADES, "friction_decades", &friction_decades_schema, "")                          \
+    X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")                                                  \

@@ -147,6 +147,12 @@ static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, siz
     return &rubber->draws[(first + replicate) % rubber->n_draws];
 }
 
+wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate)
+{
+    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    return draw != NULL ? draw->law : rubber->law;
+}
+
 /* The series with times a and moduli 1/b times those at the reference temperature. */
 static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw,
                                 double temperature, double a, double b, wt_prony *prony,

@@ -10,6 +10,8 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
                                char statement[256], wt_error *err) WT_NODISCARD;
 
 void flow_rubber_drop_draws(wt_rubber *rubber);
+/* The shift law of a replicate; the errors of constants that were given are not drawn. */
+wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate);
 /* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
 bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
 /* Factors by which times and moduli at the reference temperature become those at another one (NaN:

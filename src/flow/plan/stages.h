@@ -86,6 +86,9 @@ typedef enum flow_extra {
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_DECADES), 0, FLOW_NO_MORE,                  \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
+    X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_FLASH), 0, FLOW_NO_MORE, B(FLASH_EFFECT),   \
+      flow_step_flash_effect)                                                                      \
     X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
       flow_step_what_if)                                                                           \

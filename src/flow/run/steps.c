@@ -497,6 +497,12 @@ wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
     return wt_friction_decades_make(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES], err);
 }
 
+wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_flash_make(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
+}
+
 /* ---- what if, error budget, coverage, error against run time ----------------------------------
  */
 

@@ -1,8 +1,9 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/sliding/error_nodes.h"
 #include "flow/sliding/anisotropy.h"
+#include "flow/sliding/error_nodes.h"
+#include "flow/sliding/flash.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
@@ -11,6 +12,7 @@
 #include "kernel/params.h"
 
 #include "base/clocale.h"
+#include "base/quantity.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -31,6 +33,7 @@ typedef struct friction_task {
     double strain;             /* the largest, of a softening */
     double numerical[2];       /* of the total friction at the reference: without, with the layer */
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
+    wt_friction_sensitivity by; /* likewise; NaN: not asked for */
     replicates replicates;
     size_t drawn; /* velocities of all replicates */
 } friction_task;
@@ -76,7 +79,8 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
         numbers_of_kind(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
         numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
         numbers_of_kind(out, task->n, TOTAL)[i] =
-            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
+            points[i].hysteresis.value +
+            sliding_shear(task->sliding, c, &points[i]) * points[i].area_ratio.value / c->pressure;
         numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
         numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
         numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
@@ -94,8 +98,9 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        double with = points[i].hysteresis.value + shear_factor(task, layer) * c.shear_stress *
-                                                       points[i].area_ratio.value / c.pressure;
+        double with = points[i].hysteresis.value +
+                      shear_factor(task, layer) * sliding_shear(task->sliding, &c, &points[i]) *
+                          points[i].area_ratio.value / c.pressure;
         double without = numbers_of_kind(out, task->n, TOTAL)[i];
         numbers_of_kind(out, task->n, LAYERED)[i] = with;
         numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
@@ -138,7 +143,9 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           char material[512], softening[512], anisotropy[192], numerical[512];)
+           wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
+           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
+           char area_law[128], shear_law[256];)
 
 /* Of the values themselves, with what the replicates scatter. */
 static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
@@ -148,12 +155,12 @@ static wt_estimate with_error(friction_task *task, int kind, size_t i, double nu
                          NULL};
 }
 
-static void add_rows(friction_task *task, table_writer *t)
+static void add_rows(friction_task *task, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
-    const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
+        const wt_estimate shear = {sliding_shear(s, c, p), 0, 0, "Pa"};
         friction_row row = {
             .velocity = p->velocity,
             .extrapolated_share = extrapolated_share(s->rubber, p),
@@ -190,8 +197,29 @@ static void find_layer_keys(friction_task *task, friction_keys *keys)
                                        both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
 }
 
+/* What is not of the plain theory, in words. */
+static void describe_options(const friction_task *task, const sliding_contact *c,
+                             friction_keys *keys)
+{
+    static const char *const areas[] = {"", "Yang and Persson 2008 (yp08): S = 0.42 + 0.58 P^2",
+                                        "Wang and Mueser 2017 (wm17): S = 5/9 - 2/9 P^2 + 2/3 P^4",
+                                        "Xu 2024 (xu24): P = erf(1/(2 sqrt((0.42 + 0.58 P) G)))"};
+    const wt_sliding *s = task->sliding;
+    const wt_shear_law *law = &s->shear_law;
+    snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
+    flash_describe(s, task->points, task->n, keys->flash);
+    if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
+        return;
+    clocale_print(keys->shear_law, sizeof keys->shear_law,
+                  "log-normal about %.4g m/s at %.1f degC, %.3g per decade squared, activation "
+                  "energy %.3g eV",
+                  law->peak_velocity, law->reference_temperature - WT_ZERO_CELSIUS, law->width,
+                  law->activation_energy / ELECTRONVOLT);
+    keys->shear_at_reference.value = sliding_shear(s, c, &task->points[task->n - 1]);
+}
+
 /* The reference velocity is the last one. */
-static void set_keys(friction_task *task, table_writer *t, const char *statement)
+static void set_keys(friction_task *task, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
     const size_t last = task->n - 1;
@@ -206,6 +234,11 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
         .hysteresis = with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
         .area = with_error(task, AREA, last, reference->area_ratio.numerical_error),
         .strain = not_known,
+        .shear_at_reference = not_known,
+        .by_modulus = flow_as_stated((wt_estimate){.value = task->by.modulus}),
+        .by_density = flow_as_stated((wt_estimate){.value = task->by.density}),
+        .by_pressure = flow_as_stated((wt_estimate){.value = task->by.pressure}),
+        .by_cutoff = flow_as_stated((wt_estimate){.value = task->by.cutoff}),
         .layer_thickness = not_known,
         .layer_modulus_ratio = not_known,
         .with_layer = not_known,
@@ -216,7 +249,8 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
         .replicates = task->replicates.n,
         .includes = replicates_include(&task->replicates),
         .lacks = task->replicates.lacks,
-        .statement = statement};
+        .statement = c->statement};
+    describe_options(task, c, &keys);
     if (isnan(keys.temperature.value))
         keys.temperature.value = s->rubber->prony.reference_temperature;
     keys.temperature = flow_as_stated(keys.temperature);
@@ -238,12 +272,12 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
                           "not given: only the hysteresis part is known");
 }
 
-static wt_status friction_table(friction_task *task, const char *statement, wt_table **out,
+static wt_status friction_table(friction_task *task, const sliding_contact *c, wt_table **out,
                                 wt_error *err)
 {
     table_writer t = table_begin(&friction_schema, err);
-    add_rows(task, &t);
-    set_keys(task, &t, statement);
+    add_rows(task, c, &t);
+    set_keys(task, c, &t);
     return table_end(&t, out);
 }
 
@@ -340,7 +374,7 @@ static void note_not_reached(friction_task *task, const wt_friction_point *point
 {
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &points[i];
-        if (!p->reached)
+        if (!p->reached && !p->unsettled)
             task->worst =
                 fmax(task->worst,
                      fmax(relative_error(p->hysteresis),
@@ -351,11 +385,15 @@ static void note_not_reached(friction_task *task, const wt_friction_point *point
 /* The values themselves; `c` is their contact without a layer. */
 static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
 {
-    const double shear = task->sliding->shear_stress.value / task->sliding->pressure.value;
     const size_t last = task->n - 1;
     wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    if (status == WT_OK && task->sliding->sensitivities)
+        status = wt_friction_sensitivities(c->workspace, c->pressure, task->velocity[last],
+                                           &task->by, err);
     if (status != WT_OK)
         return status;
+    const double shear =
+        sliding_shear(task->sliding, c, &task->points[last]) / task->sliding->pressure.value;
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
     task->numerical[0] = total_error(&task->points[last], shear);
     note_not_reached(task, task->points);
@@ -442,6 +480,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                           .layer = layer,
                           .work = work,
                           .n = sliding->n_velocity + !is_reference_alone(sliding),
+                          .by = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                           .replicates = replicates_of(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
@@ -451,7 +490,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     if (status == WT_OK)
         status = draw_replicates(&task, err);
     if (status == WT_OK)
-        status = friction_table(&task, c.statement, &t.friction, err);
+        status = friction_table(&task, &c, &t.friction, err);
     if (status == WT_OK) {
         summarise_friction(&task, &t);
         *tables = t;

@@ -1,7 +1,8 @@
 /* Friction against velocity and temperature, and against velocity and pressure. The moduli at a
  * temperature are E(w) = E_reference(w a_T) / b_T, and friction knows moduli over pressure at q v
  * alone: so mu(v, T, p) is that of the reference temperature at v a_T and p b_T, and one
- * preparation of the kernel serves all. SPDX-License-Identifier: GPL-3.0-or-later */
+ * preparation of the kernel serves all. Not so with a flash temperature, which is counted from that
+ * of the surroundings. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/materials/rubber.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
@@ -75,6 +76,18 @@ static wt_status find_lines(friction_map *m, wt_error *err)
     return status;
 }
 
+/* Of the surroundings of a line. */
+static wt_status open_line(const friction_map *m, const map_line *line, sliding_contact *c,
+                           wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_sliding sliding = *m->sliding;
+    wt_job work = *m->work;
+    sliding.temperature.value = line->temperature;
+    work.drawn = NULL; /* of another temperature */
+    return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
+}
+
 /* At the reference temperature, at all reduced velocities. */
 static wt_status open_contact(const friction_map *m, double range[2], sliding_contact *c,
                               wt_error *err)
@@ -95,13 +108,16 @@ static wt_status open_contact(const friction_map *m, double range[2], sliding_co
 static void add_rows(friction_map *m, const map_line *line, table_writer *t, cost_summary *cost)
 {
     const wt_sliding *s = m->sliding;
-    const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
     const double reference = s->rubber->prony.reference_temperature;
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &m->points[i];
+        const double temperature = isnan(line->temperature) ? reference : line->temperature;
+        const double warm = isnan(p->temperature.value) ? temperature : p->temperature.value;
+        const double factor = wt_shear_factor(&s->shear_law, s->velocity[i], warm);
+        const wt_estimate shear = {s->shear_stress.value * factor, 0, 0, "Pa"};
         friction_map_row row = {
             .against = line->against,
-            .temperature = isnan(line->temperature) ? reference : line->temperature,
+            .temperature = temperature,
             .pressure = line->pressure,
             .velocity = s->velocity[i],
             .reduced_velocity = m->velocity[i],
@@ -120,6 +136,17 @@ static void add_rows(friction_map *m, const map_line *line, table_writer *t, cos
     }
 }
 
+static wt_status compute_warmed(const friction_map *m, const map_line *line, wt_error *err)
+{
+    sliding_contact c = {0};
+    wt_status status = open_line(m, line, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, line->pressure, m->sliding->velocity,
+                                     m->sliding->n_velocity, m->points, err);
+    sliding_contact_clear(&c);
+    return status;
+}
+
 static void add_lines(friction_map *m, const sliding_contact *c, table_writer *t,
                       cost_summary *cost)
 {
@@ -128,8 +155,10 @@ static void add_lines(friction_map *m, const sliding_contact *c, table_writer *t
         const map_line *line = &m->lines[k];
         for (size_t i = 0; i < s->n_velocity; i++)
             m->velocity[i] = s->velocity[i] * line->shift.a;
-        t->status = wt_friction_compute(c->workspace, line->pressure * line->shift.b, m->velocity,
-                                        s->n_velocity, m->points, t->err);
+        t->status = s->flash.on
+                        ? compute_warmed(m, line, t->err)
+                        : wt_friction_compute(c->workspace, line->pressure * line->shift.b,
+                                              m->velocity, s->n_velocity, m->points, t->err);
         table_block(t);
         if (t->status == WT_OK)
             add_rows(m, line, t, cost);

@@ -1,6 +1,7 @@
 /* Material, roughness and load of one replicate of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/sliding_contact.h"
+#include "flow/materials/rubber.h"
 #include "flow/sliding/counter_surface.h"
 #include "flow/strain/softness.h"
 #include "flow/work/cost.h"
@@ -20,6 +21,8 @@ wt_sliding wt_sliding_defaults(void)
         .gamma = wt_friction_defaults().gamma,
         .reference_velocity = (double)NAN,
         .strain_factor = wt_friction_defaults().strain_factor,
+        .flash = wt_flash_defaults(),
+        .shear_law = wt_shear_law_defaults(),
     };
 }
 
@@ -34,7 +37,8 @@ static const wt_param rows[] = {
      .help = "velocity of the answer"},
     {PARAM("sliding-temperature", wt_sliding, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .letter = 't', .unset = "the reference temperature of the material",
-     .help = "of the rubber while it slides; another one than the reference needs a WLF law"},
+     .help = "of the rubber while it slides, or of its surroundings with a flash temperature; "
+             "another one than the reference needs a WLF law"},
     {PARAM("shear-stress", wt_sliding, shear_stress, WT_Q_STRESS, AT_LEAST(0)), .value = "TAU",
      .unset = "",
      .help = "tau_f of the real contact, such as 5MPa; without it there is no total "
@@ -53,6 +57,12 @@ static const wt_param rows[] = {
              "list"},
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
      .help = "also what each decade of the wavenumber makes of the friction"},
+    FRICTION_AREA_LAW(wt_sliding),
+    FLASH_ROWS(wt_sliding, flash.),
+    SHEAR_LAW_ROWS(wt_sliding, shear_law.),
+    {PARAM_FLAG_OF("sensitivities", wt_sliding, sensitivities),
+     .help = "by how many percent the hysteresis friction changes with one percent of modulus, "
+             "spectrum, pressure and largest wavenumber"},
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
@@ -155,6 +165,11 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
     options.gamma = sliding->gamma;
     options.anisotropy = sliding->anisotropy;
+    options.area_law = sliding->area_law;
+    options.flash = sliding->flash;
+    options.shift = flow_rubber_law(sliding->rubber, seed, replicate);
+    options.temperature = c.temperature =
+        isnan(temperature) ? sliding->rubber->prony.reference_temperature : temperature;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
     options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
@@ -180,6 +195,14 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     }
     *contact = c;
     return WT_OK;
+}
+
+double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
+                     const wt_friction_point *point)
+{
+    const double warm = point->temperature.value;
+    return contact->shear_stress * wt_shear_factor(&sliding->shear_law, point->velocity,
+                                                   isnan(warm) ? contact->temperature : warm);
 }
 
 void sliding_contact_clear(sliding_contact *contact)

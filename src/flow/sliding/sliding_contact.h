@@ -7,6 +7,7 @@
 
 typedef struct sliding_contact {
     double pressure, shear_stress;
+    double temperature; /* of the rubber, or of its surroundings [K] */
     wt_material *material;
     bool shared; /* it is that of `drawn` */
     wt_roughness *roughness;
@@ -30,6 +31,9 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
                                wt_error *err) WT_NODISCARD;
 /* What must be said of numbers whose relative error is not below the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
+/* Shear stress of the contact at a point, by the temperature there. */
+double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
+                     const wt_friction_point *point);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif
