@@ -354,11 +354,11 @@ static void test_missing(void **state)
     } cases[] = {
         {4, 3, 0, 1, 1, NULL},
         {4, 3, 1, 1, 1, "1 of 12 pixels are not finite numbers and left out"},
-        {4, 3, 2, 1, 0, "the size of the image is not known"},
-        {4, 3, 0, -1, 1, "the size of the image is not known"},
+        {4, 3, 2, 1, 0, "the size of the image is not known; --pixel-size gives it"},
+        {4, 3, 0, -1, 1, "the size of the image is not known; --pixel-size gives it"},
         {4, 1, 0, 1, 0, NULL},
         {1, 3, 0, 0, 1, NULL},
-        {4, 3, 0, (double)NAN, 1, "the size of the image is not known"},
+        {4, 3, 0, (double)NAN, 1, "the size of the image is not known; --pixel-size gives it"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         image_list list = {NULL, 0};
@@ -375,6 +375,8 @@ static void test_missing(void **state)
         for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
             values[k] = k < cases[i].missing ? (k == 0 ? (double)NAN : (double)INFINITY) : 1;
         assert_int_equal(images_end(&list, WT_OK, "file", log, &images, &n, NULL), WT_OK);
+        const wt_read_options nothing = wt_read_defaults();
+        assert_int_equal(images_given(images, n, &nothing, "file", log, NULL), WT_OK);
         const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
         const size_t said = (cases[i].missing > 0) + (size_t)unknown;
         assert_int_equal(wt_parselog_count(log), said);

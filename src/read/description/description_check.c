@@ -40,7 +40,8 @@ wt_status description_check_whole(const text_description *d, const char *name, w
     }
     for (unsigned kind = 1; kind <= WT_KIND_NOISE && !d->matrix; kind *= 2)
         if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
-            wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
+            wt_fail(err, WT_E_SCHEMA, "the columns do not make %s %s",
+                    kind == WT_KIND_IMAGE ? "an" : "a", kind_name(kind));
             wt_error_expected(err, "%s", quantities_needed(kind));
             return fail_element(err, name, "table");
         }
