@@ -197,6 +197,8 @@ wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
             case_at(law, status, err);
         return status;
     }
+    if (spectrum == NULL)
+        return case_read_files(c, section, "files", &c->height_maps, err);
     c->has_spectrum = true;
     c->surface.c0 = (wt_estimate){1, 0, 0, "1"};
     status = case_read_files(c, spectrum, "file", &c->spectrum, err);

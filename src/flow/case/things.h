@@ -15,6 +15,8 @@
       "no material (<prony>, <table> or <fractional-zener> in <dma>)", c->has_material)            \
     X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)",                      \
       c->has_self_affine || c->has_spectrum)                                                       \
+    X(HEIGHT_MAPS, "height maps of the counter surface",                                           \
+      "no height maps of the counter surface (<files> in <roughness>)", c->height_maps.n > 0)      \
     X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)", c->has_sliding)       \
     X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
@@ -54,6 +56,8 @@
     X(PAYNE, "payne", &payne_schema, "")                                                           \
     X(PAYNE_SWEEP, "payne_sweep", &payne_sweep_schema, "")                                         \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
+    X(POWER_SPECTRUM, "power_spectrum", &power_spectrum_schema, "")                                \
+    X(SURFACES, "surfaces", &surfaces_schema, "")                                                  \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
