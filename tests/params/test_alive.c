@@ -109,6 +109,8 @@ static const struct {
     {NULL, "format", "overrules what is found: tests/cli"},
     {NULL, "columns", "for tables with other names: tests/cli/options.txt"},
     {NULL, "units", "for files without units: tests/formats"},
+    {NULL, "pixel-size", "for images without a size: tests/formats"},
+    {NULL, "height-unit", "for images without a unit: unit_read_images"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
     {NULL, "sample", "for sweeps of several samples: cli_samples"},
     {NULL, "sample-by", "for sweeps of several samples: cli_samples"},
@@ -403,6 +405,7 @@ static const struct {
      "<roughness><self-affine>", "</self-affine></roughness>"},
     {"spectrum", "", "<roughness><spectrum><file>../formats/table-spectrum/surface.txt</file>",
      "</spectrum></roughness>"},
+    {"measured", "", "<roughness>", "<files>../surface/place-1.gsf</files></roughness>"},
     {"sliding",
      "<pressure>0.4MPa</pressure><velocity>0.1m/s,0.3m/s,1m/s</velocity>"
      "<temperature>30degC</temperature><shear-stress>5MPa</shear-stress>",
@@ -444,10 +447,11 @@ static void make_case(size_t s, const char *name, const char *text, const char *
     snprintf(xml, size, "<case version='1'>");
     for (size_t f = 0; f < N_FRAMES; f++) {
         const bool own = strcmp(frames[f].section, section) == 0;
-        const bool other =
-            (strcmp(frames[f].section, "dma") == 0 && !is_dma_part(section)) ||
-            (strcmp(frames[f].section, "self-affine") == 0 && strcmp(section, "spectrum") != 0) ||
-            strcmp(frames[f].section, "sliding") == 0 || strcmp(frames[f].section, "layer") == 0;
+        const bool other = (strcmp(frames[f].section, "dma") == 0 && !is_dma_part(section)) ||
+                           (strcmp(frames[f].section, "self-affine") == 0 &&
+                            strcmp(section, "spectrum") != 0 && strcmp(section, "measured") != 0) ||
+                           strcmp(frames[f].section, "sliding") == 0 ||
+                           strcmp(frames[f].section, "layer") == 0;
         if (!own && (indents || !other))
             continue;
         strncat(xml, frames[f].before, size - strlen(xml) - 1);

@@ -3,10 +3,12 @@
 #include "made_file.h"
 
 #include "base/array.h"
+#include "base/digest.h"
 #include "fit/surface/surface.h"
 #include "fit/surface/surface_heights.h"
 #include "fuzz/pack_list.h"
 
+#include <ctype.h>
 #include <math.h>
 
 /* ---- what is made ---------------------------------------------------------------------------- */
@@ -177,7 +179,7 @@ static void test_gwyddion_lies(void **state)
 
 typedef struct made_x3p {
     const char *folder, *feature, *x_axis, *type, *rest; /* in the axis of z */
-    const char *size, *record3;
+    const char *size, *record3, *md5;
     const made *data, *valid;
 } made_x3p;
 
@@ -209,6 +211,14 @@ static made x3p_of(const made_x3p *x)
                  ? x->record3
                  : "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
                    "<ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink>");
+    if (x->md5 != NULL) { /* in the place of the links */
+        char *const links = strstr(xml, "<ValidPointsLink>");
+        assert_non_null(links);
+        snprintf(links, sizeof xml - (size_t)(links - xml),
+                 "<MD5ChecksumPointData>%s</MD5ChecksumPointData></DataLink></Record3>"
+                 "</p:ISO5436_2>",
+                 x->md5);
+    }
     const char *folder = x->folder != NULL ? x->folder : "";
     add_entry(&m, "", "__MACOSX/main.xml", "no", 2);
     add_entry(&m, folder, "main.xml", xml, strlen(xml));
@@ -286,6 +296,32 @@ static void test_x3p_missing(void **state)
     assert_true(isnan(images[0].values[1]));
     assert_near(images[0].values[2], -3.5e-6, 1e-12);
     clear_images(images, n);
+}
+
+/* The checksum of the heights, in capitals or not. */
+static void test_x3p_checksum(void **state)
+{
+    (void)state;
+    const made doubles = doubles_of_heights();
+    char hex[33], capitals[33];
+    digest_md5("abc", 3, hex);
+    assert_string_equal(hex, "900150983cd24fb0d6963f7d28e17f72"); /* RFC 1321 */
+    digest_md5(doubles.bytes, doubles.n, hex);
+    for (size_t i = 0; i < sizeof hex; i++)
+        capitals[i] = (char)toupper((unsigned char)hex[i]);
+    const char *const good[] = {hex, capitals};
+    for (size_t i = 0; i < COUNT_OF(good); i++) {
+        const made m =
+            x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .md5 = good[i]});
+        wt_image *images = NULL;
+        size_t n = 0;
+        assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
+        check_heights(&images[0], 2e-6);
+        clear_images(images, n);
+    }
+    hex[5] = hex[5] == '0' ? '1' : '0';
+    const made m = x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .md5 = hex});
+    refused_as(&m, WT_E_CORRUPT, "checksum differs");
 }
 
 static void test_x3p_profile(void **state)
@@ -608,11 +644,11 @@ static void test_measured_spectra(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gwyddion),         cmocka_unit_test(test_gwyddion_lies),
-        cmocka_unit_test(test_x3p_types),        cmocka_unit_test(test_x3p_missing),
-        cmocka_unit_test(test_x3p_profile),      cmocka_unit_test(test_x3p_refused),
-        cmocka_unit_test(test_measured),         cmocka_unit_test(test_measured_rows),
-        cmocka_unit_test(test_measured_spectra),
+        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_lies),
+        cmocka_unit_test(test_x3p_types),     cmocka_unit_test(test_x3p_missing),
+        cmocka_unit_test(test_x3p_profile),   cmocka_unit_test(test_x3p_checksum),
+        cmocka_unit_test(test_x3p_refused),   cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_measured_rows), cmocka_unit_test(test_measured_spectra),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

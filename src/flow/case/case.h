@@ -60,6 +60,7 @@ struct wt_case {
     wt_surface surface;  /* the law, or the cut-offs and the error of the spectrum */
     case_files spectrum; /* one file */
     case_files height_maps;
+    wt_topography_job topography; /* of them */
 
     bool has_sliding;
     wt_sliding sliding;

@@ -101,8 +101,7 @@ static wt_status take_measured(const wt_case *c, const wt_job *work, wt_surface 
                                wt_topography_tables *tables, wt_error *err)
 {
     wt_surface measured = {0};
-    wt_status status =
-        flow_surface_measure(c->height_maps.sets, c->height_maps.n, work, &measured, tables, err);
+    wt_status status = flow_surface_measure(&c->topography, work, &measured, tables, err);
     if (status == WT_OK)
         status = flow_surface_check(&measured, err);
     if (status == WT_OK)

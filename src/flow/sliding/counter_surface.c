@@ -175,14 +175,11 @@ static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_er
     return take_errors(table, surface, &taken, err);
 }
 
-wt_status flow_surface_measure(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
                                wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_job job = wt_topography_job_defaults();
     wt_topography_tables made = {NULL, NULL, NULL};
-    job.sets = sets;
-    job.n_sets = n_sets;
-    wt_status status = wt_topography_make(&job, work, &made, err);
+    wt_status status = wt_topography_make(job, work, &made, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     if (status == WT_OK)
@@ -224,7 +221,10 @@ static wt_status read_surface(const char *path, const wt_read_options *read, con
     const wt_file_set set = {
         .patterns = &path, .n_patterns = 1, .read = read != NULL ? *read : wt_read_defaults()};
     flow_files files = {NULL, 0, NULL};
+    wt_topography_job job = wt_topography_job_defaults();
     bool heights = false;
+    job.sets = &set;
+    job.n_sets = 1;
     if (work->formats == NULL)
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
     wt_status status = flow_files_list(&set, 1, work, &files, err);
@@ -233,7 +233,7 @@ static wt_status read_surface(const char *path, const wt_read_options *read, con
     if (status == WT_OK && !heights)
         status = flow_surface_read(&files.file[0], work, surface, err);
     else if (status == WT_OK)
-        status = flow_surface_measure(&set, 1, work, surface, NULL, err);
+        status = flow_surface_measure(&job, work, surface, NULL, err);
     flow_files_clear(&files);
     return status;
 }

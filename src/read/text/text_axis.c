@@ -14,8 +14,9 @@ enum { PLACES_PER_POINT = 4 };
 enum { DECIMALS_MAX = 9 };
 /* What is left of a decimal of a number that has passed through a conversion of units. */
 static const double left_of_decimal = 1e-4;
-/* Rounded to much of a step, as whole numbers are that have gaps, places say nothing of it. */
-static const double coarsest = 0.7;
+/* Of a step: whole numbers of which each third is left out are rounded to two thirds of theirs, and
+ * say nothing of equal steps. */
+static const double coarsest = 0.65;
 
 /* The unit of the last decimal that is written; 0 if there are too many. */
 static double quantum_of(const double *places, size_t n, double factor)
