@@ -83,7 +83,17 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return flow_law_parse(&self_affine, text, surface, err);
 }
 
-/* The errors of the table power_spectrum. *taken: its rows are the points that were read. */
+static double positive_key(const wt_table *table, size_t key)
+{
+    wt_estimate value = {0};
+    return wt_table_estimate(table, power_spectrum_schema.keys[key].name, &value) &&
+                   value.value > 0 && isfinite(value.value)
+               ? value.value
+               : 0;
+}
+
+/* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
+ * were read. */
 static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
@@ -105,6 +115,8 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
                           &place) &&
         place.value > 0 && isfinite(place.value))
         surface->c0.standard_error = place.value;
+    surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
+    surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
     return WT_OK;
 }
 
