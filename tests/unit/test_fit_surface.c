@@ -386,8 +386,7 @@ static void test_scatter(void **state)
 }
 
 /* What a window mixes in of longer waves is taken off, of every window: of a steep law that goes on
- * beyond the map the first bins, of two waves and more, would be 36 % too high with the one and 20
- * % with the other. */
+ * beyond the map the first bins, of two waves and more, would be a fifth to a third too high. */
 static void test_leak(void **state)
 {
     (void)state;
