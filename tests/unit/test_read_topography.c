@@ -421,6 +421,7 @@ static const measured_file measured_files[] = {
      .dx = 1.953125e-7, .dy = 1.953125e-7},
     {"data/afm/nanosurf/image.nid", "/data/afm/nanosurf/image.nid", false, false,
      .dx = 2.89347265625e-8, .dy = 2.89347265625e-8},
+    {"opdx-3.opdx", "/data/topography/opdx-3.opdx", false, true, .converted = true},
     {"matrix-4.txt", "/data/topography/matrix-4.txt", true, true, .dx = 0},
     {"dektak-1.csv", "/data/topography/dektak-1.csv", false, true, .dx = 0},
     {"xy-4.txt", "/data/topography/xy-4.txt", false, true, .units = {"x=um", "z=um"}},
