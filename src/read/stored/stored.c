@@ -87,7 +87,7 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     if (status == WT_OK && n_measured == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep, spectrum or image in it");
-        wt_error_expected(err, "what weartrack convert writes");
+        wt_error_expected(err, "what `weartrack convert` writes of measurements");
         wt_error_advice(err, "`weartrack table --list` shows what is in it");
         if (wt_result_n_tables(result) > 0)
             wt_error_found(err, "other tables, the first is \"%s\"",
