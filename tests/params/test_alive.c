@@ -92,6 +92,9 @@ static const struct {
     {"extrapolation", "slope", "moduli points", NULL},
     {"at", "25degC", NULL, NULL},
     {"peak-points", "5", NULL, NULL},
+    {"tip-radius", "5um", NULL, NULL},
+    {"end", "1e6rad/m", NULL, NULL},
+    {"end-slope", "0.3", NULL, NULL},
     {"c1", "9", NULL, NULL},
     {"c2", "110K", NULL, NULL},
 };

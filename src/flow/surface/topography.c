@@ -28,7 +28,7 @@ static const wt_param rows[] = {
      .help = "window before the transform; none is for surfaces that go on beyond their edges"},
     {PARAM("largest-missing", wt_topography_job, options.largest_missing, WT_Q_NONE,
            FROM_BELOW(0, 1)),
-     .value = "X",
+     .value = "X", .flags = PARAM_NO_CASE,
      .help = "share of missing heights up to which they are filled; a scan with more is refused"},
     {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
      .value = "N", .help = "fewest points of a wave that is reliable"},
@@ -38,7 +38,7 @@ static const wt_param rows[] = {
          "radius of the tip that scanned, such as 10nm: the reliable range ends where peaks are "
          "as sharp as half of its curvature"},
     {PARAM_TEXT_OF("image", wt_topography_job, image), .value = "NAME",
-     .unset = "the first image of heights",
+     .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
     {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
      .unset = "the end of the reliable range",
