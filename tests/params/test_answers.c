@@ -123,6 +123,7 @@ static const struct {
     {"self-affine", "<roughness><self-affine>", "</self-affine></roughness>"},
     {"sliding", "<sliding><strain-softening><file>x</file></strain-softening>", "</sliding>"},
     {"spectrum", "<roughness><spectrum><file>x</file>", "</spectrum></roughness>"},
+    {"measured", "<roughness>", "<files>x</files></roughness>"},
 };
 
 static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text)
