@@ -199,6 +199,7 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
       "amplitude spectral density of the detector")                                                \
     X(WT_Q_MASS_DENSITY, "mass_density", "kg/m^3", "mass per volume")                              \
     X(WT_Q_THERMAL_EXPANSION, "thermal_expansion", "1/K", "coefficient of linear expansion")       \
+    X(WT_Q_SURFACE_HEIGHT, "surface_height", "m", "height of a surface")                           \
     X(WT_Q_RELAXATION_MODULUS, "relaxation_modulus", "Pa", "tensile relaxation modulus E(t)")      \
     X(WT_Q_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "Pa",                             \
       "shear relaxation modulus G(t)")                                                             \

@@ -691,10 +691,13 @@ typedef struct wt_surface {
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
+    double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
+    double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
-/* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a
- * spectrum. read NULL = defaults. */
+/* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%", the path of a
+ * spectrum, or that of a height map, or a folder or pattern of several, which are then transformed
+ * as by wt_topography_make. read NULL = defaults. */
 WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
                                  wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* The law with all densities multiplied by `factor` > 0. It borrows nothing. */

@@ -129,6 +129,8 @@ typedef struct wt_read_options {
     const char *temperature_in_name; /* pattern of the names of files that say no temperature: a "#"
                                         stands where it does, in degrees Celsius, a "*" for
                                         anything; NULL = none */
+    double pixel_size;               /* [m] of images whose file does not give their size; NaN */
+    const char *height_unit;         /* of images whose values the file gives as no length; NULL */
     double frequency; /* [Hz] of sweeps of strain or temperature whose file gives none; NaN */
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */

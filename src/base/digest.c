@@ -1,4 +1,4 @@
-/* SHA-256 by libcrypto. SPDX-License-Identifier: GPL-3.0-or-later */
+/* SHA-256 and MD5 by libcrypto. SPDX-License-Identifier: GPL-3.0-or-later */
 
 /* The interface of OpenSSL 1.1 to it, which needs no memory and cannot fail. */
 #define OPENSSL_API_COMPAT 0x10100000L
@@ -7,19 +7,35 @@
 
 #include "base/mix.h"
 
+#include <openssl/md5.h>
 #include <openssl/sha.h>
 #include <string.h>
 
-static void finish_digest(SHA256_CTX *context, char hex[65])
+static void write_hex(const unsigned char *digest, size_t n, char *hex)
 {
     static const char digits[] = "0123456789abcdef";
-    unsigned char digest[SHA256_DIGEST_LENGTH];
-    SHA256_Final(digest, context);
-    for (size_t i = 0; i < sizeof digest; i++) {
+    for (size_t i = 0; i < n; i++) {
         hex[2 * i] = digits[digest[i] >> 4];
         hex[2 * i + 1] = digits[digest[i] & 15];
     }
-    hex[2 * sizeof digest] = '\0';
+    hex[2 * n] = '\0';
+}
+
+static void finish_digest(SHA256_CTX *context, char hex[65])
+{
+    unsigned char digest[SHA256_DIGEST_LENGTH];
+    SHA256_Final(digest, context);
+    write_hex(digest, sizeof digest, hex);
+}
+
+void digest_md5(const void *bytes, size_t length, char hex[33])
+{
+    unsigned char digest[MD5_DIGEST_LENGTH];
+    MD5_CTX context;
+    MD5_Init(&context);
+    MD5_Update(&context, bytes, length);
+    MD5_Final(digest, &context);
+    write_hex(digest, sizeof digest, hex);
 }
 
 void wt_digest(const void *bytes, size_t length, char hex[65])

@@ -11,5 +11,7 @@ typedef wt_status digest_source(void *user, size_t from, void *to, size_t n, wt_
  * left out of the bytes, in a fifth of the time. */
 wt_status digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
                         uint64_t *fingerprint, wt_error *err) WT_NODISCARD;
+/* MD5, by which files say that their bytes are those that were written. */
+void digest_md5(const void *bytes, size_t length, char hex[33]);
 
 #endif

@@ -18,7 +18,7 @@ int cmd_psd(int argc, char **argv)
     wt_topography_job job = wt_topography_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_part parts[] = {{wt_topography_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "format", 0}};
+                        {wt_read_params(), &set.read, "units pixel-size height-unit format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_topography_tables made = {0};
     wt_table **const tables[] = {&made.power_spectrum, &made.surfaces, &made.scan_spectra};

@@ -14,8 +14,8 @@ static const wt_param contact_rows[] = {
     {PARAM_TEXTS_OF("dma", cmd_contact, dma_files, n_dma), .value = "FILE", .unset = "",
      .help = "DMA file, folder or pattern instead of --material; repeatable"},
     {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
-     .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4 or a "
-             "spectrum file"},
+     .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4, a "
+             "spectrum file, or height maps of it: a file, or a folder or pattern of several"},
     {PARAM_TEXT_OF("strain-softening", cmd_contact, softening), .value = "FILE", .unset = "",
      .help = "how the moduli soften with strain: output of weartrack payne, or a table with "
              "columns strain, f and g (and f_error, g_error), by which E' and E'' are multiplied"},
@@ -48,7 +48,8 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->parts[CMD_TRANSVERSE] = (cmd_part){wt_transverse_params(), &s->transverse, NULL, 0};
     s->parts[CMD_READ] = (cmd_part){
         wt_read_params(), &s->set.read,
-        "temperature temperature-in-name units format sheet deformation strain sample sample-by",
+        "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
+        "strain sample sample-by",
         0};
     s->parts[CMD_OWN] = own;
 }
@@ -174,7 +175,7 @@ bool cmd_sliding_open(cmd_sliding *s)
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
         wrong_words = status != WT_OK && is_law(s->contact.roughness);
         if (status == WT_E_NOT_FOUND)
-            wt_error_advice(err, "--roughness takes a spectrum file or "
+            wt_error_advice(err, "--roughness takes a spectrum, height maps or "
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
     if (status == WT_OK && s->contact.softening != NULL) {

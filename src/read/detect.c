@@ -245,6 +245,10 @@ static wt_status fail_ambiguous(const file_reader *a, const file_reader *b, wt_e
     return WT_E_AMBIGUOUS;
 }
 
+/* The score of descriptions that know numbers without a name: they may be of any kind, and that
+ * those of another one could take them is no answer. */
+static const int numbers_alone = 5;
+
 static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
                         const file_reader **reader, wt_error *err)
 {
@@ -260,7 +264,7 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
             *reader = v->best;
             return WT_OK;
         }
-        if (other->best != NULL)
+        if (other->best != NULL && other->score > numbers_alone)
             return wrong_kind(other->best, kinds, err);
         if (q == ASK_TEXTS && v->unsupported != NULL) {
             wt_fail(err, WT_E_UNSUPPORTED, "%s", v->reason);

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define MAX_PIXELS ((size_t)1 << 28)
 
@@ -71,8 +72,67 @@ static void note_missing(wt_image *image, const char *file, wt_parselog *log)
         image->height = (double)NAN;
     (void)samples_mend(&image->x_min, 1);
     (void)samples_mend(&image->y_min, 1);
-    if (isnan(image->width) || isnan(image->height))
-        wt_parselog_add(log, WT_WARNING, file, image->name, "the size of the image is not known");
+}
+
+/* ---- what the user says ---------------------------------------------------------------------- */
+
+/* Unlike sizes that are one in other words. */
+static const double other_size = 1e-3;
+
+static void give_pixels(wt_image *image, double pixel, const char *file, wt_parselog *log)
+{
+    const bool area = strcmp(image->x_unit, "m") == 0 || image->n_rows > 1;
+    const double width = pixel * (double)(image->n_columns - 1);
+    if (isnan(pixel) || !area)
+        return;
+    if (fabs(image->width - width) > other_size * width)
+        wt_parselog_add(log, WT_WARNING, file, image->name,
+                        "the file gives pixels of another size; that of --pixel-size is taken");
+    image->width = width;
+    image->height = pixel * (double)(image->n_rows - 1);
+    snprintf(image->x_unit, sizeof image->x_unit, "m");
+}
+
+static wt_status give_unit(wt_image *image, const char *unit, const char *file, wt_parselog *log,
+                           wt_error *err)
+{
+    double factor = 1, offset = 0;
+    if (unit == NULL || strcmp(image->unit, "m") == 0)
+        return WT_OK;
+    const wt_status status = wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, err);
+    if (status != WT_OK)
+        return status;
+    if (strcmp(image->unit, "1") != 0)
+        wt_parselog_add(log, WT_WARNING, file, image->name,
+                        "the file gives its values in %s; they are taken as heights in %s",
+                        image->unit, unit);
+    for (size_t i = 0; i < image->n_columns * image->n_rows; i++)
+        image->values[i] *= factor;
+    snprintf(image->unit, sizeof image->unit, "m");
+    return WT_OK;
+}
+
+wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
+                       wt_parselog *log, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        give_pixels(&images[i], options->pixel_size, file, log);
+        status = give_unit(&images[i], options->height_unit, file, log, err);
+        if (isnan(images[i].width) || isnan(images[i].height))
+            wt_parselog_add(log, WT_WARNING, file, images[i].name,
+                            "the size of the image is not known; --pixel-size gives it");
+    }
+    return status;
+}
+
+void images_free(wt_image **images, size_t *n)
+{
+    for (size_t i = 0; i < *n; i++)
+        wt_image_clear(&(*images)[i]);
+    free(*images);
+    *images = NULL;
+    *n = 0;
 }
 
 wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
@@ -86,9 +146,7 @@ wt_status images_end(image_list *list, wt_status status, const char *file, wt_pa
         *images = list->images;
         *n = list->n;
     } else {
-        for (size_t i = 0; i < list->n; i++)
-            wt_image_clear(&list->images[i]);
-        free(list->images);
+        images_free(&list->images, &list->n);
     }
     *list = (image_list){NULL, 0};
     return status;
@@ -101,8 +159,9 @@ wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read
     wt_image *images = NULL;
     wt_error no_images = WT_ERROR_INIT;
     size_t n = 0;
-    const wt_status status =
-        reader->read_images(reader, input, options, log, &images, &n, &no_images);
+    wt_status status = reader->read_images(reader, input, options, log, &images, &n, &no_images);
+    if (status == WT_OK)
+        status = images_given(images, n, options, wt_input_name(input), log, &no_images);
     for (size_t i = 0; i < n; i++) {
         char item[32], width[32], height[32];
         wt_format_si(images[i].width, "m", 4, width, sizeof width);

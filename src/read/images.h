@@ -27,10 +27,15 @@ void images_set_units(wt_image *head, const char *unit_xy, const char *unit_z, d
                       double height, double *factor);
 /* Cut where it is too long, but not within a character. */
 void images_set_name(wt_image *head, const char *name);
-/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. What is
- * missing of an image, pixels or its size, goes to the log; a size that is none is NaN. */
+void images_free(wt_image **images, size_t *n);
+/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. Pixels
+ * that are missing go to the log; a size that is none is NaN. */
 wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
                      wt_image **images, size_t *n, wt_error *err);
+/* What the user says of images whose file does not: the size of their pixels, the unit of heights.
+ * A size that nobody knows is warned of. */
+wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
+                       wt_parselog *log, wt_error *err);
 /* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
  * with `curves` and `no_curves`: no curves are no failure beside an image. */
 struct file_reader;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/formats.h"
+#include "read/images.h"
 
 wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, wt_sweep *sweep, wt_error *err)
@@ -70,6 +71,11 @@ wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_re
     wt_status status = read_start(formats, input, options, WT_KIND_IMAGE, &r, err);
     if (status == WT_OK)
         status = r.reader->read_images(r.reader, r.content, &r.options, log, images, n, err);
+    if (status == WT_OK) {
+        status = images_given(*images, *n, &r.options, wt_input_name(input), log, err);
+        if (status != WT_OK)
+            images_free(images, n);
+    }
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

@@ -23,6 +23,8 @@ wt_read_options wt_read_defaults(void)
         .sheet = NULL,
         .strain = (double)NAN,
         .frequency = (double)NAN,
+        .pixel_size = (double)NAN,
+        .height_unit = NULL,
     };
 }
 
@@ -35,6 +37,13 @@ static wt_status check_pattern(const void *member, wt_error *err)
     wt_fail(err, WT_E_ARG, "\"%s\" does not say where in a name the temperature stands", pattern);
     wt_error_expected(err, "one # in its place, such as \"*_#degC*\"");
     return WT_E_ARG;
+}
+
+static wt_status check_length_unit(const void *member, wt_error *err)
+{
+    const char *unit = *(const char *const *)member;
+    double factor = 1, offset = 0;
+    return unit == NULL ? WT_OK : wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, err);
 }
 
 static const wt_param rows[] = {
@@ -52,6 +61,13 @@ static const wt_param rows[] = {
      .help = "frequency of strain and temperature sweeps whose files say none, such as 10Hz"},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
      .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
+    {PARAM("pixel-size", wt_read_options, pixel_size, WT_Q_LENGTH, ABOVE(0)), .value = "L",
+     .unset = "",
+     .help = "distance of the pixels of height maps whose files do not give their "
+             "size, such as 0.5um"},
+    {PARAM_TEXT_OF("height-unit", wt_read_options, height_unit), .value = "UNIT", .unset = "",
+     .help = "unit of the values of height maps whose files do not give it as a length, such as nm",
+     .check = check_length_unit},
     {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
      .help = "read the files as this format (see weartrack formats list)"},
     {PARAM_TEXT_OF("sheet", wt_read_options, sheet), .value = "NAME", .unset = "",

@@ -31,7 +31,7 @@ set(within_read/force_contradiction.c read/force_source.h read/force_contradicti
 set(within_read/images.h read/bytes read/facts.h)
 set(within_read/bytes "")
 set(within_read/description read/reader.h read/embedded_formats.h read/bytes)
-set(within_read/text read/reader.h read/facts.h read/force_source.h read/bytes read/description)
+set(within_read/text read/reader.h read/images.h read/facts.h read/force_source.h read/bytes read/description)
 set(within_read/packed read/bytes)
 set(within_read/hierarchy read/reader.h read/bytes)
 set(within_read/gwyddion read/reader.h read/facts.h read/images.h read/bytes read/gwy)

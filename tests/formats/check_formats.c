@@ -79,6 +79,8 @@ static void take_options(reading *r)
             r->options.spring_constant = number(r->values[i]);
         else if (strcmp(r->keys[i], "sensitivity") == 0)
             r->options.sensitivity = number(r->values[i]);
+        else if (strcmp(r->keys[i], "pixel_size") == 0)
+            r->options.pixel_size = number(r->values[i]);
         else if (strcmp(r->keys[i], "said") == 0)
             r->options.deformation = strcmp(r->values[i], "shear") == 0 ? WT_DEFORMATION_SHEAR
                                      : strcmp(r->values[i], "bending") == 0
@@ -352,6 +354,55 @@ static void check_record(reading *r, const wt_formats *formats, wt_input *input)
     wt_record_clear(&record);
 }
 
+static void check_image_number(reading *r, const char *key, const char *value, const wt_image *m)
+{
+    const size_t n = m->n_columns * m->n_rows;
+    size_t missing = 0;
+    for (size_t i = 0; i < n; i++)
+        missing += isnan(m->values[i]) != 0;
+    const struct {
+        const char *key;
+        double number;
+    } numbers[] = {{"wide", (double)m->n_columns},
+                   {"high", (double)m->n_rows},
+                   {"width", m->width},
+                   {"height", m->height},
+                   {"x_min", m->x_min},
+                   {"missing", (double)missing},
+                   {"first", m->values[0]},
+                   {"last", m->values[(m->n_rows - 1) * m->n_columns]},
+                   {"last_point", m->values[n - 1]}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (strcmp(key, numbers[i].key) == 0)
+            is(r, key, numbers[i].number, value);
+}
+
+static void check_image(reading *r, const wt_formats *formats, wt_input *input)
+{
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    const wt_status status = wt_images_read(formats, input, &r->options, log, &images, &n, &err);
+    if (status == WT_OK && item(r, "warning") != NULL)
+        check_warning(r, log);
+    wt_parselog_free(log);
+    if (!has_status(r, status, &err))
+        return;
+    for (size_t i = 0; i < r->n; i++) {
+        char wanted[128];
+        with_blanks(r->values[i], wanted, sizeof wanted);
+        check_image_number(r, r->keys[i], r->values[i], &images[0]);
+        if (strcmp(r->keys[i], "name") == 0)
+            is_word(r, "name", images[0].name, wanted);
+        else if (strcmp(r->keys[i], "unit") == 0)
+            is_word(r, "unit", images[0].unit, wanted);
+    }
+    for (size_t i = 0; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+}
+
 static void check_spectrum(reading *r, const wt_formats *formats, wt_input *input)
 {
     wt_power_spectrum p = {.n = 0};
@@ -387,7 +438,9 @@ static void check_facts(reading *r, const wt_formats *formats, wt_input *input)
     }
     for (size_t i = 0; i < wt_table_n_rows(facts); i++)
         columns += strncmp(wt_table_text(facts, i, 0), "column \"", 8) == 0;
-    if (columns < 2 && item(r, "found") == NULL)
+    /* Those of a matrix are alike. */
+    const size_t fewest = strcmp(r->kind, "image") == 0 ? 1 : 2;
+    if (columns < fewest && item(r, "found") == NULL)
         fail(r, "the facts name %zu columns", columns);
     wt_table_free(facts);
 }
@@ -419,6 +472,8 @@ static void check(reading *r, const wt_formats *formats, const char *fixtures)
         check_record(r, formats, input);
     else if (strcmp(r->kind, "spectrum") == 0)
         check_spectrum(r, formats, input);
+    else if (strcmp(r->kind, "image") == 0)
+        check_image(r, formats, input);
     else
         fail(r, "unknown kind %s", r->kind);
     check_facts(r, formats, input);

@@ -20,9 +20,12 @@ typedef struct numbers {
     size_t n_failed; /* curves that could not be read, which is said of each */
 } numbers;
 
+/* What is missing is no number. */
 static inline void keep(numbers *all, const double *values, size_t n)
 {
     for (size_t i = 0; values != NULL && i < n; i++) {
+        if (isnan(values[i]))
+            continue;
         if (all->n == all->room) {
             all->room = 2 * all->room + 1024;
             all->values = realloc(all->values, all->room * sizeof *all->values);

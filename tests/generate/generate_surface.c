@@ -7,6 +7,8 @@
 
 /* Of a ground steel or fine asphalt: 1 um rms, waves down to two points. */
 static const made_surface wide = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true};
+/* Of the bundled case: a road of 40 um rms. */
+static const made_surface road = {256, 6.4e-3, 23, 126, 2e-17, 4e3, 0.8, 0, true};
 static const made_surface narrow = {256, 20e-6, 22, 126, 6e-26, 6e5, 0.8, 0, true};
 
 static int write_field(const char *folder, const char *name, const made_surface *s, size_t n,
@@ -45,6 +47,8 @@ int main(int argc, char **argv)
         if (write_field(argv[1], name, &wide, 250, 1, 2, 5 + 31 * i) != 0)
             return 1;
     }
+    if (write_field(argv[1], "road.gsf", &road, 160, 160, 40, 60) != 0)
+        return 1;
     return write_field(argv[1], "place-1.gsf", &wide, 112, 112, 5, 9) ||
            write_field(argv[1], "place-2.gsf", &wide, 112, 112, 130, 131) ||
            write_field(argv[1], "near-by.gsf", &narrow, 112, 112, 40, 60);

@@ -23,6 +23,7 @@ static const struct {
     {"wlf", {case_wlf_params, NULL}},
     {"self-affine", {flow_self_affine_params, NULL}},
     {"spectrum", {flow_spectrum_params, NULL}},
+    {"measured", {wt_topography_job_params, NULL}},
     {"sliding", {wt_sliding_params, NULL}},
     {"layer", {wt_layer_job_params, wt_layer_known_params}},
     {"record", {wt_record_job_params, NULL}},

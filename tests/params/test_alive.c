@@ -107,6 +107,9 @@ static const struct {
     {"extrapolation", "slope", "moduli points", NULL},
     {"at", "25degC", NULL, NULL},
     {"peak-points", "5", NULL, NULL},
+    {"tip-radius", "5um", NULL, NULL},
+    {"end", "1e6rad/m", NULL, NULL},
+    {"end-slope", "0.3", NULL, NULL},
     {"c1", "9", NULL, NULL},
     {"c2", "110K", NULL, NULL},
     {"load", "6N", NULL, NULL},
@@ -132,6 +135,8 @@ static const struct {
     {NULL, "format", "overrules what is found: tests/cli"},
     {NULL, "columns", "for tables with other names: tests/cli/options.txt"},
     {NULL, "units", "for files without units: tests/formats"},
+    {NULL, "pixel-size", "for images without a size: tests/formats"},
+    {NULL, "height-unit", "for images without a unit: unit_read_images"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
     {NULL, "sample", "for sweeps of several samples: cli_samples"},
     {NULL, "sample-by", "for sweeps of several samples: cli_samples"},
@@ -445,6 +450,7 @@ static const struct {
      "<roughness><self-affine>", "</self-affine></roughness>"},
     {"spectrum", "", "<roughness><spectrum><file>../formats/table-spectrum/surface.txt</file>",
      "</spectrum></roughness>"},
+    {"measured", "", "<roughness>", "<files>../surface/place-1.gsf</files></roughness>"},
     {"sliding",
      "<pressure>0.4MPa</pressure><velocity>0.1m/s,0.3m/s,1m/s</velocity>"
      "<temperature>30degC</temperature><shear-stress>5MPa</shear-stress>",
@@ -491,10 +497,11 @@ static void make_case(size_t s, const char *name, const char *text, const char *
     snprintf(xml, size, "<case version='1'>");
     for (size_t f = 0; f < N_FRAMES; f++) {
         const bool own = strcmp(frames[f].section, section) == 0;
-        const bool other =
-            (strcmp(frames[f].section, "dma") == 0 && !is_dma_part(section)) ||
-            (strcmp(frames[f].section, "self-affine") == 0 && strcmp(section, "spectrum") != 0) ||
-            strcmp(frames[f].section, "sliding") == 0 || strcmp(frames[f].section, "layer") == 0;
+        const bool other = (strcmp(frames[f].section, "dma") == 0 && !is_dma_part(section)) ||
+                           (strcmp(frames[f].section, "self-affine") == 0 &&
+                            strcmp(section, "spectrum") != 0 && strcmp(section, "measured") != 0) ||
+                           strcmp(frames[f].section, "sliding") == 0 ||
+                           strcmp(frames[f].section, "layer") == 0;
         if (!own && (indents || !other))
             continue;
         strncat(xml, frames[f].before, size - strlen(xml) - 1);

@@ -135,6 +135,7 @@ static const struct {
     {"sliding", "<sliding><strain-softening><file>x</file></strain-softening>", "</sliding>"},
     {"spectrum", "<roughness><spectrum><file>x</file>", "</spectrum></roughness>"},
     {"record", "<record>", "<files>x</files></record>"},
+    {"measured", "<roughness>", "<files>x</files></roughness>"},
 };
 
 static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text)

@@ -6,7 +6,7 @@
 const surface_scene surface_scenes[] = {
     {NAMED("S1", "one scan"), STATED},
     {NAMED("S2", "one scan of a bowl"), STATED, .form = 5},
-    {NAMED("S3", "two places and two near by"), .places = 2, .near_by = 2},
+    {NAMED("S3", "two places and two near by"), STATED, .places = 2, .near_by = 2},
     {NAMED("S4", "six places that scatter by 0.3"), STATED, .places = 6, .scatter = 0.3},
     {NAMED("S5", "six places that do not"), STATED, .places = 6},
     {NAMED("S6", "one scan, longer waves than it"), STATED, .roll_off = 3e4},

@@ -233,6 +233,104 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
+/* A height map stands where a spectrum does, and is what its own spectrum would be; of several the
+ * error of the places comes with them. */
+static void test_map_as_roughness(void **state)
+{
+    (void)state;
+    making m = {.job = wt_topography_job_defaults()};
+    wt_job work = wt_job_defaults();
+    wt_surface surface = {0};
+    wt_error err = WT_ERROR_INIT;
+    work.formats = formats;
+    make(&m, (const char *const[]){SURFACE "place-1.gsf"}, 1);
+    const wt_table *t = m.tables.power_spectrum;
+    assert_int_equal(wt_surface_open(SURFACE "place-1.gsf", NULL, &work, &surface, NULL), WT_OK);
+    assert_int_equal(surface.spectrum.n, wt_table_n_rows(t));
+    assert_non_null(surface.modes_error);
+    for (size_t i = 0; i < surface.spectrum.n; i++) {
+        assert_near(surface.spectrum.density[i], cell(t, i, "density"), 0);
+        assert_near(surface.modes_error[i], cell(t, i, "modes_error"), 0);
+    }
+    assert_near_abs(surface.c0.standard_error, 0, 0);
+    wt_surface_clear(&surface);
+    clear(&m);
+    make(&m, all + 1, 2);
+    assert_int_equal(wt_surface_open(SURFACE "place-*.gsf", NULL, &work, &surface, NULL), WT_OK);
+    assert_near(surface.spectrum.density[3], cell(m.tables.power_spectrum, 3, "density"), 0);
+    wt_surface_clear(&surface);
+    clear(&m);
+    assert_int_equal(wt_surface_open(SURFACE "none.gsf", NULL, &work, &surface, &err),
+                     WT_E_NOT_FOUND);
+}
+
+typedef struct friction_of_case {
+    wt_estimate friction;
+    double first, last; /* wavenumbers of its roughness */
+    char answer[2048];  /* all of it, one sentence after the other */
+} friction_of_case;
+
+static friction_of_case run_case(const char *roughness)
+{
+    char path[] = "/tmp/weartrack-case-XXXXXX";
+    const int fd = mkstemp(path);
+    FILE *out = fd >= 0 ? fdopen(fd, "w") : NULL;
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_error err = WT_ERROR_INIT;
+    size_t n_failed = 0;
+    friction_of_case got = {.answer = ""};
+    assert_non_null(out);
+    fprintf(out,
+            "<case version='1'><dma><files>" WT_SOURCE_DIR "/fixtures/case/dma.txt</files></dma>"
+            "<roughness>%s</roughness><sliding><pressure>0.4MPa</pressure>"
+            "<velocity>0.3m/s</velocity><temperature>30degC</temperature></sliding></case>",
+            roughness);
+    assert_int_equal(fclose(out), 0);
+    if (wt_case_read(path, &c, &err) != WT_OK ||
+        wt_run(c, NULL, NULL, &result, &n_failed, &err) != WT_OK)
+        fail_msg("%s %s: %s", roughness, err.place, err.message);
+    const wt_table *t = wt_result_find(result, "roughness"),
+                   *answer = wt_result_find(result, "answer");
+    got.friction = key_estimate(wt_result_find(result, "friction"), "hysteresis_at_reference");
+    got.first = cell(t, 0, "wavenumber");
+    got.last = cell(t, wt_table_n_rows(t) - 1, "wavenumber");
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++)
+        strncat(got.answer, cell_text(answer, i, "answer"),
+                sizeof got.answer - strlen(got.answer) - 1);
+    wt_result_free(result);
+    wt_case_free(c);
+    unlink(path);
+    return got;
+}
+
+/* From a measured map to friction with the error of the surface: the law behind the map lies within
+ * what the map adds to the error. */
+static void test_map_in_a_case(void **state)
+{
+    (void)state;
+    char law[256];
+    const friction_of_case map = run_case("<files>" SURFACE "road.gsf</files>");
+    /* the first wave of a scan is shorter than that of the roll-off */
+    snprintf(law, sizeof law,
+             "<self-affine><q0>%.17grad/m</q0><q1>%.17grad/m</q1><hurst>0.8</hurst>"
+             "<c0>%.17gm^4</c0></self-affine>",
+             map.first, map.last, 2e-17 * pow(map.first / 4e3, -2 * (1 + 0.8)));
+    const friction_of_case exact = run_case(law);
+    const double of_surface = sqrt(map.friction.standard_error * map.friction.standard_error -
+                                   exact.friction.standard_error * exact.friction.standard_error);
+    assert_true(of_surface > 0.01 * map.friction.value);
+    assert_true(of_surface < 0.1 * map.friction.value);
+    assert_near_abs(map.friction.value, exact.friction.value, 3 * of_surface);
+    assert_non_null(strstr(map.answer, "Measured, 1 scan: rms height"));
+    assert_null(strstr(exact.answer, "Measured, 1 scan"));
+    const friction_of_case cut = run_case("<end>3e4rad/m</end><files>" SURFACE "road.gsf</files>");
+    assert_near(cut.last, 3e4, 1e-9);
+    const friction_of_case beyond =
+        run_case("<end>1e6rad/m</end><files>" SURFACE "road.gsf</files>");
+    assert_near(beyond.last, 1e6, 1e-9);
+}
+
 /* What is no height map, or has none, fails; the others go on. */
 static void test_failures(void **state)
 {
@@ -259,9 +357,10 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),    cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_alone),    cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_whole),         cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_alone),         cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_failures),      cmocka_unit_test(test_map_as_roughness),
+        cmocka_unit_test(test_map_in_a_case),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -72,7 +72,8 @@ static void mistakes(void **state)
          "colour"},
         {8, "", "element table", "columns of frequency"},
         {7, "<table names=\"^x\" names-are=\"f E\" names-lines=\"^n(.*)\">", "line 7", "either"},
-        {7, "<table names-are=\"f E\">", "line 7", "names"},
+        {7, "<table names-are=\"f E\">", "line 7", "units=\"none\""},
+        {7, "<table names-lines=\"^n(.*)\">", "line 7", "names"},
         {4, "<detect><require regex=\"a(b\" score=\"5\"/></detect>", "line 4, element require",
          "a(b"},
         {4, "<detect><require regex=\"a{1,99}\" score=\"5\"/></detect>", "line 4", "repeat count"},
@@ -102,8 +103,11 @@ static void mistakes(void **state)
         {11, "</table><segments turning-point=\"true\"/>", "element segments", "force"},
         {2, "<format id=\"Mine\" version=\"2\" kinds=\"sweep\" verified=\"false\">", "line 2",
          "Mine"},
-        {2, "<format id=\"mine\" version=\"2\" kinds=\"sweep image\" verified=\"false\">", "line 2",
-         "image"},
+        {2, "<format id=\"mine\" version=\"2\" kinds=\"sweep picture\" verified=\"false\">",
+         "line 2", "picture"},
+        {2, "<format id=\"mine\" version=\"2\" kinds=\"image\" verified=\"false\">",
+         "element table", "lateral position"},
+        {7, "<table rows=\"matrix\" units=\"none\">", "element table", "lines of an image"},
         {12, "", "line 13", "end"},
     };
     (void)state;

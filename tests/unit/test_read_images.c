@@ -343,6 +343,45 @@ static void test_size(void **state)
     assert_near(head.height, 6e-6, 1e-12);
 }
 
+/* What the file does not say is given, what it says otherwise is warned of. */
+static void test_given(void **state)
+{
+    (void)state;
+    double values[] = {1, 2, 3, 4, 5, 6};
+    wt_image image = {.name = "Z",
+                      .unit = "1",
+                      .n_columns = 3,
+                      .n_rows = 2,
+                      .x_unit = "m",
+                      .width = (double)NAN,
+                      .height = (double)NAN,
+                      .values = values};
+    wt_read_options given = wt_read_defaults();
+    wt_parselog *log = wt_parselog_new();
+    given.pixel_size = 2e-6;
+    given.height_unit = "nm";
+    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_int_equal(wt_parselog_count(log), 0);
+    assert_near(image.width, 4e-6, 1e-12);
+    assert_near(image.height, 2e-6, 1e-12);
+    assert_near(values[5], 6e-9, 1e-12);
+    assert_string_equal(image.unit, "m");
+    given.pixel_size = 3e-6;
+    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_near(values[5], 6e-9, 1e-12); /* a length already */
+    assert_near(image.width, 6e-6, 1e-12);
+    assert_int_equal(wt_parselog_count(log), 1);
+    assert_non_null(strstr(wt_parselog_get(log, 0).text, "another size"));
+    snprintf(image.unit, sizeof image.unit, "V");
+    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_int_equal(wt_parselog_count(log), 2);
+    assert_non_null(strstr(wt_parselog_get(log, 1).text, "in V"));
+    given.height_unit = "apples";
+    snprintf(image.unit, sizeof image.unit, "V");
+    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_E_UNIT);
+    wt_parselog_free(log);
+}
+
 /* What is missing is said: pixels with their number, a size that is none. */
 static void test_missing(void **state)
 {
@@ -354,12 +393,12 @@ static void test_missing(void **state)
     } cases[] = {
         {4, 3, 0, 1, 1, NULL},
         {4, 3, 1, 1, 1, "1 of 12 pixels are not finite numbers and left out"},
-        {4, 3, 2, 1, 0, "the size of the image is not known"},
-        {4, 3, 0, -1, 1, "the size of the image is not known"},
+        {4, 3, 2, 1, 0, "the size of the image is not known; --pixel-size gives it"},
+        {4, 3, 0, -1, 1, "the size of the image is not known; --pixel-size gives it"},
         {4, 1, 0, 1, 0, NULL},
         {1, 3, 0, 0, 1, NULL},
-        {4, 3, 0, (double)NAN, 1, "the size of the image is not known"},
-        {4, 3, 0, 1, (double)INFINITY, "the size of the image is not known"},
+        {4, 3, 0, (double)NAN, 1, "the size of the image is not known; --pixel-size gives it"},
+        {4, 3, 0, 1, (double)INFINITY, "the size of the image is not known; --pixel-size gives it"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         image_list list = {NULL, 0};
@@ -376,6 +415,8 @@ static void test_missing(void **state)
         for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
             values[k] = k < cases[i].missing ? (k == 0 ? (double)NAN : (double)INFINITY) : 1;
         assert_int_equal(images_end(&list, WT_OK, "file", log, &images, &n, NULL), WT_OK);
+        const wt_read_options nothing = wt_read_defaults();
+        assert_int_equal(images_given(images, n, &nothing, "file", log, NULL), WT_OK);
         const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
         const size_t said = (cases[i].missing > 0) + (size_t)unknown;
         assert_int_equal(wt_parselog_count(log), said);
@@ -395,10 +436,11 @@ static void test_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_list),       cmocka_unit_test(test_size),
-        cmocka_unit_test(test_missing),    cmocka_unit_test(simple_field),
-        cmocka_unit_test(nanoscope_image), cmocka_unit_test(igor_image),
-        cmocka_unit_test(park_image),      cmocka_unit_test(measured),
+        cmocka_unit_test(test_list),    cmocka_unit_test(test_size),
+        cmocka_unit_test(test_given),   cmocka_unit_test(test_missing),
+        cmocka_unit_test(simple_field), cmocka_unit_test(nanoscope_image),
+        cmocka_unit_test(igor_image),   cmocka_unit_test(park_image),
+        cmocka_unit_test(measured),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -3,10 +3,12 @@
 #include "made_file.h"
 
 #include "base/array.h"
+#include "base/digest.h"
 #include "fit/surface/surface.h"
 #include "fit/surface/surface_heights.h"
 #include "fuzz/pack_list.h"
 
+#include <ctype.h>
 #include <math.h>
 
 /* ---- what is made ---------------------------------------------------------------------------- */
@@ -177,7 +179,7 @@ static void test_gwyddion_lies(void **state)
 
 typedef struct made_x3p {
     const char *folder, *feature, *x_axis, *type, *rest; /* in the axis of z */
-    const char *size, *record3;
+    const char *size, *record3, *md5;
     const made *data, *valid;
 } made_x3p;
 
@@ -209,6 +211,14 @@ static made x3p_of(const made_x3p *x)
                  ? x->record3
                  : "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
                    "<ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink>");
+    if (x->md5 != NULL) { /* in the place of the links */
+        char *const links = strstr(xml, "<ValidPointsLink>");
+        assert_non_null(links);
+        snprintf(links, sizeof xml - (size_t)(links - xml),
+                 "<MD5ChecksumPointData>%s</MD5ChecksumPointData></DataLink></Record3>"
+                 "</p:ISO5436_2>",
+                 x->md5);
+    }
     const char *folder = x->folder != NULL ? x->folder : "";
     add_entry(&m, "", "__MACOSX/main.xml", "no", 2);
     add_entry(&m, folder, "main.xml", xml, strlen(xml));
@@ -288,6 +298,32 @@ static void test_x3p_missing(void **state)
     clear_images(images, n);
 }
 
+/* The checksum of the heights, in capitals or not. */
+static void test_x3p_checksum(void **state)
+{
+    (void)state;
+    const made doubles = doubles_of_heights();
+    char hex[33], capitals[33];
+    digest_md5("abc", 3, hex);
+    assert_string_equal(hex, "900150983cd24fb0d6963f7d28e17f72"); /* RFC 1321 */
+    digest_md5(doubles.bytes, doubles.n, hex);
+    for (size_t i = 0; i < sizeof hex; i++)
+        capitals[i] = (char)toupper((unsigned char)hex[i]);
+    const char *const good[] = {hex, capitals};
+    for (size_t i = 0; i < COUNT_OF(good); i++) {
+        const made m =
+            x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .md5 = good[i]});
+        wt_image *images = NULL;
+        size_t n = 0;
+        assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
+        check_heights(&images[0], 2e-6);
+        clear_images(images, n);
+    }
+    hex[5] = hex[5] == '0' ? '1' : '0';
+    const made m = x3p_of(&(made_x3p){.type = "D", .rest = "", .data = &doubles, .md5 = hex});
+    refused_as(&m, WT_E_CORRUPT, "checksum differs");
+}
+
 static void test_x3p_profile(void **state)
 {
     (void)state;
@@ -356,164 +392,264 @@ static size_t split(char *line, char *cells[FIELDS])
     return n;
 }
 
-static void compare_measured(const wt_image *image, char *const cells[FIELDS], bool flipped,
-                             bool mirrored, bool steps)
+/* Measured files: how they are read, and which of the numbers of other code they are compared with.
+ */
+typedef struct measured_file {
+    const char *name, *path;
+    bool flipped;   /* line 0 of the file is the uppermost */
+    bool steps;     /* its size is known */
+    bool converted; /* by the program Gwyddion, where it is */
+    bool mirrored;  /* each line begins with its last point */
+    const char *units[2];
+    double dx, dy; /* for the spectrum where the file has no size; 0 */
+} measured_file;
+
+static const measured_file measured_files[] = {
+    {"KautschukInfiniteFocus.x3p", "/data/topography/KautschukInfiniteFocus.x3p", false, true,
+     .dx = 0},
+    {"ISO5436-sample1.x3p", "/data/topography/ISO5436-sample1.x3p", false, true, .dx = 0},
+    {"ISO5436-sample4_bin.x3p", "/data/topography/ISO5436-sample4_bin.x3p", false, true, .dx = 0},
+    {"whitelight.gsf", "/data/topography/whitelight.gsf", true, false, .dx = 5e-9, .dy = 1e-8},
+    {"test.gwy", "/data/topography/test.gwy", true, false, .dx = 1, .dy = 1},
+    {"sur-2.sur", "/data/topography/sur-2.sur", true, true, .converted = true},
+    {"al3d-1.al3d", "/data/topography/al3d-1.al3d", true, true, .converted = true},
+    {"test_1.opd", "/data/topography/test_1.opd", false, true, .converted = true},
+    {"sdf-1.sdf", "/data/topography/sdf-1.sdf", true, true, .converted = true},
+    {"top-1.top", "/data/topography/top-1.top", false, true, .converted = true, .mirrored = true},
+    /* Ours go from the middle of the first pixel to that of the last. */
+    {"data/afm/nanosurf/circles.nid", "/data/afm/nanosurf/circles.nid", false, false,
+     .dx = 1.953125e-7, .dy = 1.953125e-7},
+    {"data/afm/nanosurf/image.nid", "/data/afm/nanosurf/image.nid", false, false,
+     .dx = 2.89347265625e-8, .dy = 2.89347265625e-8},
+    {"opdx-3.opdx", "/data/topography/opdx-3.opdx", false, true, .converted = true},
+    {"matrix-4.txt", "/data/topography/matrix-4.txt", true, true, .dx = 0},
+    {"dektak-1.csv", "/data/topography/dektak-1.csv", false, true, .dx = 0},
+    {"xy-4.txt", "/data/topography/xy-4.txt", false, true, .units = {"x=um", "z=um"}},
+    {"wear-track-C1.csv", "/data/topography/wear-track-C1.csv", false, true,
+     .units = {"Distance=mm", "Profile=um"}},
+};
+enum { WINDOW = 512 }; /* points of a profile that the numbers are of */
+
+static bool has_gwyddion(void)
 {
+    return system("gwyddion --version >/dev/null 2>&1") == 0;
+}
+
+/* The file of that name; NULL: none, or the program that reads it is not there. */
+static const measured_file *file_of(const char *name)
+{
+    static int program = -1;
+    if (program < 0)
+        program = has_gwyddion();
+    for (size_t i = 0; i < COUNT_OF(measured_files); i++)
+        if (strcmp(name, measured_files[i].name) == 0)
+            return measured_files[i].converted && program == 0 ? NULL : &measured_files[i];
+    return NULL;
+}
+
+/* Its first image. */
+static void open_measured(const measured_file *file, wt_image *image)
+{
+    char name[512];
+    wt_input *input = NULL;
+    wt_image *images = NULL;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    wt_read_options read = wt_read_defaults();
+    read.units = file->units;
+    read.n_units = file->units[0] != NULL ? 2 : 0;
+    snprintf(name, sizeof name, "%s%s", WT_SHARED_DIR, file->path);
+    assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
+    if (wt_images_read(formats, input, &read, NULL, &images, &n, &err) != WT_OK)
+        fail_msg("%s: %s %s", file->name, err.message, err.found);
+    wt_input_close(input);
+    *image = images[0];
+    for (size_t i = 1; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+}
+
+/* Point i of a line as the file stores it. */
+static double stored_point(const wt_image *image, const measured_file *file, size_t line, size_t i)
+{
+    const size_t nx = image->n_columns, row = file->flipped ? image->n_rows - 1 - line : line;
+    return image->values[row * nx + (file->mirrored ? nx - 1 - i : i)];
+}
+
+static void compare_scalars(const measured_file *file, char *const cells[FIELDS])
+{
+    wt_image image;
     wt_surface_heights h;
-    const size_t nx = image->n_columns, ny = image->n_rows;
-    const wt_height_map map = wt_height_map_of(image);
+    open_measured(file, &image);
+    const size_t nx = image.n_columns, stored = (size_t)atoi(cells[21]);
+    const bool profile = image.n_rows == 1;
+    const wt_height_map map = wt_height_map_of(&image);
     surface_heights_find(&map, &h);
     assert_int_equal(nx, atoi(cells[2]));
-    assert_int_equal(ny, atoi(cells[3]));
+    assert_int_equal(image.n_rows, atoi(cells[3]));
     assert_int_equal(h.missing, atoi(cells[9]));
     assert_near(h.rms, atof(cells[13]), 1e-9);
     assert_near(h.peak_to_valley, atof(cells[12]) - atof(cells[11]), 1e-9);
-    if (steps) {
+    if (file->steps) {
         assert_near(map.dx, atof(cells[4]), 1e-9);
-        assert_near(map.dy, atof(cells[5]), 1e-9);
         assert_near(h.slope_x, atof(cells[17]), 1e-8);
+    }
+    if (file->steps && !profile) {
+        assert_near(map.dy, atof(cells[5]), 1e-9);
         assert_near(h.slope_y, atof(cells[18]), 1e-8);
     }
-    const size_t stored = (size_t)atoi(cells[21]), row = flipped ? ny - 1 - stored : stored;
     double sum = 0, moment = 0;
-    for (size_t i = 0; i < nx; i++)
-        if (isfinite(image->values[row * nx + i])) {
-            sum += image->values[row * nx + i];
-            moment += (double)(mirrored ? nx - 1 - i : i) * image->values[row * nx + i];
-        }
+    for (size_t i = 0; i < (profile ? WINDOW : nx); i++) {
+        const double z = profile ? image.values[stored + i] : stored_point(&image, file, stored, i);
+        sum += isfinite(z) ? z : 0;
+        moment += isfinite(z) ? (double)i * z : 0;
+    }
     assert_near_abs(sum, atof(cells[23]), 1e-8 * (fabs(atof(cells[23])) + h.rms));
     assert_near_abs(moment, atof(cells[25]), 1e-8 * (fabs(atof(cells[25])) + (double)nx * h.rms));
+    wt_image_clear(&image);
 }
 
-/* The order of lines is that of the file, or the other one where that begins with the uppermost. */
+static FILE *open_numbers(const char *name)
+{
+    char numbers[512];
+    snprintf(numbers, sizeof numbers, "%s/data/topography/%s", WT_SHARED_DIR, name);
+    FILE *csv = fopen(numbers, "r");
+    if (csv == NULL)
+        skip();
+    return csv;
+}
+
 static void test_measured(void **state)
 {
     (void)state;
-    static const struct {
-        const char *name, *path;
-        bool flipped, steps; /* the steps of images without an area are not known */
-        bool converted;      /* by the program Gwyddion, where it is */
-        bool mirrored;       /* each line begins with its last point */
-    } files[] = {
-        {"KautschukInfiniteFocus.x3p", "/data/topography/KautschukInfiniteFocus.x3p", false, true,
-         false, false},
-        {"ISO5436-sample1.x3p", "/data/topography/ISO5436-sample1.x3p", false, true, false, false},
-        {"ISO5436-sample4_bin.x3p", "/data/topography/ISO5436-sample4_bin.x3p", false, true, false,
-         false},
-        {"whitelight.gsf", "/data/topography/whitelight.gsf", true, false, false, false},
-        {"test.gwy", "/data/topography/test.gwy", true, false, false, false},
-        {"sur-2.sur", "/data/topography/sur-2.sur", true, true, true, false},
-        {"al3d-1.al3d", "/data/topography/al3d-1.al3d", true, true, true, false},
-        {"test_1.opd", "/data/topography/test_1.opd", false, true, true, false},
-        {"sdf-1.sdf", "/data/topography/sdf-1.sdf", true, true, true, false},
-        {"top-1.top", "/data/topography/top-1.top", false, true, true, true}};
-    const bool has_program = system("gwyddion --version >/dev/null 2>&1") == 0;
-    FILE *csv = fopen(WT_SHARED_DIR "/data/topography/topography-scalars.csv", "r");
+    FILE *csv = open_numbers("topography-scalars.csv");
     char line[1024], *cells[FIELDS];
-    size_t n_compared = 0;
-    if (csv == NULL) {
-        skip();
+    size_t n_compared = 0, n_expected = 0;
+    if (csv == NULL)
         return;
-    }
     while (fgets(line, sizeof line, csv) != NULL) {
-        if (split(line, cells) < FIELDS)
+        const measured_file *const file = split(line, cells) == FIELDS ? file_of(cells[0]) : NULL;
+        if (file == NULL)
             continue;
-        for (size_t i = 0; i < COUNT_OF(files); i++) {
-            char name[512];
-            wt_input *input = NULL;
-            wt_image *images = NULL;
-            size_t n = 0;
-            if (strcmp(cells[0], files[i].name) != 0 || (files[i].converted && !has_program))
-                continue;
-            snprintf(name, sizeof name, "%s%s", WT_SHARED_DIR, files[i].path);
-            assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
-            assert_int_equal(wt_images_read(formats, input, NULL, NULL, &images, &n, NULL), WT_OK);
-            compare_measured(&images[0], cells, files[i].flipped, files[i].mirrored,
-                             files[i].steps);
-            wt_input_close(input);
-            clear_images(images, n);
-            n_compared++;
-        }
+        compare_scalars(file, cells);
+        n_compared++;
     }
     (void)fclose(csv);
-    assert_int_equal(n_compared, COUNT_OF(files) - (has_program ? 0 : 5));
+    for (size_t i = 0; i < COUNT_OF(measured_files); i++)
+        n_expected += file_of(measured_files[i].name) != NULL;
+    assert_int_equal(n_compared, n_expected);
+}
+
+/* One whole line of each, to the digits that are printed. */
+static void test_measured_rows(void **state)
+{
+    (void)state;
+    FILE *csv = open_numbers("topography-rows.csv");
+    char line[1024], *cells[FIELDS];
+    const measured_file *opened = NULL;
+    wt_image image = {.values = NULL};
+    size_t n_files = 0, n_expected = 0;
+    if (csv == NULL)
+        return;
+    while (fgets(line, sizeof line, csv) != NULL) {
+        const measured_file *const file = split(line, cells) == 4 ? file_of(cells[0]) : NULL;
+        if (file == NULL)
+            continue;
+        if (file != opened) {
+            wt_image_clear(&image);
+            open_measured(file, &image);
+            opened = file;
+            n_files++;
+        }
+        const size_t i = (size_t)atoi(cells[2]);
+        const double z = stored_point(&image, file, (size_t)atoi(cells[1]), i);
+        const double wanted = cells[3][0] != '\0' ? atof(cells[3]) : (double)NAN;
+        if (isnan(wanted) || isnan(z))
+            assert_int_equal(isnan(wanted) != 0, isnan(z) != 0);
+        else
+            assert_near_abs(z, wanted, 1e-11 * fabs(wanted) + 1e-20);
+    }
+    (void)fclose(csv);
+    wt_image_clear(&image);
+    for (size_t i = 0; i < COUNT_OF(measured_files); i++)
+        n_expected += file_of(measured_files[i].name) != NULL;
+    assert_int_equal(n_files, n_expected);
 }
 
 /* The spectrum of a file by the steps of another program: a plane taken off, 0 where heights are
  * missing, bins from 10^(k/10) on. */
-static void transform_measured(const char *name, bool flipped, double dx, double dy,
-                               wt_surface_spectrum *to)
+static void transform_measured(const measured_file *file, wt_surface_spectrum *to)
 {
-    wt_input *input = NULL;
-    wt_image *images = NULL;
-    size_t n = 0;
+    wt_image image;
     double form[FORM_TERMS];
-    assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
-    assert_int_equal(wt_images_read(formats, input, NULL, NULL, &images, &n, NULL), WT_OK);
-    const size_t nx = images[0].n_columns, ny = images[0].n_rows;
+    open_measured(file, &image);
+    wt_height_map map = wt_height_map_of(&image);
+    const size_t nx = image.n_columns, ny = image.n_rows;
+    const double dx = file->dx > 0 ? file->dx : map.dx, dy = file->dx > 0 ? file->dy : map.dy;
     double *z = malloc(nx * ny * sizeof *z);
     assert_non_null(z);
-    for (size_t j = 0; j < ny; j++) /* as stored */
-        memcpy(z + j * nx, images[0].values + (flipped ? ny - 1 - j : j) * nx, nx * sizeof *z);
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++)
+            z[j * nx + i] = stored_point(&image, file, j, i);
     assert_int_equal(surface_form_remove(z, nx, ny, 1, form, NULL), WT_OK);
     for (size_t i = 0; i < nx * ny; i++)
         z[i] = isfinite(z[i]) ? z[i] : 0;
-    const wt_height_map map = {z, nx, ny, dx, dy};
-    const surface_bins bins = {pow(10, 0.05), 1e-9, fmin(M_PI / dx, M_PI / dy)};
-    assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, to, NULL), WT_OK);
-    wt_input_close(input);
-    clear_images(images, n);
+    map = (wt_height_map){z, nx, ny, dx, dy};
+    const surface_bins bins = {pow(10, 0.05), 1e-9,
+                               ny > 1 ? fmin(M_PI / dx, M_PI / dy) : M_PI / dx};
+    assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, ny == 1, &bins, to, NULL), WT_OK);
+    wt_image_clear(&image);
     free(z);
 }
 
 static void test_measured_spectra(void **state)
 {
     (void)state;
-    static const struct {
-        const char *name;
-        bool flipped;
-        double dx, dy;
-    } files[] = {{"KautschukInfiniteFocus.x3p", false, 2.279984215e-6, 2.279794519e-6},
-                 {"whitelight.gsf", true, 5e-9, 1e-8},
-                 {"test.gwy", true, 1, 1}};
-    FILE *csv = fopen(WT_SHARED_DIR "/data/topography/topography-psd.csv", "r");
+    FILE *csv = open_numbers("topography-psd.csv");
     char line[1024], *cells[FIELDS];
-    wt_surface_spectrum spectra[COUNT_OF(files)] = {{.n = 0}};
-    size_t n_compared = 0;
-    if (csv == NULL) {
-        skip();
+    const measured_file *opened = NULL;
+    wt_surface_spectrum spectrum = {.n = 0};
+    size_t n_compared = 0, n_expected = 0;
+    if (csv == NULL)
         return;
-    }
-    for (size_t i = 0; i < COUNT_OF(files); i++) {
-        char name[512];
-        snprintf(name, sizeof name, "%s/data/topography/%s", WT_SHARED_DIR, files[i].name);
-        transform_measured(name, files[i].flipped, files[i].dx, files[i].dy, &spectra[i]);
-    }
     while (fgets(line, sizeof line, csv) != NULL) {
-        if (split(line, cells) < 9)
+        const measured_file *const file = split(line, cells) == 9 ? file_of(cells[0]) : NULL;
+        if (file == NULL)
             continue;
-        for (size_t i = 0; i < COUNT_OF(files); i++)
-            for (size_t k = 0; strcmp(cells[0], files[i].name) == 0 && k < spectra[i].n; k++)
-                if (spectra[i].bins[k].index == atoi(cells[2])) {
-                    assert_int_equal(spectra[i].bins[k].n, atoi(cells[5]));
-                    assert_near(spectra[i].bins[k].mean_wavenumber, atof(cells[6]), 1e-8);
-                    assert_near(spectra[i].bins[k].density, atof(cells[7]), 1e-6);
-                    n_compared++;
-                }
+        if (file != opened) {
+            wt_surface_spectrum_clear(&spectrum);
+            transform_measured(file, &spectrum);
+            opened = file;
+        }
+        /* The reference counts modes of a profile of one sign; and, unlike ours, that of two points
+         * once beside the others. */
+        const bool profile = strcmp(cells[1], "1") == 0;
+        n_expected++;
+        for (size_t k = 0; k < spectrum.n; k++) {
+            const wt_spectrum_bin *const b = &spectrum.bins[k];
+            const size_t n = (size_t)atoi(cells[5]), of_both = 2 * n;
+            const bool ends = profile && b->n == of_both - 1;
+            if (b->index != atoi(cells[2]) || (b->n != (profile ? of_both : n) && !ends))
+                continue;
+            assert_near(b->mean_wavenumber, atof(cells[6]), ends ? 1e-2 : 1e-8);
+            assert_near(b->density, atof(cells[7]), ends ? 1e-1 : 1e-6);
+            n_compared++;
+        }
     }
     (void)fclose(csv);
-    for (size_t i = 0; i < COUNT_OF(files); i++)
-        wt_surface_spectrum_clear(&spectra[i]);
-    assert_int_equal(n_compared, 27 + 17 + 18);
+    wt_surface_spectrum_clear(&spectrum);
+    assert_true(n_expected > 200);
+    assert_int_equal(n_compared, n_expected);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gwyddion),    cmocka_unit_test(test_gwyddion_lies),
-        cmocka_unit_test(test_x3p_types),   cmocka_unit_test(test_x3p_missing),
-        cmocka_unit_test(test_x3p_profile), cmocka_unit_test(test_x3p_refused),
-        cmocka_unit_test(test_measured),    cmocka_unit_test(test_measured_spectra),
+        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_lies),
+        cmocka_unit_test(test_x3p_types),     cmocka_unit_test(test_x3p_missing),
+        cmocka_unit_test(test_x3p_profile),   cmocka_unit_test(test_x3p_checksum),
+        cmocka_unit_test(test_x3p_refused),   cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_measured_rows), cmocka_unit_test(test_measured_spectra),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

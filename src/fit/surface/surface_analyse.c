@@ -58,16 +58,30 @@ static double slope_about(const wt_surface_spectrum *s, size_t at)
     return d > 0 ? (n * xy - x * y) / d : 0;
 }
 
-/* By how much the neighbours that a Hann window mixes in raise a law C = q^p: to second order, with
- * the variance of 1/3 mode that its spectrum has along an axis, at m waves in the length of the
- * map. Where that is half and more the law is no law for so few waves. */
-static double leak_of(const wt_height_map *map, double p, double q)
+/* Modes squared: the variance of the spectrum of a window along an axis, the mean square of its
+ * slope over that of itself and (2 pi)^2. What goes on beyond the edges needs none. */
+static double window_variance(wt_surface_window window)
+{
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 1.0 / 3;
+    case WT_WINDOW_WELCH:
+        return 10 / (4 * M_PI * M_PI);
+    default:
+        return 0;
+    }
+}
+
+/* By how much the neighbours that a window mixes in raise a law C = q^p: to second order, at m
+ * waves in the length of the map. Where that is half and more the law is no law for so few waves.
+ */
+static double leak_of(const wt_height_map *map, double variance, double p, double q)
 {
     const double m = q * (double)map->nx * map->dx / (2 * M_PI);
     if (map->ny == 1)
-        return p * (p - 1) / (6 * m * m);
+        return variance * p * (p - 1) / (2 * m * m);
     const double n = q * (double)map->ny * map->dy / (2 * M_PI);
-    return p * p / 12 * (1 / (m * m) + 1 / (n * n));
+    return variance * p * p / 4 * (1 / (m * m) + 1 / (n * n));
 }
 
 /* What the mean over a bin is too large by where the spectrum is steep: a law lies above its value
@@ -77,6 +91,7 @@ static wt_status take_off_slope(const wt_height_map *map, wt_surface_window wind
                                 wt_surface_spectrum *s, wt_error *err)
 {
     const double most = 0.6; /* at two waves and a slope that rough surfaces have */
+    const double variance = window_variance(window);
     double *slope = malloc((s->n + 1) * sizeof *slope);
     if (slope == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -85,9 +100,7 @@ static wt_status take_off_slope(const wt_height_map *map, wt_surface_window wind
     for (size_t k = 0; k < s->n; k++) {
         wt_spectrum_bin *b = &s->bins[k];
         const double above = slope[k] * b->width;
-        const double leak = window == WT_WINDOW_HANN
-                                ? fmin(most, fmax(0, leak_of(map, slope[k], b->wavenumber)))
-                                : 0;
+        const double leak = fmin(most, fmax(0, leak_of(map, variance, slope[k], b->wavenumber)));
         b->density *= exp(-above * above / 2) / (1 + leak);
         b->deviation *= exp(-above * above / 2) / (1 + leak);
         b->freedom *= exp(-above * above);

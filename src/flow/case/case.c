@@ -30,6 +30,7 @@ wt_case *case_new(void)
     c->zener = flow_zener_defaults();
     c->transverse = wt_transverse_defaults();
     c->surface = flow_surface_defaults();
+    c->topography = wt_topography_job_defaults();
     c->sliding = wt_sliding_defaults();
     c->layer = wt_layer_job_defaults();
     c->records = wt_record_job_defaults();

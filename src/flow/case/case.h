@@ -61,6 +61,8 @@ struct wt_case {
     bool has_self_affine, has_spectrum;
     wt_surface surface;  /* the law, or the cut-offs and the error of the spectrum */
     case_files spectrum; /* one file */
+    case_files height_maps;
+    wt_topography_job topography; /* of them */
 
     bool has_sliding;
     wt_sliding sliding;

@@ -186,6 +186,16 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
 
 /* ---- roughness, sliding, layer --------------------------------------------------------------- */
 
+static wt_status read_measured(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    wt_status status = case_read_files(c, section, "files", &c->height_maps, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_topography_job_params(), &c->topography, err);
+    c->topography.sets = c->height_maps.sets;
+    c->topography.n_sets = c->height_maps.n;
+    return status;
+}
+
 wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
 {
     const xmlNode *law = case_child(section, "self-affine");
@@ -198,6 +208,8 @@ wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
             case_at(law, status, err);
         return status;
     }
+    if (spectrum == NULL)
+        return read_measured(c, section, err);
     c->has_spectrum = true;
     c->surface.c0 = (wt_estimate){1, 0, 0, "1"};
     status = case_read_files(c, spectrum, "file", &c->spectrum, err);

@@ -6,6 +6,7 @@
 #include "data/tables/tables.h"
 #include "weartrack/report.h"
 
+#include <limits.h>
 #include <string.h>
 
 #define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.words = text, .missing = lack},
@@ -13,7 +14,14 @@
 #define INNER_ROW(id, text) [FLOW_##id] = {.words = text},
 const flow_thing_row flow_thing_rows[FLOW_N_THINGS] = {SOURCES(SOURCE_ROW) TABLE_THINGS(TABLE_ROW)
                                                            INNER_THINGS(INNER_ROW)};
-_Static_assert(FLOW_N_THINGS <= 64, "a set of things is a 64-bit number");
+_Static_assert(FLOW_N_THINGS <= CHAR_BIT * sizeof(flow_things),
+               "a set of things has a bit of each");
+
+int flow_things_count(flow_things things)
+{
+    const unsigned low = 64;
+    return __builtin_popcountll((uint64_t)things) + __builtin_popcountll((uint64_t)(things >> low));
+}
 
 void flow_things_list(flow_things things, char *text, size_t size)
 {

@@ -15,6 +15,8 @@
       "no material (<prony>, <table> or <fractional-zener> in <dma>)", c->has_material)            \
     X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)",                      \
       c->has_self_affine || c->has_spectrum)                                                       \
+    X(HEIGHT_MAPS, "height maps of the counter surface",                                           \
+      "no height maps of the counter surface (<files> in <roughness>)", c->height_maps.n > 0)      \
     X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)", c->has_sliding)       \
     X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
@@ -71,6 +73,8 @@
     X(RECORD_CYCLES, "record_cycles", &record_cycles_schema, "")                                   \
     X(WEAR, "wear", &wear_schema, "")                                                              \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
+    X(POWER_SPECTRUM, "power_spectrum", &power_spectrum_schema, "")                                \
+    X(SURFACES, "surfaces", &surfaces_schema, "")                                                  \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
@@ -99,7 +103,8 @@ typedef enum flow_thing {
 } flow_thing;
 enum { FLOW_FIRST_TABLE = FLOW_INDENTATION_BULK, FLOW_FIRST_INNER = FLOW_RUBBER };
 
-typedef uint64_t flow_things; /* bit i = thing i */
+/* Bit i = thing i, of which there are more than 64. */
+__extension__ typedef unsigned __int128 flow_things;
 #define FLOW_BIT(thing) ((flow_things)1 << (unsigned)(thing))
 #define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
 #define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
@@ -120,6 +125,7 @@ extern const flow_thing_row flow_thing_rows[FLOW_N_THINGS];
 
 /* Words of the things, parted by commas. */
 void flow_things_list(flow_things things, char *text, size_t size);
+int flow_things_count(flow_things things);
 /* Things behind a table or a figure of a result, none for what every result has; false if there is
  * no such table or figure. */
 bool flow_things_of_table(const char *table, flow_things *things);

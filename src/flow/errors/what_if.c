@@ -79,6 +79,22 @@ static bool move_q1(const setting *used, size_t i, setting *s)
     return true;
 }
 
+static bool is_measured(const setting *s)
+{
+    return s->surface.reliable_to > 0;
+}
+
+/* As far as its spectrum goes: beyond that its law would have to be asked for. */
+static bool move_measured_end(const setting *used, size_t i, setting *s)
+{
+    const double ends[] = {used->surface.reliable_to, used->surface.steep};
+    if (i >= COUNT_OF(ends))
+        return false;
+    const bool known = ends[i] > 2 * used->surface.q0 && ends[i] < last_known(used);
+    s->surface.q1 = known ? ends[i] : used->surface.q1;
+    return true;
+}
+
 static double value_q0(const setting *s)
 {
     return s->surface.q0;
@@ -239,6 +255,11 @@ static const choice choices[] = {
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
      "", applies_always, value_q1, NULL, move_q1},
+    {"end of the measured spectrum", "rad/m",
+     "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
+     "that "
+     "rubber follows",
+     NULL, is_measured, value_q1, NULL, move_measured_end},
     {"smallest wavenumber q0", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
@@ -411,6 +432,21 @@ static void set_left_out(const setting *used, table_writer *t)
         what_if_set_text(t, WHAT_IF_KEY_LEFT_OUT, words);
 }
 
+/* What waves beyond the reliable range of a measured surface give of the hysteresis. */
+static void set_share_beyond(const what_if *w, table_writer *t)
+{
+    const wt_surface *const s = &w->outcomes[0].setting.surface;
+    for (size_t i = 1; i < w->n; i++) {
+        const outcome *const o = &w->outcomes[i];
+        if (s->q1 > s->reliable_to && o->choice->move == move_measured_end &&
+            o->setting.surface.q1 <= s->reliable_to)
+            what_if_set_value(t, WHAT_IF_KEY_SHARE_BEYOND,
+                              1 - o->number[SETTING_HYSTERESIS] /
+                                      w->outcomes[0].number[SETTING_HYSTERESIS],
+                              (double)NAN, (double)NAN);
+    }
+}
+
 static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
 {
     const setting *used = &w->outcomes[0].setting;
@@ -423,6 +459,7 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     if (!isnan(used->extrapolated_share))
         what_if_set_value(&t, WHAT_IF_KEY_EXTRAPOLATED_SHARE, used->extrapolated_share, (double)NAN,
                           (double)NAN);
+    set_share_beyond(w, &t);
     return table_end(&t, table);
 }
 

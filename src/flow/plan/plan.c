@@ -70,9 +70,9 @@ static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
     const flow_things of_a = things_taken(plan, a), of_b = things_taken(plan, b);
-    const int more = __builtin_popcountll(of_a) - __builtin_popcountll(of_b);
-    const int idle = __builtin_popcountll(s->gives & ~plan->required) -
-                     __builtin_popcountll(t->gives & ~plan->required);
+    const int more = flow_things_count(of_a) - flow_things_count(of_b);
+    const int idle = flow_things_count(s->gives & ~plan->required) -
+                     flow_things_count(t->gives & ~plan->required);
     const bool same_way = (of_a & ~of_b) == 0 || (of_b & ~of_a) == 0;
     if (idle != 0 && (same_way || more == 0))
         return idle < 0;

@@ -98,6 +98,20 @@ static void set_direction(const wt_case *c, wt_rubber *rubber)
     rubber->transverse = c->transverse;
 }
 
+static wt_status take_measured(const wt_case *c, const wt_job *work, wt_surface *surface,
+                               wt_topography_tables *tables, wt_error *err)
+{
+    wt_surface measured = {0};
+    wt_status status = flow_surface_measure(&c->topography, work, &measured, tables, err);
+    if (status == WT_OK)
+        status = flow_surface_check(&measured, err);
+    if (status == WT_OK)
+        *surface = measured;
+    else
+        wt_surface_clear(&measured);
+    return status;
+}
+
 wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
                             wt_error *err)
 {
@@ -105,11 +119,13 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
         *surface = c->surface;
         return WT_OK;
     }
+    wt_surface opened = {0};
+    if (c->height_maps.n > 0)
+        return take_measured(c, work, surface, NULL, err);
     const wt_file_set *set = &c->spectrum.sets[0];
     char *path = wt_path_join(set->folder, set->patterns[0]);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_surface opened = {0};
     flow_file file = {.path = path, .name = set->patterns[0], .set = set};
     wt_status status = flow_surface_read(&file, work, &opened, err);
     if (status == WT_OK) {
@@ -374,6 +390,17 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
         flow_surface_cost(&run->surface, &run->job);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
+    return status;
+}
+
+wt_status flow_step_topography(flow_run *run, wt_error *err)
+{
+    wt_topography_tables made = {NULL, NULL, NULL};
+    wt_status status = take_measured(run->c, &run->job, &run->surface, &made, err);
+    if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
+        status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
+    run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
+    run->table[FLOW_SURFACES] = made.surfaces;
     return status;
 }
 

@@ -83,7 +83,17 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return flow_law_parse(&self_affine, text, surface, err);
 }
 
-/* The errors of the table power_spectrum. *taken: its rows are the points that were read. */
+static double positive_key(const wt_table *table, size_t key)
+{
+    wt_estimate value = {0};
+    return wt_table_estimate(table, power_spectrum_schema.keys[key].name, &value) &&
+                   value.value > 0 && isfinite(value.value)
+               ? value.value
+               : 0;
+}
+
+/* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
+ * were read. */
 static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
@@ -105,6 +115,8 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
                           &place) &&
         place.value > 0 && isfinite(place.value))
         surface->c0.standard_error = place.value;
+    surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
+    surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
     return WT_OK;
 }
 
@@ -156,12 +168,86 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
     return status == WT_OK ? read_errors(file, work, surface, err) : status;
 }
 
-static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
-                               wt_surface *surface, wt_error *err)
+/* ---- from height maps ------------------------------------------------------------------------ */
+
+static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_error *err)
 {
-    const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
-    flow_file file = {.path = path, .name = path, .set = &set};
-    return flow_surface_read(&file, work, surface, err);
+    const size_t n = wt_table_n_rows(table);
+    wt_power_spectrum *const s = &surface->spectrum;
+    bool taken = false;
+    s->kind = WT_SPECTRUM_2D;
+    s->wavenumber = malloc((n + 1) * sizeof *s->wavenumber);
+    s->density = malloc((n + 1) * sizeof *s->density);
+    if (s->wavenumber == NULL || s->density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (s->n = 0; s->n < n; s->n++) {
+        s->wavenumber[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_WAVENUMBER);
+        s->density[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_DENSITY);
+    }
+    return take_errors(table, surface, &taken, err);
+}
+
+wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
+                               wt_surface *surface, wt_topography_tables *tables, wt_error *err)
+{
+    wt_topography_tables made = {NULL, NULL, NULL};
+    wt_status status = wt_topography_make(job, work, &made, err);
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    if (status == WT_OK)
+        status = take_spectrum(made.power_spectrum, surface, err);
+    if (status == WT_OK && tables != NULL) {
+        *tables = made;
+        return WT_OK;
+    }
+    wt_topography_tables_clear(&made);
+    return status;
+}
+
+/* Several files, or one that may be heights and is no spectrum. */
+static wt_status is_measured(const flow_files *files, const wt_job *work, bool *heights,
+                             wt_error *err)
+{
+    wt_input *input = NULL;
+    const wt_format_info *format = NULL;
+    *heights = files->n > 1;
+    if (files->n != 1 || strcmp(files->file[0].path, "-") == 0)
+        return WT_OK;
+    const wt_read_options *const read = &files->file[0].set->read;
+    wt_status status = wt_input_open(files->file[0].path, &input, err);
+    if (status == WT_OK && read->format == NULL)
+        status =
+            wt_detect(work->formats, input, read, WT_KIND_SPECTRUM | WT_KIND_IMAGE, &format, err);
+    else if (status == WT_OK)
+        format = wt_formats_find(work->formats, read->format);
+    const unsigned kinds = status == WT_OK && format != NULL ? format->kinds : 0;
+    *heights = (kinds & WT_KIND_IMAGE) != 0 && (kinds & WT_KIND_SPECTRUM) == 0;
+    wt_input_close(input);
+    return status;
+}
+
+/* A spectrum, or the heights of a file, of a folder or of a pattern. */
+static wt_status read_surface(const char *path, const wt_read_options *read, const wt_job *work,
+                              wt_surface *surface, wt_error *err)
+{
+    const wt_file_set set = {
+        .patterns = &path, .n_patterns = 1, .read = read != NULL ? *read : wt_read_defaults()};
+    flow_files files = {NULL, 0, NULL};
+    wt_topography_job job = wt_topography_job_defaults();
+    bool heights = false;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (work->formats == NULL)
+        return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
+    wt_status status = flow_files_list(&set, 1, work, &files, err);
+    if (status == WT_OK)
+        status = is_measured(&files, work, &heights, err);
+    if (status == WT_OK && !heights)
+        status = flow_surface_read(&files.file[0], work, surface, err);
+    else if (status == WT_OK)
+        status = flow_surface_measure(&job, work, surface, NULL, err);
+    flow_files_clear(&files);
+    return status;
 }
 
 void flow_surface_cost(const wt_surface *surface, const wt_job *work)
@@ -177,7 +263,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
         return wt_fail(err, WT_E_ARG, "no roughness");
     wt_surface s = {0};
     wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
-                                                       : read_spectrum(text, read, work, &s, err);
+                                                       : read_surface(text, read, work, &s, err);
     status = flow_law_meant(&self_affine, text, status, err);
     if (status == WT_OK)
         status = flow_surface_check(&s, err);

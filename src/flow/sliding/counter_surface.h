@@ -21,5 +21,9 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
  * weartrack psd made come with it. */
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
+/* Likewise of the height maps and profiles of a surface; *tables: of them, NULL for none. */
+wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
+                               wt_surface *surface, wt_topography_tables *tables,
+                               wt_error *err) WT_NODISCARD;
 
 #endif

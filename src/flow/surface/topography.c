@@ -22,20 +22,18 @@ wt_topography_job wt_topography_job_defaults(void)
 
 static const wt_param rows[] = {
     {PARAM_CHOICE_OF("form", wt_topography_job, options.form, "mean|plane|quadratic"),
-     .flags = PARAM_NO_CASE,
      .help = "form of a scan that is taken off by least squares; of a profile the same of one "
              "variable"},
     {PARAM_CHOICE_OF("window", wt_topography_job, options.window, "hann|welch|none"),
-     .flags = PARAM_NO_CASE,
      .help = "window before the transform; none is for surfaces that go on beyond their edges"},
     {PARAM("largest-missing", wt_topography_job, options.largest_missing, WT_Q_NONE,
            FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "share of missing heights up to which they are filled; a scan with more is refused"},
     {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
-     .value = "N", .flags = PARAM_NO_CASE, .help = "fewest points of a wave that is reliable"},
+     .value = "N", .help = "fewest points of a wave that is reliable"},
     {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
-     .value = "R", .unset = "", .flags = PARAM_NO_CASE,
+     .value = "R", .unset = "",
      .help =
          "radius of the tip that scanned, such as 10nm: the reliable range ends where peaks are "
          "as sharp as half of its curvature"},
@@ -43,11 +41,11 @@ static const wt_param rows[] = {
      .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
     {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
-     .unset = "the end of the reliable range", .flags = PARAM_NO_CASE,
+     .unset = "the end of the reliable range",
      .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range it "
              "goes on by its self-affine law"},
     {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .unset = "", .flags = PARAM_NO_CASE,
+     .unset = "",
      .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
     {PARAM_FLAG_OF("scans", wt_topography_job, scans), .flags = PARAM_NO_CASE,
      .help = "the table scan_spectra, too: every scan by itself, unreliable wavenumbers included"},

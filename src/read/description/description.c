@@ -39,18 +39,22 @@ bool description_find_name(const text_description *d, const char *name, size_t *
     return *n > 0;
 }
 
-header_value header_of(wt_quantity quantity)
+header_value header_of(wt_quantity quantity, field_sets sets)
 {
-    static const wt_quantity held[HEADER_COUNT] = {
+    static const wt_quantity held[HEADER_VALUE_FACTOR] = {
         [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE, [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
         [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY, [HEADER_POSITION_X] = WT_Q_POSITION_X,
         [HEADER_POSITION_Y] = WT_Q_POSITION_Y,   [HEADER_VELOCITY] = WT_Q_VELOCITY,
         [HEADER_DURATION] = WT_Q_TIME,           [HEADER_SETPOINT] = WT_Q_FORCE,
         [HEADER_LOAD] = WT_Q_NORMAL_FORCE,       [HEADER_RADIUS] = WT_Q_LENGTH};
     header_value value = HEADER_TEMPERATURE;
-    while (value < HEADER_COUNT && held[value] != quantity)
+    if (sets >= FIELD_SETS_VALUE_FACTOR)
+        return quantity == WT_Q_LENGTH
+                   ? (header_value)(HEADER_VALUE_FACTOR + (sets - FIELD_SETS_VALUE_FACTOR))
+                   : HEADER_COUNT;
+    while (value < HEADER_VALUE_FACTOR && held[value] != quantity)
         value++;
-    return value;
+    return value < HEADER_VALUE_FACTOR ? value : HEADER_COUNT;
 }
 
 bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *groups, size_t n)
@@ -113,6 +117,10 @@ static const struct {
      "columns of time, and of relaxation modulus or creep compliance",
      {Q(TIME), Q(RELAXATION_MODULUS) | Q(SHEAR_RELAXATION_MODULUS) | Q(CREEP_COMPLIANCE) |
                    Q(SHEAR_CREEP_COMPLIANCE)}},
+    {WT_KIND_IMAGE,
+     "image",
+     "columns of the lateral position x and of the height of a surface",
+     {Q(POSITION_X), Q(SURFACE_HEIGHT)}},
     {WT_KIND_SPECTRUM,
      "spectrum",
      "columns of wavenumber and power spectrum",

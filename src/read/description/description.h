@@ -82,19 +82,30 @@ typedef enum header_value {
     HEADER_SETPOINT,
     HEADER_LOAD,
     HEADER_RADIUS,
+    /* These no quantity tells, but what the field sets. */
+    HEADER_VALUE_FACTOR,
+    HEADER_WIDTH,
+    HEADER_HEIGHT,
+    HEADER_PIXEL_SIZE,
     HEADER_COUNT
 } header_value;
-
-/* Which header value holds a quantity; HEADER_COUNT if none does. */
-header_value header_of(wt_quantity quantity);
 
 typedef enum field_sets {
     FIELD_SETS_NOTHING,
     FIELD_SETS_DECIMAL,
     FIELD_SETS_SEPARATOR,
     FIELD_SETS_SAMPLE,
-    FIELD_SETS_ROWS
+    FIELD_SETS_ROWS,
+    FIELD_SETS_TITLE,
+    FIELD_SETS_VALUE_UNIT,
+    FIELD_SETS_VALUE_FACTOR,
+    FIELD_SETS_WIDTH,
+    FIELD_SETS_HEIGHT,
+    FIELD_SETS_PIXEL_SIZE
 } field_sets;
+
+/* Which header value a field gives; HEADER_COUNT if none. */
+header_value header_of(wt_quantity quantity, field_sets sets);
 
 #define GROUPS ((size_t)10) /* of a header line, the whole match included */
 
@@ -193,6 +204,7 @@ typedef struct text_description {
     size_t n_rules;
     column_name *names; /* sorted by name, then rule */
     size_t n_names;
+    bool matrix; /* each row is a line of an image: its cells are values of the one column */
     bool has_names_line;
     line_pattern names_line;  /* group 1 is the names row, unless names stand elsewhere */
     line_pattern names_lines; /* group 1 of each line above `names_line` is a name */
@@ -251,7 +263,13 @@ void name_normalise(text_span text, char name[NAME_LONGEST]);
 /* Is the text, normalised, that name? */
 bool name_is(text_span text, const char *name);
 
-/* Do the quantities make a force curve, sweep or spectrum, whichever are among `kinds`? */
+/* No names stand in the file: its tables begin with their first row. */
+static inline bool description_is_nameless(const text_description *d)
+{
+    return d->matrix || (d->names_are != NULL && !d->has_names_line);
+}
+
+/* Do the quantities make a force curve, sweep, image or spectrum, whichever are among `kinds`? */
 bool quantities_suffice(wt_quantity_set set, unsigned kinds);
 /* All that is needed, or one of which is. */
 wt_quantity_set quantities_of(unsigned kind);

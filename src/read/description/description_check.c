@@ -33,9 +33,15 @@ wt_status description_check_whole(const text_description *d, const char *name, w
     wt_quantity_set set = 0;
     for (size_t i = 0; i < d->n_rules; i++)
         set |= WT_Q_BIT(d->rules[i].quantity);
-    for (unsigned kind = 1; kind <= WT_KIND_RECORD; kind *= 2)
+    if (d->matrix && (d->kinds != WT_KIND_IMAGE || d->n_rules != 1)) {
+        wt_fail(err, WT_E_SCHEMA, "the rows of a matrix are lines of an image");
+        wt_error_expected(err, "kinds=\"image\" and one column, that of the values");
+        return fail_element(err, name, "table");
+    }
+    for (unsigned kind = 1; kind <= WT_KIND_RECORD && !d->matrix; kind *= 2)
         if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
-            wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
+            wt_fail(err, WT_E_SCHEMA, "the columns do not make %s %s",
+                    kind == WT_KIND_IMAGE ? "an" : "a", kind_name(kind));
             wt_error_expected(err, "%s", quantities_needed(kind));
             return fail_element(err, name, "table");
         }

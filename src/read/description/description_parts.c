@@ -125,7 +125,10 @@ static void read_text(description_parser *p, const xmlNode *node)
 
 static void read_header(description_parser *p, const xmlNode *node)
 {
-    static const char *const sets[] = {"decimal", "separator", "sample", "rows"};
+    static const char *const sets[] = {"decimal", "separator",  "sample",       "rows",
+                                       "title",   "value-unit", "value-factor", "width",
+                                       "height",  "pixel-size"};
+    const size_t n_sets = sizeof sets / sizeof *sets;
     text_description *d = p->d;
     d->fields = parse_room(p, node, "field", sizeof *d->fields);
     for (const xmlNode *c = NULL; (c = parse_next(p, node, c, "field")) != NULL;) {
@@ -138,14 +141,15 @@ static void read_header(description_parser *p, const xmlNode *node)
         field->quantity = quantity_attribute(p, c);
         field->unit = parse_attribute(p, c, "unit");
         field->fallback = parse_true(p, c, "fallback");
-        field->sets = (field_sets)(parse_one_of(p, c, "sets", sets, 4, (size_t)-1) + 1);
+        field->sets = (field_sets)(parse_one_of(p, c, "sets", sets, n_sets, (size_t)-1) + 1);
         if (field->quantity == WT_Q_NONE)
             continue;
-        if (header_of(field->quantity) == HEADER_COUNT)
+        if (header_of(field->quantity, field->sets) == HEADER_COUNT)
             parse_complain(
                 p, c, "a header line cannot give this quantity",
                 "temperature, spring_constant, sensitivity, position_x, position_y, velocity, "
-                "time (duration), force (set-point), normal_force or length (radius)",
+                "time (duration), force (set-point), normal_force, or length for a radius or what "
+                "sets a size or a factor",
                 wt_quantity_id(field->quantity));
         check_unit(p, c, field->unit, field->quantity);
         if ((field->unit != NULL) == (field->unit_group > 0))
@@ -199,13 +203,15 @@ static void read_table(description_parser *p, const xmlNode *table)
     static const char *const units[] = {"row", "name", "name-or-row", "line", "none"};
     static const char *const titles[] = {"same", "next"};
     static const char *const blanks[] = {"skip", "block"};
+    static const char *const row_words[] = {"values", "matrix"};
     text_description *d = p->d;
     d->names_are = parse_attribute(p, table, "names-are");
     parse_pattern(p, table, "names-lines", &d->names_lines, 1);
     const bool elsewhere = d->names_are != NULL || d->names_lines.compiled;
     parse_pattern(p, table, "names", &d->names_line, elsewhere ? 0 : 1);
     d->has_names_line = d->names_line.compiled;
-    if (elsewhere && (!d->has_names_line || (d->names_are != NULL && d->names_lines.compiled)))
+    d->matrix = parse_one_of(p, table, "rows", row_words, 2, 0) == 1;
+    if (d->names_lines.compiled && (!d->has_names_line || d->names_are != NULL))
         parse_complain(p, table, "names that stand elsewhere go with the line above the rows",
                        "an attribute names, and either names-are or names-lines", NULL);
     d->units = (units_where)parse_one_of(p, table, "units", units, 5, 0);
@@ -216,6 +222,9 @@ static void read_table(description_parser *p, const xmlNode *table)
                        d->units_line.compiled ? "only units-line" : "no units-line");
     if (d->units == UNITS_LINE && !d->has_names_line)
         parse_complain(p, table, "a line of units goes with a line of names", "an attribute names",
+                       NULL);
+    if (description_is_nameless(d) && d->units != UNITS_NONE)
+        parse_complain(p, table, "without a row of names there is none of units", "units=\"none\"",
                        NULL);
     d->row_prefix = parse_normalised(p, parse_attribute(p, table, "row-prefix"));
     read_names(p, table, "row-number", &d->row_numbers, &d->n_row_numbers);
@@ -293,6 +302,7 @@ unsigned parse_kinds(const char *words)
     unsigned kinds = 0;
     kinds |= strstr(words, "force") != NULL ? WT_KIND_FORCE : 0u;
     kinds |= strstr(words, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
+    kinds |= strstr(words, "image") != NULL ? WT_KIND_IMAGE : 0u;
     kinds |= strstr(words, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
     kinds |= strstr(words, "noise") != NULL ? WT_KIND_NOISE : 0u;
     kinds |= strstr(words, "record") != NULL ? WT_KIND_RECORD : 0u;

@@ -1,12 +1,12 @@
 /* Gwyddion's own files (.gwy): "GWYP", then a container of objects, of which the data fields
- * "/N/data" are images. Lines stand in them with the uppermost first.
+ * "/N/data" are images, and graphs may be profiles. Lines stand in them with the uppermost first.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/gwy/gwy.h"
 
 #include "base/number.h"
-#include "read/gwy/gwy_object.h"
+#include "read/gwy/gwy_graph.h"
 #include "read/images.h"
 #include "read/reader.h"
 
@@ -34,18 +34,6 @@ static bool channel_of(const char *key, const char *rest, unsigned long *number)
         return false;
     *number = strtoul(key + 1, &end, 10);
     return strcmp(end, rest) == 0;
-}
-
-/* The unit of an axis: an object with a text; "" if it is not there. */
-static const char *unit_of(gwy_bytes field, const char *key)
-{
-    gwy_component unit, text;
-    gwy_bytes inside;
-    const char *name = NULL;
-    if (!gwy_find(field, key, 'o', &unit) || !gwy_object(&unit.value, &name, &inside) ||
-        !gwy_find(inside, "unitstr", 's', &text))
-        return "";
-    return (const char *)text.value.at;
 }
 
 static double length_of(gwy_bytes field, const char *key)
@@ -99,7 +87,7 @@ static wt_status add_field(image_list *list, gwy_bytes field, const char *key, c
         wt_error_found(err, "%zu x %zu pixels and %zu values", head.n_columns, head.n_rows, data.n);
         return WT_E_CORRUPT;
     }
-    images_set_units(&head, unit_of(field, "si_unit_xy"), unit_of(field, "si_unit_z"),
+    images_set_units(&head, gwy_unit(field, "si_unit_xy"), gwy_unit(field, "si_unit_z"),
                      length_of(field, "xreal"), length_of(field, "yreal"), &factor);
     images_set_name(&head, title[0] != '\0' ? title : key);
     const wt_status status = images_add(list, &head, &values, err);
@@ -110,7 +98,17 @@ static wt_status add_field(image_list *list, gwy_bytes field, const char *key, c
     return status;
 }
 
-/* The data fields in the order of the file. */
+static wt_status add_graph(image_list *list, gwy_component *c, const char *file, wt_parselog *log,
+                           wt_error *err)
+{
+    const char *name = NULL;
+    gwy_bytes graph;
+    if (!gwy_object(&c->value, &name, &graph) || strcmp(name, "GwyGraphModel") != 0)
+        return WT_OK;
+    return gwy_add_profiles(list, graph, c->key, file, log, err);
+}
+
+/* The data fields and profiles in the order of the file. */
 static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
                             const char *file, wt_parselog *log, wt_error *err)
 {
@@ -124,6 +122,8 @@ static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_ar
         if (!masks_are_missing && c.type == 'o' && channel_of(c.key, "/mask", &number))
             wt_parselog_add(log, WT_NOTE, file, c.key,
                             "a mask, which may mark anything, is not taken for missing heights");
+        if (list->n < MOST_FIELDS && c.type == 'o' && gwy_is_graph(c.key))
+            status = add_graph(list, &c, file, log, err);
         if (c.type != 'o' || !channel_of(c.key, "/data", &number) ||
             !gwy_object(&c.value, &name, &field) || strcmp(name, "GwyDataField") != 0)
             continue;

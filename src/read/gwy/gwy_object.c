@@ -119,6 +119,17 @@ bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *t
     return false;
 }
 
+const char *gwy_unit(gwy_bytes components, const char *key)
+{
+    gwy_component unit, text;
+    gwy_bytes inside;
+    const char *name = NULL;
+    if (!gwy_find(components, key, 'o', &unit) || !gwy_object(&unit.value, &name, &inside) ||
+        !gwy_find(inside, "unitstr", 's', &text))
+        return "";
+    return (const char *)text.value.at;
+}
+
 double gwy_double(const gwy_component *component)
 {
     double value;

@@ -30,6 +30,8 @@ bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components);
 bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status);
 /* The component of that key and type; false if there is none. */
 bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *to);
+/* The unit at a key: an object with a text; "" if it is not there. */
+const char *gwy_unit(gwy_bytes components, const char *key);
 double gwy_double(const gwy_component *component);
 size_t gwy_count(const gwy_component *component); /* of an int32; 0 if it is negative */
 

@@ -23,7 +23,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
 /* Results (a master curve, moduli) have columns of the same names and are no measurements. */
 static bool is_measured(const char *name)
 {
-    static const char *const names[] = {"force_curve/", "sweep", "roughness", "power_spectrum"};
+    static const char *const names[] = {"force_curve/", "image/", "sweep", "roughness",
+                                        "power_spectrum"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strncmp(name, names[i], strlen(names[i])) == 0)
             return true;
@@ -85,10 +86,9 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
     if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     if (status == WT_OK && n_measured == 0) {
-        status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep or spectrum in it");
-        wt_error_expected(err, "curves, sweeps or spectra as weartrack convert writes them");
-        wt_error_advice(err, "`weartrack table --list` shows what is in it; of an image give the "
-                             "file of the instrument");
+        status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep, spectrum or image in it");
+        wt_error_expected(err, "what `weartrack convert` writes of measurements");
+        wt_error_advice(err, "`weartrack table --list` shows what is in it");
         if (wt_result_n_tables(result) > 0)
             wt_error_found(err, "other tables, the first is \"%s\"",
                            wt_table_name(wt_result_table(result, 0)));
@@ -123,14 +123,15 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 
 const file_reader reader_stored = {
     .info = {.id = "weartrack-hdf5",
-             .title = "weartrack-hdf5(5): sweeps, spectra and force curves of this program",
-             .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_SPECTRUM,
+             .title = "weartrack-hdf5(5): sweeps, spectra, images and force curves of this program",
+             .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_IMAGE | WT_KIND_SPECTRUM,
              .verified = true,
              .evidence = "the HDF5 file that this program writes",
              .version = "1"},
     READER_OF_CURVE_TEXT(as_text),
     .detect = detect,
     .read_sweep = text_read_sweep,
+    .read_images = text_read_images,
     .read_spectrum = text_read_spectrum,
     .describe = describe,
 };

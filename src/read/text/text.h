@@ -236,6 +236,7 @@ wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err
 typedef struct names_row {
     text_cells names, units; /* units.n is 0 if there is no such row */
     cell_separator separator;
+    char value_unit[32]; /* of a matrix, as its header says, "" if it does not */
     bool no_memory;
 } names_row;
 
@@ -253,6 +254,10 @@ bool names_part(const text_description *description, text_span *line);
  * separator the one that names most columns is taken. False also when `no_memory`. */
 bool names_match(names_row *names, const text_description *description, text_span line,
                  cell_separator separator, unsigned kinds);
+/* Of a description without names in its files: whether the line is a row of its numbers, and what
+ * parts its cells. A matrix gets a name for each of them. False also when `no_memory`. */
+bool names_of_row(names_row *names, const text_description *description, text_span line,
+                  cell_separator separator);
 /* Fills columns, quantities and problems of the table; what is not understood goes to
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
@@ -285,6 +290,8 @@ wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_rea
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log,
                              wt_power_spectrum *spectrum, wt_error *err);
+wt_status text_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
 wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err);
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,

@@ -8,6 +8,7 @@
 #include "read/force_source.h"
 
 #include "read/facts.h"
+#include "read/images.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,8 +81,10 @@ typedef struct first_table {
     wt_quantity_set quantities;
 } first_table;
 
-static void add_table(const text_table *t, size_t number, first_table *first, table_writer *facts)
+static void add_table(const text_file *file, size_t of_file, size_t number, first_table *first,
+                      table_writer *facts)
 {
+    const text_table *const t = &file->tables[of_file];
     char item[32];
     snprintf(item, sizeof item, "table %zu", number + 1);
     facts_add(facts, item, "", line_place(t->names_line).words,
@@ -92,7 +95,8 @@ static void add_table(const text_table *t, size_t number, first_table *first, ta
     else if (t->n_columns == first->n_columns && t->quantities == first->quantities &&
              t->n_problems == 0)
         return;
-    for (size_t i = 0; i < t->n_columns; i++)
+    /* Those of a matrix are alike. */
+    for (size_t i = 0; i < t->n_columns && (i == 0 || !file->description->matrix); i++)
         add_column(t, &t->columns[i], facts);
     for (size_t i = 0; i < t->n_problems; i++)
         add_column(t, &t->problems[i], facts);
@@ -241,7 +245,7 @@ static wt_status add_tables(const text_reading *r, const text_parts *parts, tabl
     }
     while (status == WT_OK && n < TABLES_SHOWN) {
         for (size_t i = 0; i < file->n_tables && n < TABLES_SHOWN; i++, n++)
-            add_table(&file->tables[i], n, &first, facts);
+            add_table(file, i, n, &first, facts);
         status = again != NULL && n < TABLES_SHOWN ? text_parts_next(again, facts->err) : WT_END;
     }
     text_parts_free(again);
@@ -314,7 +318,7 @@ static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_p
 static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog *log, unsigned *has,
                                 table_writer *facts)
 {
-    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
+    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_IMAGE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
                                       WT_KIND_RECORD};
     const text_file *const file = text_parts_file(parts);
     wt_error problem = WT_ERROR_INIT;
@@ -355,6 +359,8 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         return status;
     if ((has & WT_KIND_FORCE) != 0)
         add_force(&r, facts);
+    if ((has & WT_KIND_IMAGE) != 0)
+        status = images_facts(self, input, options, NULL, facts, WT_OK, NULL);
     if ((has & WT_KIND_SPECTRUM) != 0)
         add_spectrum(self, input, options, facts);
     if ((has & WT_KIND_NOISE) != 0)

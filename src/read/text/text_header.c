@@ -46,6 +46,10 @@ static void set_declared(text_scanner *s, field_sets sets, text_span text)
     } else if (sets == FIELD_SETS_SAMPLE && !s->sample_is_told) {
         s->sample = scan_sample(s, text);
         s->sample_is_told = s->sample != NO_SAMPLE;
+    } else if (sets == FIELD_SETS_TITLE) {
+        text_copy(s->title, sizeof s->title, text);
+    } else if (sets == FIELD_SETS_VALUE_UNIT) {
+        text_copy(s->names.value_unit, sizeof s->names.value_unit, text);
     } else if (sets == FIELD_SETS_SEPARATOR) {
         for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
             if (name_is(text, separators[i].word))
@@ -98,7 +102,7 @@ static void set_field(text_scanner *s, size_t f, const regmatch_t groups[GROUPS]
     set_declared(s, field->sets, text);
     if (field->quantity == WT_Q_NONE || !field_number(s, field, text, value, &number))
         return;
-    const header_value h = header_of(field->quantity);
+    const header_value h = header_of(field->quantity, field->sets);
     if (h < HEADER_COUNT) {
         s->header.value[h] = number;
         s->header.fallback[h] = field->fallback;

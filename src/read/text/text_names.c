@@ -10,6 +10,7 @@
 
 /* More columns than any export has; bounds the work on a hostile line. */
 #define COLUMNS_MAX ((size_t)1024)
+#define MATRIX_COLUMNS_MAX ((size_t)1 << 16) /* of an image, likewise */
 #define UNKNOWN_MAX ((size_t)256)
 
 bool name_unit(text_span *name, text_span *unit)
@@ -50,12 +51,14 @@ bool name_unit(text_span *name, text_span *unit)
 
 bool names_part(const text_description *d, text_span *line)
 {
-    if (d->names_are != NULL) {
+    if (d->names_are != NULL && d->has_names_line) {
         const text_span names = {d->names_are, strlen(d->names_are)};
         const bool found = pattern_match(&d->names_line, *line, NULL, 0);
         *line = found ? names : *line;
         return found;
     }
+    if (description_is_nameless(d))
+        return !line_uncomment(d, line);
     if (d->has_names_line)
         return pattern_part(&d->names_line, line);
     (void)line_uncomment(d, line);
@@ -108,6 +111,68 @@ static size_t try_separator(names_row *names, const text_description *d, text_sp
     return quantities_suffice(set, kinds) ? known : 0;
 }
 
+/* Cells that are numbers or say that there is none: 0 if one is something else. */
+static size_t count_numbers(const text_description *d, const text_cells *cells, char decimal)
+{
+    size_t numbers = 0;
+    for (size_t i = 0; i < cells->n; i++) {
+        double value;
+        const cell_kind kind = cell_read(cells->cells[i], decimal, d, &value);
+        if (kind == CELL_TEXT)
+            return 0;
+        numbers += kind == CELL_NUMBER;
+    }
+    return numbers;
+}
+
+/* A name for each cell, a separator behind the last of which parts nothing. */
+static bool name_cells(names_row *names, const text_description *d)
+{
+    text_cells *const cells = &names->names;
+    if (!d->matrix)
+        return cells_split(cells, (text_span){d->names_are, strlen(d->names_are)},
+                           SEPARATOR_WHITESPACE, d);
+    cells->n -= cells->cells[cells->n - 1].length == 0;
+    for (size_t i = 0; i < cells->n; i++)
+        cells->cells[i] = (text_span){d->names[0].name, strlen(d->names[0].name)};
+    return true;
+}
+
+static size_t count_words(const char *text)
+{
+    size_t n = 1;
+    for (const char *c = text; *c != '\0'; c++)
+        n += *c == ' ';
+    return n;
+}
+
+bool names_of_row(names_row *names, const text_description *d, text_span line,
+                  cell_separator separator)
+{
+    static const cell_separator all[] = {SEPARATOR_TAB, SEPARATOR_SEMICOLON, SEPARATOR_WHITESPACE,
+                                         SEPARATOR_COMMA};
+    text_cells *const cells = &names->names;
+    const size_t n_names = d->matrix ? 0 : count_words(d->names_are);
+    separator = separator != SEPARATOR_AUTO ? separator : d->separator;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (separator != SEPARATOR_AUTO && separator != all[i])
+            continue;
+        names->separator = all[i];
+        if (!cells_split(cells, line, all[i], d)) {
+            names->no_memory = true;
+            return false;
+        }
+        /* One cell may be a line that this separator does not part. */
+        const bool fits =
+            d->matrix ? cells->n >= 2 && cells->n <= MATRIX_COLUMNS_MAX : cells->n == n_names;
+        if (fits && (count_numbers(d, cells, '.') > 0 || count_numbers(d, cells, ',') > 0)) {
+            names->no_memory = !name_cells(names, d);
+            return !names->no_memory;
+        }
+    }
+    return false;
+}
+
 bool names_match(names_row *names, const text_description *d, text_span line,
                  cell_separator separator, unsigned kinds)
 {
@@ -115,6 +180,8 @@ bool names_match(names_row *names, const text_description *d, text_span line,
                                          SEPARATOR_WHITESPACE};
     size_t best = 0;
     names->units.n = 0;
+    if (description_is_nameless(d))
+        return names_of_row(names, d, line, separator);
     if (line.length > PATTERN_LINE_MAX)
         return false;
     if (separator != SEPARATOR_AUTO) {
@@ -338,6 +405,36 @@ static wt_status settle_problems(const names_row *names, text_file *file, text_t
     return status;
 }
 
+/* All cells are of one column, whose unit the header may say. */
+static wt_status resolve_matrix(const names_row *names, text_file *file, text_table *table,
+                                const wt_read_options *options, wt_error *err)
+{
+    char normalised[1][NAME_LONGEST];
+    const resolver r = {file->description, names, normalised, table, options};
+    const text_span cell = names->names.cells[0];
+    known_name known;
+    const size_t n = names->names.n;
+    table->columns = pool_alloc(&file->of_tables, n, sizeof *table->columns);
+    table->problems = pool_alloc(&file->of_tables, 1, sizeof *table->problems);
+    if (table->columns == NULL || table->problems == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
+    name_normalise(cell, normalised[0]);
+    (void)names_known(file->description, cell, &known);
+    known.unit = (text_span){names->value_unit, strlen(names->value_unit)};
+    const text_column column = resolve_column(&r, 0, &known);
+    table->n_names = table->n_columns = n;
+    table->group_cell = table->segment_cell = table->curve_cell = table->sample_cell = SIZE_MAX;
+    for (size_t i = 0; i < n; i++) {
+        table->columns[i] = column;
+        table->columns[i].cell = i;
+    }
+    if (column.problem == COLUMN_GOOD)
+        table->quantities = WT_Q_BIT(column.rule->quantity);
+    else
+        table->problems[table->n_problems++] = column;
+    return WT_OK;
+}
+
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err)
 {
@@ -345,6 +442,8 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     const size_t n_cells = names->names.n;
     resolver r = {.d = d, .names = names, .table = table, .options = options};
     wt_status status = WT_OK;
+    if (d->matrix)
+        return resolve_matrix(names, file, table, options, err);
     r.normalised = calloc(n_cells, sizeof *r.normalised);
     table->columns = pool_alloc(&file->of_tables, n_cells, sizeof *table->columns);
     table->problems = pool_alloc(&file->of_tables, n_cells, sizeof *table->problems);

@@ -130,9 +130,10 @@ static char choose_decimal(text_scanner *s)
     size_t commas = 0, points = 0;
     if (s->decimal != '\0' || s->d->decimal != '\0')
         return s->decimal != '\0' ? s->decimal : s->d->decimal;
-    if (s->table->separator == SEPARATOR_COMMA)
-        return '.';
-    for (size_t i = s->i + 1; i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
+    /* A comma within a cell of a row that commas part stands in quotes. The first row may be that
+     * of the names. */
+    for (size_t i = s->i + !description_is_nameless(s->d);
+         i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
         if (!split_cells(s, &s->row, line, s->table->separator))
             return '.';
         cells_count_marks(&s->row, &commas, &points);
@@ -175,11 +176,32 @@ static bool gathered_names(text_scanner *s, text_span *line)
     return all;
 }
 
+static void table_line(text_scanner *s);
+
+/* Is the line the first row of a table whose names do not stand in the file? Then opens it. */
+static bool match_row(text_scanner *s)
+{
+    if (s->comment || s->state != SCAN_HEADER ||
+        !names_of_row(&s->names, s->d, s->line, s->separator)) {
+        if (s->names.no_memory)
+            scan_no_memory(s);
+        return false;
+    }
+    new_table(s);
+    if (s->status == WT_OK)
+        begin_rows(s);
+    if (s->status == WT_OK)
+        table_line(s);
+    return true;
+}
+
 /* Is the line a names row? Then opens a table and moves to the last line of names and units. */
 static bool match_names(text_scanner *s)
 {
     const text_description *d = s->d;
     text_span line = s->line;
+    if (description_is_nameless(d))
+        return match_row(s);
     const cell_separator separator =
         d->names_separator != SEPARATOR_AUTO ? d->names_separator : s->separator;
     if (!(d->names_lines.compiled ? gathered_names(s, &line) : names_part(d, &line)) ||

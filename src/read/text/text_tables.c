@@ -70,6 +70,10 @@ static const char *usual_unit(wt_quantity quantity)
     case WT_Q_MEASURED_HEIGHT:
     case WT_Q_DEFLECTION:
         return "nm";
+    case WT_Q_POSITION_X:
+    case WT_Q_POSITION_Y:
+    case WT_Q_SURFACE_HEIGHT:
+        return "um";
     case WT_Q_FORCE:
         return "nN";
     default:

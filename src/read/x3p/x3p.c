@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/digest.h"
 #include "read/bytes/archive.h"
 #include "read/images.h"
 #include "read/reader.h"
@@ -15,6 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char document_name[] = "main.xml";
 /* A document with a list of its heights is larger than its other parts; at 30 bytes each half a
@@ -81,6 +83,24 @@ static wt_status read_entry(x3p_file *f, const char *link, size_t length, wt_err
     return status;
 }
 
+/* Whether the heights are those that were written. */
+static wt_status check_md5(const x3p_file *f, wt_error *err)
+{
+    char hex[33];
+    if (f->document.points_md5[0] == '\0')
+        return WT_OK;
+    digest_md5(f->data.data, f->data.length, hex);
+    if (strcasecmp(hex, f->document.points_md5) == 0)
+        return WT_OK;
+    wt_fail(err, WT_E_CORRUPT,
+            "the heights are not those that were written: their checksum differs");
+    wt_error_place(err, "%s", f->document.points);
+    wt_error_expected(err, "MD5 %s, as main.xml says", f->document.points_md5);
+    wt_error_found(err, "%s", hex);
+    wt_error_advice(err, "copy or export the file again");
+    return WT_E_CORRUPT;
+}
+
 /* ---- layers ---------------------------------------------------------------------------------- */
 
 static wt_status add_layers(const x3p_document *d, image_list *list, wt_error *err)
@@ -110,7 +130,9 @@ static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
                  offset = whole && !isnan(z->offset) ? z->offset : 0;
     const size_t n = d->size[0] * d->size[1], width = sample_width(z->type);
     if (d->points[0] != '\0') {
-        const wt_status status = read_entry(f, d->points, n * d->size[2] * width, err);
+        wt_status status = read_entry(f, d->points, n * d->size[2] * width, err);
+        if (status == WT_OK)
+            status = check_md5(f, err);
         if (status != WT_OK)
             return status;
     } else if (d->n_list != n * d->size[2]) {

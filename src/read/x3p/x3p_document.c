@@ -140,6 +140,7 @@ static wt_status read_matrix(const xmlNode *record, x3p_document *to, wt_error *
     }
     copy_text(child(link, "PointDataLink"), to->points, sizeof to->points);
     copy_text(child(link, "ValidPointsLink"), to->valid, sizeof to->valid);
+    copy_text(child(link, "MD5ChecksumPointData"), to->points_md5, sizeof to->points_md5);
     if (to->points[0] == '\0' && list == NULL)
         return lacking("the heights", "a PointDataLink or a DataList", err);
     return to->points[0] == '\0' ? read_list(list, to, err) : WT_OK;

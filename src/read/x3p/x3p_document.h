@@ -21,6 +21,7 @@ typedef struct x3p_document {
     x3p_axis axis[3];
     size_t size[3];                         /* of the matrix: x, y, layers */
     char points[X3P_LINK], valid[X3P_LINK]; /* entries beside main.xml; "" = none */
+    char points_md5[40];                    /* of the first, "" = not said */
     double *list;                           /* [n_list] heights in the document itself, raw */
     size_t n_list;
 } x3p_document;

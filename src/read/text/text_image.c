@@ -1,0 +1,259 @@
+/* Tables of a text export to images: the lines of a matrix, points of a grid, a profile.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/images.h"
+#include "read/text/text.h"
+#include "read/text/text_axis.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct imaging {
+    const text_file *file;
+    const text_table *table;
+    wt_parselog *log;
+    image_list *list;
+    wt_error *err;
+} imaging;
+
+static void name_image(const imaging *m, wt_image *head, const char *otherwise)
+{
+    images_set_name(head, m->table->title[0] != '\0' ? m->table->title : otherwise);
+    snprintf(head->unit, sizeof head->unit, "m");
+    snprintf(head->x_unit, sizeof head->x_unit, "m");
+}
+
+/* ---- matrix ---------------------------------------------------------------------------------- */
+
+/* The first line is the upper edge, as a picture is written. */
+static wt_status add_matrix(const imaging *m)
+{
+    const text_table *const t = m->table;
+    const double *const said = t->header.value;
+    const double factor = isnan(said[HEADER_VALUE_FACTOR]) ? 1 : said[HEADER_VALUE_FACTOR];
+    const double pixel = said[HEADER_PIXEL_SIZE];
+    wt_image head = {.n_columns = t->n_columns, .n_rows = t->n_rows};
+    double *values = NULL;
+    wt_status status = text_table_problem(t, WT_Q_BIT(WT_Q_SURFACE_HEIGHT), m->err);
+    if (status != WT_OK)
+        return status;
+    name_image(m, &head, "matrix");
+    if (isnan(pixel))
+        images_set_size(&head, said[HEADER_WIDTH], said[HEADER_HEIGHT]);
+    else
+        images_set_size(&head, pixel * (double)t->n_columns, pixel * (double)t->n_rows);
+    status = images_add(m->list, &head, &values, m->err);
+    for (size_t row = 0; status == WT_OK && row < t->n_rows; row++)
+        for (size_t i = 0; i < t->n_columns; i++)
+            values[(t->n_rows - 1 - row) * t->n_columns + i] =
+                factor * t->values[row * t->n_columns + i];
+    return status;
+}
+
+/* ---- columns --------------------------------------------------------------------------------- */
+
+static wt_status no_steps(const imaging *m, const char *of, size_t row, wt_status status)
+{
+    wt_fail(m->err, status, "the places in column \"%s\" are no equal steps", of);
+    wt_error_place(m->err, "line %zu", m->table->row_lines[row]);
+    wt_error_expected(m->err, "places that are equally far from one another");
+    wt_error_advice(m->err, "export the surface on a regular grid, or resample it there");
+    return status;
+}
+
+static wt_status no_place(const imaging *m, const text_column *column, size_t row)
+{
+    wt_fail(m->err, WT_E_CORRUPT, "a row without its place");
+    wt_error_place(m->err, "line %zu, column \"%s\"", m->table->row_lines[row], column->name);
+    wt_error_expected(m->err, "a number");
+    return WT_E_CORRUPT;
+}
+
+static void say_rounded(const imaging *m, const text_column *column, const text_axis *axis)
+{
+    char rounded[32], step[32];
+    if (!(axis->rounded > 0))
+        return;
+    wt_format_si(axis->rounded, "m", 3, rounded, sizeof rounded);
+    wt_format_si(axis->step, "m", 6, step, sizeof step);
+    wt_parselog_add(m->log, WT_NOTE, m->file->name, NULL,
+                    "column \"%s\" is rounded to %s: its steps are taken as equal, %s by its ends",
+                    column->name, rounded, step);
+}
+
+/* A profile that was taken backwards is turned round. */
+static wt_status add_profile(const imaging *m, const text_column *x, const text_column *z)
+{
+    const text_table *const t = m->table;
+    const size_t n = t->n_rows;
+    text_axis axis;
+    size_t worst = 0;
+    wt_status status = WT_OK;
+    double *const places = malloc(n * sizeof *places), *values = NULL;
+    if (places == NULL)
+        return wt_fail(m->err, WT_E_MEMORY, "no memory for a profile");
+    const bool falls = text_table_value(t, 0, x) > text_table_value(t, n - 1, x);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        const size_t row = falls ? n - 1 - i : i;
+        places[i] = text_table_value(t, row, x);
+        if (!isfinite(places[i]))
+            status = no_place(m, x, row);
+        else if (i > 0 && !(places[i] > places[i - 1]))
+            status = no_steps(m, x->name, row, WT_E_RANGE);
+    }
+    if (status == WT_OK && !axis_find(places, n, x->factor, false, &axis, &worst))
+        status = no_steps(m, x->name, falls ? n - 1 - worst : worst, WT_E_RANGE);
+    free(places);
+    if (status != WT_OK)
+        return status;
+    wt_image head = {
+        .n_columns = n, .n_rows = 1, .width = axis.step * (double)(n - 1), .x_min = axis.first};
+    name_image(m, &head, "profile");
+    status = images_add(m->list, &head, &values, m->err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        values[i] = text_table_value(t, falls ? n - 1 - i : i, z);
+    if (status == WT_OK)
+        say_rounded(m, x, &axis);
+    return status;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The axis of the distinct places of a column. */
+static wt_status column_axis(const imaging *m, const text_column *column, text_axis *axis)
+{
+    const text_table *const t = m->table;
+    double *const places = malloc(t->n_rows * sizeof *places);
+    size_t n = 0, worst = 0;
+    wt_status status = WT_OK;
+    if (places == NULL)
+        return wt_fail(m->err, WT_E_MEMORY, "no memory for the places of a grid");
+    for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {
+        places[row] = text_table_value(t, row, column);
+        if (!isfinite(places[row]))
+            status = no_place(m, column, row);
+    }
+    qsort(places, t->n_rows, sizeof *places, by_value);
+    for (size_t i = 0; i < t->n_rows; i++)
+        if (n == 0 || places[i] > places[n - 1])
+            places[n++] = places[i];
+    if (status == WT_OK && n == 1)
+        *axis = (text_axis){places[0], 1, 1, 0};
+    else if (status == WT_OK && !axis_find(places, n, column->factor, true, axis, &worst))
+        status = no_steps(m, column->name, 0, WT_E_RANGE);
+    free(places);
+    if (status == WT_OK)
+        say_rounded(m, column, axis);
+    return status;
+}
+
+static wt_status fill_grid(const imaging *m, const text_column *const of[3], const text_axis *x,
+                           const text_axis *y, double *values)
+{
+    const text_table *const t = m->table;
+    const size_t n = x->n * y->n;
+    unsigned char *const taken = calloc(n, 1);
+    wt_status status = WT_OK;
+    if (taken == NULL)
+        return wt_fail(m->err, WT_E_MEMORY, "no memory for a grid");
+    for (size_t i = 0; i < n; i++)
+        values[i] = (double)NAN;
+    for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {
+        const size_t at = axis_index(y, text_table_value(t, row, of[1])) * x->n +
+                          axis_index(x, text_table_value(t, row, of[0]));
+        if (taken[at] != 0) {
+            status = wt_fail(m->err, WT_E_CORRUPT, "a point of the grid stands twice");
+            wt_error_place(m->err, "line %zu", t->row_lines[row]);
+            wt_error_expected(m->err, "one height for each place");
+        }
+        taken[at] = 1;
+        values[at] = text_table_value(t, row, of[2]);
+    }
+    free(taken);
+    return status;
+}
+
+static wt_status add_grid(const imaging *m, const text_column *const of[3])
+{
+    text_axis x, y;
+    double *values = NULL;
+    wt_status status = column_axis(m, of[0], &x);
+    if (status == WT_OK)
+        status = column_axis(m, of[1], &y);
+    if (status != WT_OK)
+        return status;
+    /* Points that are spread over an area have a line and a column of the grid for each. */
+    if (x.n > SIZE_MAX / y.n || x.n * y.n / 4 > m->table->n_rows) {
+        status = wt_fail(m->err, WT_E_RANGE, "the points are no grid");
+        wt_error_expected(m->err, "a height at most places of a grid");
+        wt_error_found(m->err, "%zu points, %zu places along \"%s\" and %zu along \"%s\"",
+                       m->table->n_rows, x.n, of[0]->name, y.n, of[1]->name);
+        wt_error_advice(m->err, "export the surface on a regular grid");
+        return status;
+    }
+    wt_image head = {.n_columns = x.n,
+                     .n_rows = y.n,
+                     .width = x.step * (double)(x.n - 1),
+                     .height = y.step * (double)(y.n - 1),
+                     .x_min = x.first,
+                     .y_min = y.first};
+    name_image(m, &head, "grid");
+    status = images_add(m->list, &head, &values, m->err);
+    return status == WT_OK ? fill_grid(m, of, &x, &y, values) : status;
+}
+
+static wt_status add_table(const imaging *m)
+{
+    const text_table *const t = m->table;
+    if (m->file->description->matrix)
+        return add_matrix(m);
+    const wt_quantity_set of_image =
+        WT_Q_BIT(WT_Q_POSITION_X) | WT_Q_BIT(WT_Q_POSITION_Y) | WT_Q_BIT(WT_Q_SURFACE_HEIGHT);
+    wt_status status = text_table_problem(t, of_image, m->err);
+    if (status == WT_OK)
+        status = text_table_require(t, WT_KIND_IMAGE, m->err);
+    if (status != WT_OK)
+        return status;
+    const text_column *const of[3] = {text_table_column(t, WT_Q_POSITION_X, -1),
+                                      text_table_column(t, WT_Q_POSITION_Y, -1),
+                                      text_table_column(t, WT_Q_SURFACE_HEIGHT, -1)};
+    return of[1] != NULL ? add_grid(m, of) : add_profile(m, of[0], of[2]);
+}
+
+/* Of several images in a file, those of something else than heights are left out. */
+static bool left_out(const imaging *m, wt_status status)
+{
+    if (status != WT_E_UNIT || m->file->n_tables < 2)
+        return false;
+    wt_parselog_add(m->log, WT_NOTE, m->file->name, line_place(m->table->names_line).words,
+                    "an image of no heights is left out");
+    return true;
+}
+
+wt_status text_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+{
+    text_file file;
+    image_list list = {NULL, 0};
+    wt_status status = text_scan(self, input, WT_KIND_IMAGE, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    text_log_columns(&file, log);
+    for (size_t i = 0; status == WT_OK && i < file.n_tables; i++) {
+        const imaging m = {&file, &file.tables[i], log, &list, err};
+        status = add_table(&m);
+        if (left_out(&m, status))
+            status = WT_OK;
+    }
+    if (status == WT_OK && file.n_tables == 0)
+        status = text_fail_empty(&file, "height map or profile", err);
+    status = images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    text_file_free(&file);
+    return status;
+}
