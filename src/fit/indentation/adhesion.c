@@ -1,5 +1,5 @@
-/* Adhesion of one force curve: a snap-on of the approach, and the fit of adhesive contact where
- * there is one, or a pull-off (retract.c).
+/* Adhesion of one force curve: the fit of adhesive contact where the approach snaps on (snap_on.c),
+ * or the way out shows a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,9 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
- * beyond it is an event of the baseline. */
-static const double gap_tolerance = 0.5;
 /* The root of a work of adhesion, in its standard errors; a pull counts like the work. */
 static const double work_errors = 3.0;
 static const double kink_left = 1e-3;  /* of a standard error: a step beyond ends at a kink */
@@ -36,59 +33,6 @@ enum {
     MAX_MOVES = 8,
     START_SAMPLES = 100 /* of the contact, to start a fit */
 };
-
-/* ---- snap-on --------------------------------------------------------------------------------- */
-
-typedef struct snap {
-    size_t start, deepest, end; /* the first sample below the baseline, and the first above again */
-    double pull;
-} snap;
-
-/* A pull right before the force rises that stands out of everything before it. */
-WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
-{
-    const curve_samples *s = &f->input.samples;
-    const curve_solution *fit = &f->solution;
-    double *restrict above = f->workspace->scratch;
-    size_t deepest = 0;
-    for (size_t i = 0; i < s->n; i++)
-        above[i] = s->force[i] - curve_baseline(fit, s->position[i]);
-    const double pull = -curve_span_of(above, s->n).low;
-    while (-above[deepest] < pull)
-        deepest++;
-    size_t start = deepest, end = deepest;
-    while (start > 0 && above[start - 1] < -2.0 * f->input.step_noise && above[start - 1] < 0.0)
-        start--;
-    while (end < s->n && above[end] < 0.0)
-        end++;
-    if (start < CURVE_BASELINE_SAMPLES)
-        return false;
-    double elsewhere = 0.0, noise = 0.0;
-    for (size_t i = 0; i < start; i++) {
-        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
-        noise += above[i] * above[i];
-    }
-    noise = sqrt(noise / (double)start);
-    const double after_contact = s->position[start] - fit->p[CURVE_C];
-    const double reach = s->position[s->n - 1] - fit->p[CURVE_C];
-    *found = (snap){start, deepest, end, pull};
-    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
-           fabs(after_contact) < gap_tolerance * reach && end < s->n &&
-           s->n - (end - start) >= CURVE_MIN_SAMPLES;
-}
-
-static void leave_out(curve_fitting *f, size_t start, size_t end)
-{
-    curve_samples *s = &f->input.samples;
-    const wt_indent_workspace *w = f->workspace;
-    const size_t behind = f->input.n_all - f->n_snap - end;
-    memmove(s->position + start, s->position + end, behind * sizeof *s->position);
-    memmove(s->force + start, s->force + end, behind * sizeof *s->force);
-    if (s->force != w->force) /* less a wave */
-        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
-    s->n -= end - start;
-    f->n_snap += end - start;
-}
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */
 
@@ -354,16 +298,20 @@ static bool better_law(const outcome *a, const outcome *b, bool lossy)
     return a->solution.cost < b->solution.cost;
 }
 
-/* What another law, better by chi2, adds to the error of the modulus that it moves, as far as it is
- * likely. */
-static double by_likelihood(double chi2, double moved)
+/* Another law that is likelier by chi2. */
+static curve_other by_likelihood(double chi2, double moved)
 {
-    return fabs(moved) / sqrt(1.0 + exp(-0.5 * chi2));
+    return (curve_other){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
 }
 
-static double by_other(const curve_fitting *f, const curve_solution *other, double chi2)
+static curve_other by_other(const curve_fitting *f, const curve_solution *other, double chi2)
 {
     return by_likelihood(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+}
+
+static double weight_of(const curve_other *o)
+{
+    return o->chance * o->moved * o->moved;
 }
 
 /* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
@@ -406,12 +354,14 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    f->other_law = 0.0;
+    f->other_law = (curve_other){0.0, 0.0};
     for (int i = 0; i < LAWS && best->found; i++)
         if (law[i].found && &law[i] != best) {
             const curve_solution *other = &law[i].solution;
             const double gain = fmin(0.0, gain_of(f, other));
-            f->other_law = fmax(f->other_law, by_other(f, other, gain));
+            const curve_other moved = by_other(f, other, gain);
+            if (weight_of(&moved) > weight_of(&f->other_law))
+                f->other_law = moved;
         }
     return best->found;
 }
@@ -492,11 +442,11 @@ bool curve_fit_adhesion(curve_fitting *f)
     const curve_kind plainly = f->kind;
     const bool try_it =
         !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
-    snap found;
-    if (find_snap(f, &found)) {
+    curve_snap found;
+    if (curve_find_snap(f, &found)) {
         f->snap_on = found.pull;
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
-            leave_out(f, found.start, found.deepest + 1);
+            curve_leave_out(f, found.start, found.deepest + 1);
             if (fit_adhesion_laws(f, found.pull, found.start, false)) {
                 evaluate(f);
                 return true;
@@ -505,7 +455,7 @@ bool curve_fit_adhesion(curve_fitting *f)
             found.deepest = found.start;
         }
         f->kind = plainly;
-        leave_out(f, found.start, found.end);
+        curve_leave_out(f, found.start, found.end);
         curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }

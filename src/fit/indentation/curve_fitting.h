@@ -14,6 +14,12 @@
 #define CURVE_PULL_REST 1.5
 enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* least */
 
+/* Another fit: by how much its modulus is larger than that which is taken, over it, and how likely
+ * it is the right one of both. */
+typedef struct curve_other {
+    double moved, chance;
+} curve_other;
+
 typedef struct curve_fitting {
     const wt_contact_table *table;
     const wt_indent_options *options;
@@ -36,8 +42,10 @@ typedef struct curve_fitting {
     bool another_rubber;   /* than that of the spectrum */
     bool below_saturation; /* all that is fitted: up to the limit of the options */
     bool unknown_loss;     /* it loses work, and the law of the fit does not describe it */
-    /* Errors of the modulus, over it: by another law of adhesion, by a second contact point. */
-    double other_law, other_contact;
+    /* Of another law of adhesion, of a second contact point, and what that adds to the error of the
+     * modulus, over it. */
+    curve_other other_law, other_contact;
+    double contact_error;
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
 } curve_fitting;
 
@@ -82,6 +90,19 @@ void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATO
 
 /* pull_off and loss of a retract that comes free of the sample. height, force: as measured. */
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n);
+
+/* ---- snap-on: snap_on.c ---- */
+
+typedef struct curve_snap {
+    size_t start, deepest, end; /* the first sample below the baseline, and the first above again */
+    double pull;
+} curve_snap;
+/* A pull right before the force rises that stands out of everything before it. Where it stands out
+ * of the far baseline alone, contact point and baseline of the solution become those to start a fit
+ * with. */
+bool curve_find_snap(curve_fitting *f, curve_snap *found);
+/* Of the samples, those from start to before end. */
+void curve_leave_out(curve_fitting *f, size_t start, size_t end);
 
 /* ---- adhesion: adhesion.c ---- */
 

@@ -242,7 +242,7 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
     const double e = fit->modulus.value, error = fit->modulus.standard_error / e;
     if (!(error > f->options->largest_error))
         return WT_CURVE_ACCEPTED;
-    if (f->other_contact * f->other_contact > 0.5 * error * error) {
+    if (f->contact_error * f->contact_error > 0.5 * error * error) {
         const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
         curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
                   curve_si(fabs(second->contact_point - first->contact_point), "m").words,
