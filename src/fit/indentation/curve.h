@@ -73,6 +73,7 @@ typedef struct tip_move {
 
 struct wt_indent_workspace {
     tip_move tip_move[CURVE_TIP_MOVES];
+    tip_move any_radius; /* of a radius without a stated error: deviation of its logarithm by 1 */
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
