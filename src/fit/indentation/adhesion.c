@@ -6,6 +6,7 @@
 #include "fit/indentation/curve_fitting.h"
 #include "fit/indentation/curve_model.h"
 
+#include "base/normal.h"
 #include "model/adhesion.h"
 #include "model/tip.h"
 
@@ -74,9 +75,8 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     if (length < 2 || jump / length < CURVE_BASELINE_SAMPLES || s->gap_to > s->gap_from ||
         curve_has_wave(&f->kind.wave))
         return false;
-    /* Nothing needs the way out after curve_read_retract. */
-    *to = (curve_samples){.position = f->workspace->retract_position,
-                          .force = f->workspace->retract_force,
+    *to = (curve_samples){.position = f->workspace->start_position,
+                          .force = f->workspace->start_force,
                           .spring_constant = s->spring_constant};
     *to_jump = jump / length;
     for (size_t i = jump % length; i + length <= s->n; i += length) {
@@ -273,20 +273,73 @@ typedef struct outcome {
     curve_solution solution;
     curve_kind kind;
     bool found, likely;
+    double evidence; /* twice the logarithm of its likelihood, way in and out */
 } outcome;
 enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
 
-/* Is the pull of this fit one that the way out shows? Rubber lets go with no less than it is
- * touched with. */
-static bool pull_is_likely(const curve_fitting *f, const curve_solution *elastic)
+/* Is the pull of this fit, within its errors, one that the way out shows? Rubber lets go with no
+ * less than it is touched with. */
+static bool pull_is_likely(const curve_fitting *f)
 {
-    const double root = f->solution.p[CURVE_W], most = most_pull * f->pull_off;
+    const double root = fmax(0.0, f->solution.p[CURVE_W] -
+                                      NORMAL_95 * f->solution.standard_error[CURVE_W]),
+                 most = most_pull * f->pull_off;
     if (!(f->pull_off > 0.0))
         return true;
     if (f->kind.constant_pull)
         return root <= most;
-    return !(root * root >
-             adhesion_work(f->table, elastic->p[CURVE_E], f->input.samples.spring_constant, most));
+    return !(root * root > adhesion_work(f->table, f->solution.p[CURVE_E],
+                                         f->input.samples.spring_constant, most));
+}
+
+/* By how much `other` is likelier than a solution, as 2 ln of the ratio. */
+static double evidence_of(const curve_solution *than, const curve_solution *other)
+{
+    return than->effective_n * log(than->cost / other->cost) / fmax(1.0, than->lack.statistic);
+}
+
+static double gain_of(const curve_fitting *f, const curve_solution *other)
+{
+    return evidence_of(&f->solution, other);
+}
+
+/* Does the tip let go, but for the errors of the fit, where it has touched on its way in or later?
+ * There it was in contact, and rubber holds on the way out no shorter. */
+static bool lets_go_late(const curve_fitting *f, const curve_solution *out)
+{
+    const double *position = f->way_out.samples.position;
+    const size_t jump = f->way_out.jump;
+    const double between = position[jump + 1] - position[jump];
+    return !(position[jump] > out->p[CURVE_C] + NORMAL_95 * out->standard_error[CURVE_C] + between);
+}
+
+/* Of the laws that were found. Where no work is lost the way out is another contact by the same
+ * law: neck and pull-off part laws that the way in does not. */
+static void weigh(curve_fitting *f, outcome law[LAWS])
+{
+    const curve_solution *best = NULL;
+    curve_solution out[LAWS];
+    bool fitted = f->loss < CURVE_LEAST_LOSS && law[CONSTANT_PULL].found;
+    for (int i = 0; i < LAWS; i++) {
+        if (!law[i].found)
+            continue;
+        if (best == NULL || law[i].solution.cost < best->cost)
+            best = &law[i].solution;
+        fitted = fitted && curve_fit_way_out(f, &law[i].kind, &law[i].solution, &out[i]);
+    }
+    const curve_solution *least = NULL;
+    for (int i = 0; i < LAWS && fitted; i++)
+        if (law[i].found && (least == NULL || out[i].cost < least->cost))
+            least = &out[i];
+    for (int i = 0; i < LAWS; i++) {
+        if (!law[i].found)
+            continue;
+        law[i].evidence = evidence_of(best, &law[i].solution);
+        if (fitted) {
+            law[i].evidence += evidence_of(least, &out[i]);
+            law[i].likely = law[i].likely && (!out[i].converged || lets_go_late(f, &out[i]));
+        }
+    }
 }
 
 static bool better_law(const outcome *a, const outcome *b, bool lossy)
@@ -295,7 +348,7 @@ static bool better_law(const outcome *a, const outcome *b, bool lossy)
         return a->found && (!b->found || a->likely);
     if (lossy && a->kind.constant_pull != b->kind.constant_pull)
         return b->kind.constant_pull;
-    return a->solution.cost < b->solution.cost;
+    return a->evidence > b->evidence;
 }
 
 /* Another law that is likelier by chi2. */
@@ -314,19 +367,12 @@ static double weight_of(const curve_other *o)
     return o->chance * o->moved * o->moved;
 }
 
-/* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
-static double gain_of(const curve_fitting *f, const curve_solution *other)
-{
-    return f->solution.effective_n * log(f->solution.cost / other->cost) /
-           fmax(1.0, f->solution.lack.statistic);
-}
-
 /* The better one of the laws of adhesion; what the others would give is in the error, as far as it
  * is likely. False if there is none: then all is as it was. pull_alone: no other law than that of a
  * constant pull can be the one to take, unless that is. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
-    const outcome before = {f->solution, f->kind, true, true};
+    const outcome before = {f->solution, f->kind, true, true, 0.0};
     outcome law[LAWS] = {{.found = false}};
     const outcome *best = &law[0];
     /* Work that is lost looks like a constant pull, neither law describes it, and costs do not
@@ -337,10 +383,7 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         f->kind = before.kind;
         const bool found =
             i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] =
-            (outcome){f->solution, f->kind, found, jump > 0 || pull_is_likely(f, &before.solution)};
-        if (better_law(&law[i], best, lossy))
-            best = &law[i];
+        law[i] = (outcome){f->solution, f->kind, found, pull_is_likely(f), 0.0};
         if (i == CONSTANT_PULL && pull_alone &&
             !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
             break;
@@ -350,15 +393,19 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         if (i == JKR && !(jump == 0 && pull > 0.0))
             break;
     }
+    weigh(f, law);
+    for (int i = 1; i < LAWS; i++)
+        if (better_law(&law[i], best, lossy))
+            best = &law[i];
     const outcome *to = best->found ? best : &before;
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
     f->other_law = (curve_other){0.0, 0.0};
     for (int i = 0; i < LAWS && best->found; i++)
-        if (law[i].found && &law[i] != best) {
+        if (law[i].found && &law[i] != best && (law[i].likely || !best->likely)) {
             const curve_solution *other = &law[i].solution;
-            const double gain = fmin(0.0, gain_of(f, other));
+            const double gain = fmin(0.0, law[i].evidence - best->evidence);
             const curve_other moved = by_other(f, other, gain);
             if (weight_of(&moved) > weight_of(&f->other_law))
                 f->other_law = moved;
@@ -409,8 +456,8 @@ static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
     wt_indent_workspace *w = f->workspace;
-    /* Nothing needs the way out after curve_read_retract, nor the scan's arrays after the scan. */
-    double *const difference[] = {w->retract_position, w->retract_force, w->tip};
+    /* Nothing needs the scan's arrays after the scan. */
+    double *const difference[] = {w->start_position, w->start_force, w->tip};
     enum { SCORES = sizeof difference / sizeof difference[0] };
     curve_step step[SCORES];
     residuals_of(f, &plainly, f->solution.p, w->weight);
@@ -442,9 +489,8 @@ bool curve_fit_adhesion(curve_fitting *f)
     const curve_kind plainly = f->kind;
     const bool try_it =
         !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
-    curve_snap found;
-    if (curve_find_snap(f, &found)) {
-        f->snap_on = found.pull;
+    curve_snap found = f->snap;
+    if (f->snap_on > 0.0) {
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
             curve_leave_out(f, found.start, found.deepest + 1);
             if (fit_adhesion_laws(f, found.pull, found.start, false)) {

@@ -62,6 +62,9 @@ static const wt_param rows[] = {
      .help = "do not fit the contact point: take this tip position"},
     {PARAM_FLAG_OF("contact-estimators", wt_indent_options, contact_estimators),
      .help = "also how far contact points by other estimators lie from those fitted"},
+    {PARAM_FLAG_OF("fit-retract", wt_indent_options, fit_retract),
+     .help = "also fit an elastic contact to the retract alone, with its own modulus and adhesion: "
+             "a check, which changes no other number"},
     {PARAM_FLAG_OF("fit-tilt", wt_indent_options, fit_tilt),
      .help = "tilt of the baseline, which without it has an offset only"},
 };
@@ -180,6 +183,9 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .fitted_from = nan_,
                            .interference_amplitude = nan_,
                            .interference_period = nan_,
+                           .retract_modulus = {nan_, nan_, 0.0, "Pa"},
+                           .retract_work = {nan_, nan_, 0.0, "J/m^2"},
+                           .retract_pull = {nan_, nan_, 0.0, "N"},
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
@@ -368,6 +374,8 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
         return;
     }
     bool found = curve_scan_and_refine(f) && curve_fit_interference(f);
+    if (found && curve_find_snap(f, &f->snap))
+        f->snap_on = f->snap.pull;
     if (found && retract->n > 0)
         curve_read_retract(f, retract->height, retract->force, retract->n);
     if (found)
@@ -387,6 +395,8 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     fit->verdict = curve_judge(f, fit);
     if (f->options->contact_estimators)
         curve_estimate_contact(f, fit->contact_by);
+    if (f->options->fit_retract)
+        curve_report_way_out(f, fit);
 }
 
 /* The fit of the forces up to a limit, as fit_force makes it. */

@@ -15,6 +15,22 @@ static const double gap_tolerance = 0.5;
  * and what a line that is continued to twice its length misses is a bend of the baseline. */
 static const double large_pull = 0.25;
 
+/* Their mean is below the baseline by the scatter of one sample where a pull goes on: by chance at
+ * one in 400 places of white noise. */
+enum { TAIL_SAMPLES = 8 };
+
+size_t curve_tail_start(const double *above, size_t at, double noise)
+{
+    const size_t half = at / 2;
+    const double scatter = half > 0 ? sqrt(curve_dot(above, above, half) / (double)half) : noise;
+    while (at > 0 && above[at - 1] < -2.0 * noise && above[at - 1] < 0.0)
+        at--;
+    while (at >= TAIL_SAMPLES &&
+           curve_sum(above + at - TAIL_SAMPLES, TAIL_SAMPLES) < -TAIL_SAMPLES * scatter)
+        at--;
+    return at;
+}
+
 /* That stands out of everything before it, above the baseline of p. */
 WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CURVE_N_PARAMETERS],
                                       curve_snap *found)
@@ -29,9 +45,8 @@ WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CUR
     const double pull = -curve_span_of(above, s->n).low;
     while (-above[deepest] < pull)
         deepest++;
-    size_t start = deepest, end = deepest;
-    while (start > 0 && above[start - 1] < -2.0 * f->input.step_noise && above[start - 1] < 0.0)
-        start--;
+    const size_t start = curve_tail_start(above, deepest, f->input.step_noise);
+    size_t end = deepest;
     while (end < s->n && above[end] < 0.0)
         end++;
     if (start < CURVE_BASELINE_SAMPLES)
@@ -50,48 +65,56 @@ WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CUR
            s->n - (end - start) >= CURVE_MIN_SAMPLES;
 }
 
-/* A pull as large as the force draws the baseline of a fit without it along: the line through the
- * far half of what is before the lowest force is free of it, which is where the tip touches.
- * Returns its standard error there; INFINITY: there is no such line. */
-static double far_baseline(const curve_fitting *f, double p[CURVE_N_PARAMETERS])
+/* The baseline of p becomes the line through the first n samples; returns its standard error at the
+ * contact point. */
+static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
 {
     const curve_samples *s = &f->input.samples;
-    const double low = curve_span_of(s->force, s->n).low;
     double offset, tilt, cov00, cov01, cov11, rest, there, error;
-    size_t deepest = 0;
-    while (s->force[deepest] > low)
-        deepest++;
-    const size_t half = deepest / 2;
-    if (half < CURVE_BASELINE_SAMPLES || f->kind.contact_fixed)
-        return (double)INFINITY;
-    (void)gsl_fit_linear(s->position, 1, s->force, 1, half, &offset, &tilt, &cov00, &cov01, &cov11,
+    (void)gsl_fit_linear(s->position, 1, s->force, 1, n, &offset, &tilt, &cov00, &cov01, &cov11,
                          &rest);
     if (!f->kind.tilt) {
-        offset = curve_sum(s->force, half) / (double)half;
-        cov00 = rest / (double)(half * half);
+        offset = curve_sum(s->force, n) / (double)n;
+        cov00 = rest / (double)(n * n);
         tilt = cov01 = cov11 = 0.0;
     }
-    p[CURVE_C] = s->position[deepest];
     (void)gsl_fit_linear_est(p[CURVE_C], offset, tilt, cov00, cov01, cov11, &there, &error);
     p[CURVE_F0] = there;
     p[CURVE_T] = tilt;
     return error;
 }
 
-bool curve_find_snap(curve_fitting *f, curve_snap *found)
+/* A pull as large as the force draws the baseline of a fit without it along: the line through the
+ * far half of what is before the lowest force is free of it, which is where the tip touches. */
+static bool stands_out_of_far(const curve_fitting *f, double p[CURVE_N_PARAMETERS],
+                              curve_snap *found)
 {
     const curve_samples *s = &f->input.samples;
-    double p[CURVE_N_PARAMETERS];
-    if (stands_out(f, f->solution.p, found))
-        return true;
-    memcpy(p, f->solution.p, sizeof p);
-    const double error = far_baseline(f, p);
-    if (!isfinite(error) || !stands_out(f, p, found))
+    const double low = curve_span_of(s->force, s->n).low;
+    size_t deepest = 0;
+    while (s->force[deepest] > low)
+        deepest++;
+    const size_t half = deepest / 2;
+    if (half < CURVE_BASELINE_SAMPLES || f->kind.contact_fixed)
+        return false;
+    p[CURVE_C] = s->position[deepest];
+    const double error = set_baseline(f, half, p);
+    if (!stands_out(f, p, found))
         return false;
     const double top = curve_span_of(f->workspace->scratch, s->n).high;
-    if (s->position[found->deepest] < p[CURVE_C] || s->position[found->deepest] > p[CURVE_C] ||
-        !(found->pull > CURVE_PULL_NOISE * error) || !(found->pull > large_pull * top))
+    return found->deepest == deepest && found->pull > CURVE_PULL_NOISE * error &&
+           found->pull > large_pull * top;
+}
+
+bool curve_find_snap(curve_fitting *f, curve_snap *found)
+{
+    double p[CURVE_N_PARAMETERS];
+    memcpy(p, f->solution.p, sizeof p);
+    if (!stands_out(f, p, found) && !stands_out_of_far(f, p, found)) {
+        *found = (curve_snap){.pull = 0.0};
         return false;
+    }
+    (void)set_baseline(f, found->start, p);
     memcpy(f->solution.p, p, sizeof p);
     return true;
 }
