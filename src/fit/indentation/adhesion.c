@@ -26,13 +26,16 @@ static const double most_pull = 1.5;
 /* Of that, in a score: a law that has not the work and the contact point of its best fit still
  * shows most of it. */
 static const double near_gain = 0.5;
-/* Of the largest pull that was not seen: works of adhesion to look for. */
+/* Of the largest pull that was not seen, works of adhesion to look for: a score that is linear in
+ * the work still tells one from four times as much. */
 static const double some_pulls[] = {1.0, 0.25};
-static const double some_jumps[] = {2.0, 1.0, 4.0}; /* depths of a jump before contact: touch */
+/* Depths of a jump before the contact point without adhesion, where a tip may touch: its offset and
+ * tilt hide one of them, and the fits find a minimum from within a factor of two. */
+static const double some_jumps[] = {2.0, 1.0, 4.0};
 enum {
-    MAX_ROUNDS = 3,
-    MAX_MOVES = 8,
-    START_SAMPLES = 100 /* of the contact, to start a fit */
+    MAX_ROUNDS = 3,     /* with the jump where the tip touches: each leaves less than a tenth */
+    MAX_MOVES = 8,      /* of the jump each way: noise hides it in fewer samples */
+    START_SAMPLES = 100 /* of the contact, to start a fit: it knows the modulus to a few per cent */
 };
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */

@@ -282,6 +282,23 @@ static double contact_reach(const curve_law *m, const double p[N], const residua
     return fmax(by_law, fabs(visible - by_law));
 }
 
+/* From the triangular form and units of the noise; solved is lost. */
+static void back_to_parameters(double (*aa)[M], const double *scale, double (*solved)[N],
+                               size_t n_columns, misfit_sums *to)
+{
+    const size_t q = to->n_free;
+    for (size_t k = 0; k < n_columns; k++) {
+        double *x = solved[k];
+        for (size_t c = q; c-- > 0;) {
+            for (size_t d = c + 1; d < q; d++)
+                x[c] -= aa[d][c] * x[d];
+            x[c] /= aa[c][c];
+        }
+        for (size_t c = 0; c < q; c++)
+            to->imitated[c][k] = scale[c] * x[c];
+    }
+}
+
 static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N], const double *e,
                    const residual_blocks *b, double force, misfit_sums *to)
 {
@@ -341,17 +358,7 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
         to->my[k] =
             (curve_dot(of.b[k], of.y, n) - misfit_dot(solved[k], along_y, q)) / b->innovation;
     }
-    /* back to the parameters */
-    for (size_t k = 0; k < columns_b; k++) {
-        double *x = solved[k];
-        for (size_t c = q; c-- > 0;) {
-            for (size_t d = c + 1; d < q; d++)
-                x[c] -= aa[d][c] * x[d];
-            x[c] /= aa[c][c];
-        }
-        for (size_t c = 0; c < q; c++)
-            to->imitated[c][k] = scale[c] * x[c];
-    }
+    back_to_parameters(aa, scale, solved, columns_b, to);
     return true;
 }
 
