@@ -193,7 +193,7 @@ static const expectation measured[] = {
     {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */
     {&indentation_schema, "contact_point", "kk"},
     {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
-    {&indentation_schema, "retract_modulus", "nk"}, /* asked for in the second */
+    {&indentation_schema, "retract_modulus", "nk"},  /* asked for in the second */
     {&shift_factors_schema, "wlf_c1", "kk"},
     {&shift_factors_schema, "wlf_c2", "kk"},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
