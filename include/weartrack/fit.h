@@ -113,6 +113,7 @@ typedef struct wt_indent_options {
     double fit_force_from;          /* and forces from this on [N] */
     double fit_force_fraction_from; /* and from this share of the largest on */
     double doubtful_error; /* of a misfit, over the modulus: above it DOUBTFUL; default 0.05 */
+    bool fit_retract;      /* also a contact law to the retract alone, as a check; default false */
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -186,6 +187,10 @@ typedef struct wt_indent_fit {
      * and in their errors: amplitude [N], 0: none; period [m], NaN: none. Its phase is that of the
      * tip or of the height, as the contact says; where that does not tell, the error holds both. */
     double interference_amplitude, interference_period;
+    /* Of an elastic contact fitted to the retract alone: modulus [Pa] with its error, and the
+     * adhesion of the law that fits it better, either of both; all NaN: not asked for, no retract
+     * that comes free, no minimum. */
+    wt_estimate retract_modulus, retract_work, retract_pull;
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */

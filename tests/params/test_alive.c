@@ -31,6 +31,7 @@ static const struct {
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"contact-estimators", "yes", NULL, NULL},
+    {"fit-retract", "yes", NULL, NULL},
     {"fit-depth-from", "20nm", NULL, NULL},
     {"fit-force", "10nN", NULL, NULL},
     {"fit-force-from", "5nN", NULL, NULL},

@@ -193,6 +193,7 @@ static const expectation measured[] = {
     {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */
     {&indentation_schema, "contact_point", "kk"},
     {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
+    {&indentation_schema, "retract_modulus", "nk"},  /* asked for in the second */
     {&shift_factors_schema, "wlf_c1", "kk"},
     {&shift_factors_schema, "wlf_c2", "kk"},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
@@ -244,6 +245,7 @@ static void measure_bare(void)
     indent.sets = &map;
     indent.n_sets = 1;
     indent.spring_constant = (wt_estimate){0.3, 0, 0, "N/m"};
+    indent.options.fit_retract = true;
     fixture_check(wt_tip_parse("pyramid:half-angle=20deg,radius=20nm", &indent.tip, NULL));
     fixture_check(wt_indent_group(&indent, &work, &indented, NULL));
     wt_formats_free(formats);
@@ -341,6 +343,10 @@ static void test_not_shown(void **state)
         {"cone:half-angle=45deg", "(a degree wider: a modulus about 3.4 % smaller;", "nan"},
         {"cone:half-angle=45deg+-1deg", "piezo", "half-angle"},
         {"paraboloid:radius=100nm", "thinner than", "half-angle"},
+        /* the root of 1.1 */
+        {"paraboloid:radius=100nm", "(10 % larger: a modulus about 4.7 % smaller;", "half-angle"},
+        {"paraboloid:radius=100nm+-1nm", "piezo", "radius"},
+        {"pyramid:half-angle=35deg,radius=20nm", "piezo", "radius of the tip"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_indent_job job = wt_indent_job_defaults();

@@ -455,6 +455,7 @@ static void test_spring_constants(void **state)
     wt_indent_tables_clear(&tables);
     job.options.fit_force_fraction = 0.9;
     job.options.contact_estimators = true;
+    job.options.fit_retract = true;
     job.tip.radius_error = 3e-9;
     job.tip.half_angle_error = 0.02;
     job.sensitivity = (wt_estimate){60e-9, 2e-9, 0, "m/V"};

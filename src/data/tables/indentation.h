@@ -84,6 +84,15 @@
       SI(FORCE), OPTIONAL)                                                                         \
     X(INDENTATION_PULL_OFF_WORK, IN(fit, pull_off_work),                                           \
       "work of adhesion of the retract, an upper bound", UNIT("J/m^2"), OPTIONAL)                  \
+    X(INDENTATION_RETRACT_MODULUS, IN(fit, retract_modulus),                                       \
+      "Young's modulus of an elastic contact fitted to the retract alone", SI(MODULUS),            \
+      STANDARD_ERROR(INDENTATION_RETRACT_MODULUS), OPTIONAL)                                       \
+    X(INDENTATION_RETRACT_MODULUS_STANDARD_ERROR, "retract_modulus_standard_error",                \
+      "standard error of it, with that of a misfit", SI(MODULUS), OPTIONAL)                        \
+    X(INDENTATION_RETRACT_WORK, "retract_work_of_adhesion", "work of adhesion of that fit",        \
+      UNIT("J/m^2"), SHOWS(fit.retract_work.value), OPTIONAL)                                      \
+    X(INDENTATION_RETRACT_PULL, "retract_contact_pull", "constant pull in contact of that fit",    \
+      SI(FORCE), SHOWS(fit.retract_pull.value), OPTIONAL)                                          \
     X(INDENTATION_TABOR_NUMBER, IN(fit, tabor_number),                                             \
       "Tabor number: above 5 the adhesion is that of the fit", NUMBER, OPTIONAL)                   \
     X(INDENTATION_LOSS, IN(fit, loss), "share of the work that the retract does not give back",    \

@@ -1,20 +1,18 @@
-/* Adhesion of one force curve: a snap-on of the approach, and the fit of adhesive contact where
- * there is one, or a pull-off (retract.c).
+/* Adhesion of one force curve: the fit of adhesive contact where the approach snaps on (snap_on.c),
+ * or the way out shows a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/indentation/curve_fitting.h"
 #include "fit/indentation/curve_model.h"
 
+#include "base/normal.h"
 #include "model/adhesion.h"
 #include "model/tip.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
- * beyond it is an event of the baseline. */
-static const double gap_tolerance = 0.5;
 /* The root of a work of adhesion, in its standard errors; a pull counts like the work. */
 static const double work_errors = 3.0;
 static const double kink_left = 1e-3;  /* of a standard error: a step beyond ends at a kink */
@@ -28,67 +26,17 @@ static const double most_pull = 1.5;
 /* Of that, in a score: a law that has not the work and the contact point of its best fit still
  * shows most of it. */
 static const double near_gain = 0.5;
-/* Of the largest pull that was not seen: works of adhesion to look for. */
+/* Of the largest pull that was not seen, works of adhesion to look for: a score that is linear in
+ * the work still tells one from four times as much. */
 static const double some_pulls[] = {1.0, 0.25};
-static const double some_jumps[] = {2.0, 1.0, 4.0}; /* depths of a jump before contact: touch */
+/* Depths of a jump before the contact point without adhesion, where a tip may touch: its offset and
+ * tilt hide one of them, and the fits find a minimum from within a factor of two. */
+static const double some_jumps[] = {2.0, 1.0, 4.0};
 enum {
-    MAX_ROUNDS = 3,
-    MAX_MOVES = 8,
-    START_SAMPLES = 100 /* of the contact, to start a fit */
+    MAX_ROUNDS = 3,     /* with the jump where the tip touches: each leaves less than a tenth */
+    MAX_MOVES = 8,      /* of the jump each way: noise hides it in fewer samples */
+    START_SAMPLES = 100 /* of the contact, to start a fit: it knows the modulus to a few per cent */
 };
-
-/* ---- snap-on --------------------------------------------------------------------------------- */
-
-typedef struct snap {
-    size_t start, deepest, end; /* the first sample below the baseline, and the first above again */
-    double pull;
-} snap;
-
-/* A pull right before the force rises that stands out of everything before it. */
-WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
-{
-    const curve_samples *s = &f->input.samples;
-    const curve_solution *fit = &f->solution;
-    double *restrict above = f->workspace->scratch;
-    size_t deepest = 0;
-    for (size_t i = 0; i < s->n; i++)
-        above[i] = s->force[i] - curve_baseline(fit, s->position[i]);
-    const double pull = -curve_span_of(above, s->n).low;
-    while (-above[deepest] < pull)
-        deepest++;
-    size_t start = deepest, end = deepest;
-    while (start > 0 && above[start - 1] < -2.0 * f->input.step_noise && above[start - 1] < 0.0)
-        start--;
-    while (end < s->n && above[end] < 0.0)
-        end++;
-    if (start < CURVE_BASELINE_SAMPLES)
-        return false;
-    double elsewhere = 0.0, noise = 0.0;
-    for (size_t i = 0; i < start; i++) {
-        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
-        noise += above[i] * above[i];
-    }
-    noise = sqrt(noise / (double)start);
-    const double after_contact = s->position[start] - fit->p[CURVE_C];
-    const double reach = s->position[s->n - 1] - fit->p[CURVE_C];
-    *found = (snap){start, deepest, end, pull};
-    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
-           fabs(after_contact) < gap_tolerance * reach && end < s->n &&
-           s->n - (end - start) >= CURVE_MIN_SAMPLES;
-}
-
-static void leave_out(curve_fitting *f, size_t start, size_t end)
-{
-    curve_samples *s = &f->input.samples;
-    const wt_indent_workspace *w = f->workspace;
-    const size_t behind = f->input.n_all - f->n_snap - end;
-    memmove(s->position + start, s->position + end, behind * sizeof *s->position);
-    memmove(s->force + start, s->force + end, behind * sizeof *s->force);
-    if (s->force != w->force) /* less a wave */
-        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
-    s->n -= end - start;
-    f->n_snap += end - start;
-}
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */
 
@@ -130,9 +78,8 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     if (length < 2 || jump / length < CURVE_BASELINE_SAMPLES || s->gap_to > s->gap_from ||
         curve_has_wave(&f->kind.wave))
         return false;
-    /* Nothing needs the way out after curve_read_retract. */
-    *to = (curve_samples){.position = f->workspace->retract_position,
-                          .force = f->workspace->retract_force,
+    *to = (curve_samples){.position = f->workspace->start_position,
+                          .force = f->workspace->start_force,
                           .spring_constant = s->spring_constant};
     *to_jump = jump / length;
     for (size_t i = jump % length; i + length <= s->n; i += length) {
@@ -331,20 +278,73 @@ typedef struct outcome {
     curve_solution solution;
     curve_kind kind;
     bool found, likely;
+    double evidence; /* twice the logarithm of its likelihood, way in and out */
 } outcome;
 enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
 
-/* Is the pull of this fit one that the way out shows? Rubber lets go with no less than it is
- * touched with. */
-static bool pull_is_likely(const curve_fitting *f, const curve_solution *elastic)
+/* Is the pull of this fit, within its errors, one that the way out shows? Rubber lets go with no
+ * less than it is touched with. */
+static bool pull_is_likely(const curve_fitting *f)
 {
-    const double root = f->solution.p[CURVE_W], most = most_pull * f->pull_off;
+    const double root = fmax(0.0, f->solution.p[CURVE_W] -
+                                      NORMAL_95 * f->solution.standard_error[CURVE_W]),
+                 most = most_pull * f->pull_off;
     if (!(f->pull_off > 0.0))
         return true;
     if (f->kind.constant_pull)
         return root <= most;
-    return !(root * root >
-             adhesion_work(f->table, elastic->p[CURVE_E], f->input.samples.spring_constant, most));
+    return !(root * root > adhesion_work(f->table, f->solution.p[CURVE_E],
+                                         f->input.samples.spring_constant, most));
+}
+
+/* By how much `other` is likelier than a solution, as 2 ln of the ratio. */
+static double evidence_of(const curve_solution *than, const curve_solution *other)
+{
+    return than->effective_n * log(than->cost / other->cost) / fmax(1.0, than->lack.statistic);
+}
+
+static double gain_of(const curve_fitting *f, const curve_solution *other)
+{
+    return evidence_of(&f->solution, other);
+}
+
+/* Does the tip let go, but for the errors of the fit, where it has touched on its way in or later?
+ * There it was in contact, and rubber holds on the way out no shorter. */
+static bool lets_go_late(const curve_fitting *f, const curve_solution *out)
+{
+    const double *position = f->way_out.samples.position;
+    const size_t jump = f->way_out.jump;
+    const double between = position[jump + 1] - position[jump];
+    return !(position[jump] > out->p[CURVE_C] + NORMAL_95 * out->standard_error[CURVE_C] + between);
+}
+
+/* Of the laws that were found. Where no work is lost the way out is another contact by the same
+ * law: neck and pull-off part laws that the way in does not. */
+static void weigh(curve_fitting *f, outcome law[LAWS])
+{
+    const curve_solution *best = NULL;
+    curve_solution out[LAWS];
+    bool fitted = f->loss < CURVE_LEAST_LOSS && law[CONSTANT_PULL].found;
+    for (int i = 0; i < LAWS; i++) {
+        if (!law[i].found)
+            continue;
+        if (best == NULL || law[i].solution.cost < best->cost)
+            best = &law[i].solution;
+        fitted = fitted && curve_fit_way_out(f, &law[i].kind, &law[i].solution, &out[i]);
+    }
+    const curve_solution *least = NULL;
+    for (int i = 0; i < LAWS && fitted; i++)
+        if (law[i].found && (least == NULL || out[i].cost < least->cost))
+            least = &out[i];
+    for (int i = 0; i < LAWS; i++) {
+        if (!law[i].found)
+            continue;
+        law[i].evidence = evidence_of(best, &law[i].solution);
+        if (fitted) {
+            law[i].evidence += evidence_of(least, &out[i]);
+            law[i].likely = law[i].likely && (!out[i].converged || lets_go_late(f, &out[i]));
+        }
+    }
 }
 
 static bool better_law(const outcome *a, const outcome *b, bool lossy)
@@ -353,26 +353,23 @@ static bool better_law(const outcome *a, const outcome *b, bool lossy)
         return a->found && (!b->found || a->likely);
     if (lossy && a->kind.constant_pull != b->kind.constant_pull)
         return b->kind.constant_pull;
-    return a->solution.cost < b->solution.cost;
+    return a->evidence > b->evidence;
 }
 
-/* What another law, better by chi2, adds to the error of the modulus that it moves, as far as it is
- * likely. */
-static double by_likelihood(double chi2, double moved)
+/* Another law that is likelier by chi2. */
+static curve_other by_likelihood(double chi2, double moved)
 {
-    return fabs(moved) / sqrt(1.0 + exp(-0.5 * chi2));
+    return (curve_other){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
 }
 
-static double by_other(const curve_fitting *f, const curve_solution *other, double chi2)
+static curve_other by_other(const curve_fitting *f, const curve_solution *other, double chi2)
 {
     return by_likelihood(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
 }
 
-/* By how much `other` is likelier than the solution, as 2 ln of the ratio. */
-static double gain_of(const curve_fitting *f, const curve_solution *other)
+static double weight_of(const curve_other *o)
 {
-    return f->solution.effective_n * log(f->solution.cost / other->cost) /
-           fmax(1.0, f->solution.lack.statistic);
+    return o->chance * o->moved * o->moved;
 }
 
 /* The better one of the laws of adhesion; what the others would give is in the error, as far as it
@@ -380,7 +377,7 @@ static double gain_of(const curve_fitting *f, const curve_solution *other)
  * constant pull can be the one to take, unless that is. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
-    const outcome before = {f->solution, f->kind, true, true};
+    const outcome before = {f->solution, f->kind, true, true, 0.0};
     outcome law[LAWS] = {{.found = false}};
     const outcome *best = &law[0];
     /* Work that is lost looks like a constant pull, neither law describes it, and costs do not
@@ -391,10 +388,7 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         f->kind = before.kind;
         const bool found =
             i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] =
-            (outcome){f->solution, f->kind, found, jump > 0 || pull_is_likely(f, &before.solution)};
-        if (better_law(&law[i], best, lossy))
-            best = &law[i];
+        law[i] = (outcome){f->solution, f->kind, found, pull_is_likely(f), 0.0};
         if (i == CONSTANT_PULL && pull_alone &&
             !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
             break;
@@ -404,16 +398,22 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         if (i == JKR && !(jump == 0 && pull > 0.0))
             break;
     }
+    weigh(f, law);
+    for (int i = 1; i < LAWS; i++)
+        if (better_law(&law[i], best, lossy))
+            best = &law[i];
     const outcome *to = best->found ? best : &before;
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    f->other_law = 0.0;
+    f->other_law = (curve_other){0.0, 0.0};
     for (int i = 0; i < LAWS && best->found; i++)
-        if (law[i].found && &law[i] != best) {
+        if (law[i].found && &law[i] != best && (law[i].likely || !best->likely)) {
             const curve_solution *other = &law[i].solution;
-            const double gain = fmin(0.0, gain_of(f, other));
-            f->other_law = fmax(f->other_law, by_other(f, other, gain));
+            const double gain = fmin(0.0, law[i].evidence - best->evidence);
+            const curve_other moved = by_other(f, other, gain);
+            if (weight_of(&moved) > weight_of(&f->other_law))
+                f->other_law = moved;
         }
     return best->found;
 }
@@ -461,8 +461,8 @@ static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
     wt_indent_workspace *w = f->workspace;
-    /* Nothing needs the way out after curve_read_retract, nor the scan's arrays after the scan. */
-    double *const difference[] = {w->retract_position, w->retract_force, w->tip};
+    /* Nothing needs the scan's arrays after the scan. */
+    double *const difference[] = {w->start_position, w->start_force, w->tip};
     enum { SCORES = sizeof difference / sizeof difference[0] };
     curve_step step[SCORES];
     residuals_of(f, &plainly, f->solution.p, w->weight);
@@ -494,11 +494,10 @@ bool curve_fit_adhesion(curve_fitting *f)
     const curve_kind plainly = f->kind;
     const bool try_it =
         !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
-    snap found;
-    if (find_snap(f, &found)) {
-        f->snap_on = found.pull;
+    curve_snap found = f->snap;
+    if (f->snap_on > 0.0) {
         if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
-            leave_out(f, found.start, found.deepest + 1);
+            curve_leave_out(f, found.start, found.deepest + 1);
             if (fit_adhesion_laws(f, found.pull, found.start, false)) {
                 evaluate(f);
                 return true;
@@ -507,7 +506,7 @@ bool curve_fit_adhesion(curve_fitting *f)
             found.deepest = found.start;
         }
         f->kind = plainly;
-        leave_out(f, found.start, found.end);
+        curve_leave_out(f, found.start, found.end);
         curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }

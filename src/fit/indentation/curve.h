@@ -73,14 +73,16 @@ typedef struct tip_move {
 
 struct wt_indent_workspace {
     tip_move tip_move[CURVE_TIP_MOVES];
+    tip_move any_radius; /* of a radius without a stated error: deviation of its logarithm by 1 */
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
-    double *by_modulus, *by_work;     /* of an adhesive contact, at one depth */
-    double *by_contact, *time;        /* with memory */
-    double *given_force, *given_time; /* of wt_indent_force_curve */
-    double *retract_position, *retract_force;
-    double *without_wave;                             /* forces less the wave; `force` has it */
+    double *by_modulus, *by_work;                     /* of an adhesive contact, at one depth */
+    double *by_contact, *time;                        /* with memory */
+    double *given_force, *given_time, *given_retract; /* of wt_indent_force_curve */
+    double *retract_position, *retract_force; /* of the way out, from curve_read_retract on */
+    double *start_position, *start_force;     /* of fits that only start others */
+    double *without_wave;                     /* forces less the wave; `force` has it */
     double *wave_column[WAVE_PARAMETERS], *wave_give; /* derivatives: curve_wave.c */
     scan_octave octave[SCAN_OCTAVES];
     double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function, square */

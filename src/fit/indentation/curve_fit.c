@@ -3,10 +3,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/gsl_quiet.h"
+#include "base/normal.h"
 #include "base/param.h"
 #include "fit/indentation/curve_fitting.h"
 #include "model/adhesion.h"
 #include "model/material.h"
+#include "model/root.h"
 #include "model/tip.h"
 
 #include <math.h>
@@ -60,6 +62,9 @@ static const wt_param rows[] = {
      .help = "do not fit the contact point: take this tip position"},
     {PARAM_FLAG_OF("contact-estimators", wt_indent_options, contact_estimators),
      .help = "also how far contact points by other estimators lie from those fitted"},
+    {PARAM_FLAG_OF("fit-retract", wt_indent_options, fit_retract),
+     .help = "also fit an elastic contact to the retract alone, with its own modulus and adhesion: "
+             "a check, which changes no other number"},
     {PARAM_FLAG_OF("fit-tilt", wt_indent_options, fit_tilt),
      .help = "tilt of the baseline, which without it has an offset only"},
 };
@@ -178,6 +183,9 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .fitted_from = nan_,
                            .interference_amplitude = nan_,
                            .interference_period = nan_,
+                           .retract_modulus = {nan_, nan_, 0.0, "Pa"},
+                           .retract_work = {nan_, nan_, 0.0, "J/m^2"},
+                           .retract_pull = {nan_, nan_, 0.0, "N"},
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
@@ -225,6 +233,39 @@ static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
     fit->misfit_error *= here / unit;
 }
 
+static const double outside_95 = 0.05;   /* of an interval of 95 % */
+static const double error_digits = 1e-3; /* of an error, which is said with two */
+
+/* Standard error with which an interval of 95 % about the one fit holds 95 % of what both say. */
+typedef struct two_fits {
+    double error;
+    const curve_other *other;
+} two_fits;
+
+static double held_of_two(double with_other, void *user)
+{
+    const two_fits *of = user;
+    const double end = NORMAL_95 * with_other, width = M_SQRT2 * of->error,
+                 moved = fabs(of->other->moved), chance = of->other->chance;
+    const double beyond =
+        (1.0 - chance) * erfc(end / width) +
+        0.5 * chance * (erfc((end - moved) / width) + erfc((end + moved) / width));
+    return outside_95 - beyond;
+}
+
+/* What the other fit adds to an error, in its square. */
+static double error_by(double error, const curve_other *other)
+{
+    two_fits of = {error, other};
+    double with_other = error;
+    if (!(error > 0.0) || !(fabs(other->moved) > 0.0))
+        return 0.0;
+    if (root_find(held_of_two, &of, error, error + fabs(other->moved), error_digits * error,
+                  &with_other, NULL) != WT_OK)
+        return fabs(other->moved);
+    return sqrt(with_other * with_other - error * error);
+}
+
 static void report(curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
@@ -232,9 +273,11 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
+    const double error = hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error),
+                 by_law = error_by(error, &f->other_law);
+    f->contact_error = error_by(error, &f->other_contact);
     fit->modulus.standard_error =
-        e * sqrt(pow(s->standard_error[CURVE_E] / s->p[CURVE_E], 2) + pow(f->loss_error, 2) +
-                 pow(f->other_contact, 2) + pow(f->other_law, 2));
+        e * sqrt(error * error + pow(f->contact_error, 2) + by_law * by_law);
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
     fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];
@@ -296,7 +339,7 @@ static void add_other_contact(curve_fitting *f)
     const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
     if (chi2 < likely_chi2)
         f->other_contact =
-            sqrt(share) * fabs(f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0);
+            (curve_other){f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0, share};
 }
 
 static wt_status check_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
@@ -331,6 +374,8 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
         return;
     }
     bool found = curve_scan_and_refine(f) && curve_fit_interference(f);
+    if (found && curve_find_snap(f, &f->snap))
+        f->snap_on = f->snap.pull;
     if (found && retract->n > 0)
         curve_read_retract(f, retract->height, retract->force, retract->n);
     if (found)
@@ -350,6 +395,8 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     fit->verdict = curve_judge(f, fit);
     if (f->options->contact_estimators)
         curve_estimate_contact(f, fit->contact_by);
+    if (f->options->fit_retract)
+        curve_report_way_out(f, fit);
 }
 
 /* The fit of the forces up to a limit, as fit_force makes it. */

@@ -242,7 +242,7 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
     const double e = fit->modulus.value, error = fit->modulus.standard_error / e;
     if (!(error > f->options->largest_error))
         return WT_CURVE_ACCEPTED;
-    if (f->other_contact * f->other_contact > 0.5 * error * error) {
+    if (f->contact_error * f->contact_error > 0.5 * error * error) {
         const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
         curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
                   curve_si(fabs(second->contact_point - first->contact_point), "m").words,
@@ -320,8 +320,7 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
     return WT_CURVE_ACCEPTED;
 }
 
-/* Whole, or not at all. */
-static void append_note(char reason[160], const char *text)
+void curve_append_note(char reason[160], const char *text)
 {
     if (strlen(reason) + strlen(text) < 160)
         strcat(reason, text);
@@ -334,54 +333,54 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     if (f->kind.adhesive && f->kind.constant_pull) {
         curve_say(text, "; with a constant pull of %s",
                   curve_si(fit->contact_pull.value, "N").words);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     } else if (f->kind.adhesive) {
         curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     } else if (f->snap_on > 0.0) {
         curve_say(text, "; snap-on of %s left out (%zu samples)", curve_si(f->snap_on, "N").words,
                   f->n_snap);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
         !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
         curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
                   curve_si(f->pull_off, "N").words);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     if (f->another_rubber && !f->kind.adhesive)
-        append_note(reason, "; not of the spectrum of the DMA");
+        curve_append_note(reason, "; not of the spectrum of the DMA");
     if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
         curve_say(text, "; misfit: %s", misfit_text(fit).words);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     if (f->unknown_loss && f->kind.memory) {
-        append_note(reason, "; the spectrum of the DMA does not describe its loss");
+        curve_append_note(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= least_bias) {
         curve_say(
             text,
             "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
             100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
             f->loss_bias > 0.0 ? "less" : "more");
-        append_note(reason, text);
+        curve_append_note(reason, text);
     } else if (f->unknown_loss) {
         curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
                   fit->loss > most_tried ? "how near |E*| is not known"
                                          : "|E*| at 1/(loading time) within 20 %");
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     if (fit->interference_amplitude > 0.0) {
         curve_say(text, "; interference of %s and a period of %s fitted",
                   curve_si(fit->interference_amplitude, "N").words,
                   curve_si(fit->interference_period, "m").words);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     if (f->solution.bent)
-        append_note(reason, "; baseline bent, which the error holds");
+        curve_append_note(reason, "; baseline bent, which the error holds");
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > large_error) {
         curve_say(text, "; standard error %.0f %%", 100.0 * error);
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     const struct {
         size_t n;
@@ -392,10 +391,10 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
         if (left_out[i].n > 0) {
             curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
-            append_note(reason, text);
+            curve_append_note(reason, text);
         }
     if (!f->range_settled)
-        append_note(reason, "; the range of the fit did not settle");
+        curve_append_note(reason, "; the range of the fit did not settle");
 }
 
 /* Before what else is said of a usable fit: that it is of the forces below a limit alone. */
@@ -411,7 +410,7 @@ static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict ver
               curve_si(f->options->fit_force, "N").words);
     if (verdict == WT_CURVE_DOUBTFUL) {
         curve_say(text, "; %s", all + strlen(doubtful));
-        append_note(reason, text);
+        curve_append_note(reason, text);
     }
     return WT_CURVE_DOUBTFUL;
 }
@@ -439,5 +438,5 @@ void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason
 {
     char text[160];
     curve_say(text, "; up to %s: %s", curve_si(limit, "N").words, wt_curve_verdict_text(below));
-    append_note(reason, text);
+    curve_append_note(reason, text);
 }

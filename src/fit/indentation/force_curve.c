@@ -49,7 +49,7 @@ static curve_branch way_out(const wt_segment *retract, const wt_cantilever *cant
 {
     const double *height = retract != NULL ? segment_height(retract) : NULL;
     const double *force =
-        height != NULL ? segment_force(retract, cantilever, workspace->retract_force) : NULL;
+        height != NULL ? segment_force(retract, cantilever, workspace->given_retract) : NULL;
     return (curve_branch){height, force, NULL, force != NULL ? retract->n_points : 0};
 }
 

@@ -11,6 +11,10 @@
  * be others is in their errors, as is how they scatter: where the misfit is large its shape is not
  * known well enough to correct for it, and a linear model not good enough to say by how much.
  *
+ * A radius of the tip of which no error is stated may be another one, which is the commonest of all
+ * misfits: what that changes is one more kind of discrepancy, of known shape, as likely beforehand
+ * as one of unknown shape. Where nearly all of it looks like another modulus it is left out.
+ *
  * Tips that are as likely as the stated one (tip_move of the workspace), and a pull that is seen
  * and that no law has, are further columns, of a standard deviation of 1: a misfit that they
  * explain is not one of the law.
@@ -35,11 +39,14 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    LEGENDRE = MISFIT_FUNCTIONS, /* carry lengths from 0.175 on to 1 % of the variance */
+    LEGENDRE = MISFIT_SMOOTH, /* carry lengths from 0.175 on to 1 % of the variance */
+    FUNCTIONS = MISFIT_FUNCTIONS,
     M = MISFIT_COLUMNS,
-    LENGTHS = 3, /* the nodes of three points of a normal prior */
-    SIZES = 16,  /* most */
-    NODES = 64,  /* of the depth, for the covariance of the Legendre functions */
+    LENGTHS = 3,         /* the nodes of three points of a normal prior */
+    KINDS = LENGTHS + 1, /* of a discrepancy: of these lengths, and another radius of the tip */
+    SIZES = 16,          /* most */
+    CANDIDATES = 1 + KINDS * SIZES,
+    NODES = 64, /* of the depth, for the covariance of the Legendre functions */
 };
 /* ln l is normal about ln 0.5 with a standard deviation of 0.7: nodes at -1, 0 and 1 of them. */
 static const double length_median = 0.5, length_sd = 0.7;
@@ -50,6 +57,9 @@ static const double largest_size = 0.3;
  * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
  * that it leaves; a pull by 3 times. */
 static const double most_hidden = 60.0;
+/* Of the logarithm of a radius: makers state tips to a factor of two at worst. */
+static const double largest_radius = 0.7;
+static const double of_radius = 0.5;   /* of discrepancies, that they are one: even odds */
 static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
 static const double no_size = 0.01;    /* of a likelihood: the size is none */
 static const double outside = 0.05;    /* of an interval of 95 % */
@@ -176,6 +186,25 @@ static double pull_without_law(const curve_fitting *f)
     return f->kind.adhesive ? 0.0 : f->snap_on;
 }
 
+/* What a move of the tip by its deviation changes of a force, as a share of it: slope and bend. */
+typedef struct tip_change {
+    double slope, bend;
+} tip_change;
+
+static tip_change change_of_tip(const curve_law *m, const tip_move *move, double depth)
+{
+    double now = 0.0, up = 0.0, down = 0.0;
+    if (move->up == NULL || !(depth > 0.0))
+        return (tip_change){0.0, 0.0};
+    wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
+    wt_contact_table_eval(move->up, &depth, 1, &up, NULL);
+    wt_contact_table_eval(move->down, &depth, 1, &down, NULL);
+    if (!(now > 0.0))
+        return (tip_change){0.0, 0.0};
+    const double x = move->deviation;
+    return (tip_change){0.5 * x * (up - down) / now, x * x * (up - now - (now - down)) / now};
+}
+
 /* Of one block of the history or window: Legendre functions, in units of the largest force, what a
  * moved tip changes, and a pull. */
 static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
@@ -187,9 +216,10 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
     size_t n_tips = 0;
     while (n_tips < CURVE_TIP_MOVES && tips[n_tips].up != NULL)
         n_tips++;
-    const size_t n_moves = n_tips + (pull > 0.0), bends = LEGENDRE + n_moves;
+    const size_t n_moves = n_tips + (pull > 0.0), bends = FUNCTIONS + n_moves;
     d->n_tips = n_tips;
     d->n_moves = n_moves;
+    d->any_radius = f->workspace->any_radius.up != NULL;
     const double deepest = f->solution.max_indentation;
     for (size_t i = 0; i < BLOCKS_MAX_ORDER + b->n; i++) {
         double at[LEGENDRE] = {0.0};
@@ -199,19 +229,16 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             raw[k][i] = at[k] * b->touch[i] * force;
         /* As shares of the force that is there: means over a block, which the law has, too. */
         const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
+        const tip_change radius =
+            change_of_tip(m, &f->workspace->any_radius, b->depth[i] * deepest);
+        raw[MISFIT_RADIUS][i] = contact * radius.slope;
         for (size_t k = 0; k < n_tips; k++) {
-            double depth = b->depth[i] * deepest, now = 0.0, up = 0.0, down = 0.0;
-            if (contact > 0.0) {
-                wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
-                wt_contact_table_eval(tips[k].up, &depth, 1, &up, NULL);
-                wt_contact_table_eval(tips[k].down, &depth, 1, &down, NULL);
-            }
-            const double x = tips[k].deviation, unit = now > 0.0 ? contact / now : 0.0;
-            raw[LEGENDRE + k][i] = 0.5 * x * unit * (up - down);
-            raw[bends + k][i] = x * x * unit * (up - now - (now - down));
+            const tip_change moved = change_of_tip(m, &tips[k], b->depth[i] * deepest);
+            raw[FUNCTIONS + k][i] = contact * moved.slope;
+            raw[bends + k][i] = contact * moved.bend;
         }
         if (pull > 0.0)
-            raw[LEGENDRE + n_tips][i] = -pull * b->touch[i];
+            raw[FUNCTIONS + n_tips][i] = -pull * b->touch[i];
     }
     for (size_t k = 0; k < bends + n_tips; k++)
         residual_blocks_whiten(b, raw[k], BLOCKS_MAX_ORDER, b->n, to->b[k]);
@@ -255,6 +282,23 @@ static double contact_reach(const curve_law *m, const double p[N], const residua
     return fmax(by_law, fabs(visible - by_law));
 }
 
+/* From the triangular form and units of the noise; solved is lost. */
+static void back_to_parameters(double (*aa)[M], const double *scale, double (*solved)[N],
+                               size_t n_columns, misfit_sums *to)
+{
+    const size_t q = to->n_free;
+    for (size_t k = 0; k < n_columns; k++) {
+        double *x = solved[k];
+        for (size_t c = q; c-- > 0;) {
+            for (size_t d = c + 1; d < q; d++)
+                x[c] -= aa[d][c] * x[d];
+            x[c] /= aa[c][c];
+        }
+        for (size_t c = 0; c < q; c++)
+            to->imitated[c][k] = scale[c] * x[c];
+    }
+}
+
 static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N], const double *e,
                    const residual_blocks *b, double force, misfit_sums *to)
 {
@@ -262,7 +306,7 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
     double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
     *to = (misfit_sums){0};
     fill_columns(f, m, p, b, force, &of, to);
-    const size_t n = b->n, columns_b = LEGENDRE + to->n_moves + to->n_tips;
+    const size_t n = b->n, columns_b = FUNCTIONS + to->n_moves + to->n_tips;
     for (size_t i = 0; i < N; i++)
         if (m->free[i])
             to->which[to->n_free++] = i;
@@ -307,20 +351,14 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
             to->mm[k][l] = to->mm[l][k] =
                 (curve_dot(of.b[k], of.b[l], n) - misfit_dot(solved[k], solved[l], q)) /
                 b->innovation;
+        if (k == MISFIT_RADIUS)
+            to->any_radius =
+                to->any_radius && most_hidden * most_hidden * to->mm[k][k] * b->innovation >
+                                      curve_dot(of.b[k], of.b[k], n);
         to->my[k] =
             (curve_dot(of.b[k], of.y, n) - misfit_dot(solved[k], along_y, q)) / b->innovation;
     }
-    /* back to the parameters */
-    for (size_t k = 0; k < columns_b; k++) {
-        double *x = solved[k];
-        for (size_t c = q; c-- > 0;) {
-            for (size_t d = c + 1; d < q; d++)
-                x[c] -= aa[d][c] * x[d];
-            x[c] /= aa[c][c];
-        }
-        for (size_t c = 0; c < q; c++)
-            to->imitated[c][k] = scale[c] * x[c];
-    }
+    back_to_parameters(aa, scale, solved, columns_b, to);
     return true;
 }
 
@@ -380,6 +418,16 @@ static length_sums sums_of_length(const misfit_sums *d, int length)
     return to;
 }
 
+/* The same of another radius: one function. */
+static length_sums sums_of_radius(const misfit_sums *d)
+{
+    length_sums to = {.with = {d->mm[MISFIT_RADIUS][MISFIT_RADIUS]},
+                      .residual = {d->my[MISFIT_RADIUS]}};
+    for (size_t c = 0; c < d->n_free; c++)
+        to.imitated[c][0] = d->imitated[c][MISFIT_RADIUS];
+    return to;
+}
+
 /* With a discrepancy of size s; returns what it explains of the residual. */
 static double try_size(const misfit_sums *d, const length_sums *l, double s,
                        const misfit_candidate *none, misfit_candidate *c)
@@ -425,36 +473,41 @@ static double student(double unexplained, double freedom)
 
 typedef struct mixture {
     size_t n;
-    misfit_candidate part[1 + LENGTHS * SIZES]; /* the first one is that there is no discrepancy */
-    double tip[N]; /* of all variances, that of the stated errors of the tip */
+    misfit_candidate part[CANDIDATES]; /* the first one is that there is no discrepancy */
+    double tip[N];                     /* of all variances, that of the stated errors of the tip */
 } mixture;
 
 static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture *to)
 {
     misfit_candidate *const none = &to->part[0];
-    double explained[1 + LENGTHS * SIZES] = {0.0}, most = 0.0, best, sum = 0.0;
-    length_sums of[LENGTHS];
+    double explained[CANDIDATES] = {0.0}, most = 0.0, best, sum = 0.0;
+    length_sums of[KINDS];
     if (!misfit_take_out_moves(d, none, to->tip))
         return false;
+    const size_t kinds = LENGTHS + d->any_radius;
     for (int l = 0; l < LENGTHS; l++)
         of[l] = sums_of_length(d, l);
+    if (d->any_radius)
+        of[LENGTHS] = sums_of_radius(d);
     to->n = 1;
     bool matters = true;
-    for (double s = largest; to->n + LENGTHS <= 1 + LENGTHS * SIZES && matters; s /= size_ratio) {
+    for (double s = 1.0; to->n + kinds <= 1 + kinds * SIZES && matters; s /= size_ratio) {
         matters = false;
-        for (int l = 0; l < LENGTHS; l++, to->n++) {
+        for (size_t l = 0; l < kinds; l++, to->n++) {
             misfit_candidate *c = &to->part[to->n];
-            explained[to->n] = try_size(d, &of[l], s, none, c);
+            explained[to->n] =
+                try_size(d, &of[l], s * (l < LENGTHS ? largest : largest_radius), none, c);
             most = fmax(most, explained[to->n]); /* that of the largest size */
             matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
-            c->chance = kernels.chance[l];
+            c->chance = l == LENGTHS ? of_radius
+                                     : (d->any_radius ? 1.0 - of_radius : 1.0) * kernels.chance[l];
         }
     }
     best = none->log_likelihood = log(holds) + student(most, freedom);
     for (size_t i = 1; i < to->n; i++) {
         misfit_candidate *c = &to->part[i];
         c->log_likelihood += student(most - explained[i], freedom) +
-                             log((1.0 - holds) * c->chance * LENGTHS / (double)(to->n - 1));
+                             log((1.0 - holds) * c->chance * (double)kinds / (double)(to->n - 1));
         best = fmax(best, c->log_likelihood);
     }
     for (size_t i = 0; i < to->n; i++)
@@ -466,13 +519,16 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
 
 /* `less` of the variances is left out. Half of the interval about 0 that holds 95 % of parameter a,
  * in the 1.96 of a normal one. A shift counts as a deviation, for the direction in which a misfit
- * is corrected is surer than how far. */
-static double error_of(const mixture *m, size_t a, double less, double standard_error)
+ * is corrected is surer than how far; to least_shift, for a linear model knows no modulus below 0.
+ */
+static double error_of(const mixture *m, size_t a, double less, double standard_error,
+                       double least_shift)
 {
-    double low = standard_error, high = standard_error, sd[1 + LENGTHS * SIZES];
+    double low = standard_error, high = standard_error, sd[CANDIDATES];
     for (size_t i = 0; i < m->n; i++) {
         const misfit_candidate *c = &m->part[i];
-        sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + c->shift[a] * c->shift[a] +
+        const double shift = fmax(c->shift[a], least_shift);
+        sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + shift * shift +
                      standard_error * standard_error);
         if (c->chance > no_chance)
             high = fmax(high, sd[i]);
@@ -527,8 +583,9 @@ void curve_add_misfit(curve_fitting *f)
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
         const double noise = s->standard_error[i],
-                     by_law = error_of(&found, a, found.tip[a], noise),
-                     error = error_of(&found, a, 0.0, noise);
+                     least = i == CURVE_E ? -s->p[CURVE_E] : -(double)INFINITY,
+                     by_law = error_of(&found, a, found.tip[a], noise, least),
+                     error = error_of(&found, a, 0.0, noise, least);
         s->misfit_error[i] = sqrt(by_law * by_law - noise * noise);
         s->standard_error[i] = error;
     }

@@ -8,7 +8,9 @@
 #include "fit/indentation/curve.h"
 
 enum {
-    MISFIT_FUNCTIONS = 10,              /* of the depth, that carry a discrepancy */
+    MISFIT_SMOOTH = 10,            /* functions of the depth, that carry a discrepancy */
+    MISFIT_RADIUS = MISFIT_SMOOTH, /* and what another radius of the tip changes */
+    MISFIT_FUNCTIONS,
     MISFIT_MOVES = CURVE_TIP_MOVES + 1, /* and a pull */
     /* and how moves of the tip bend */
     MISFIT_COLUMNS = MISFIT_FUNCTIONS + MISFIT_MOVES + CURVE_TIP_MOVES,
@@ -17,8 +19,9 @@ enum {
 /* Whitened and in units of the noise: the discrepancy's columns without what the parameters can
  * imitate, those of moves of the tip and a pull behind them, and then the bends of the former. */
 typedef struct misfit_sums {
-    size_t n_free, which[CURVE_N_PARAMETERS];            /* the free parameters */
-    size_t n_tips, n_moves;                              /* moves of the tip; with a pull */
+    size_t n_free, which[CURVE_N_PARAMETERS]; /* the free parameters */
+    size_t n_tips, n_moves;                   /* moves of the tip; with a pull */
+    bool any_radius; /* an unstated one that the residual tells, else its column is 0 */
     double imitated[CURVE_N_PARAMETERS][MISFIT_COLUMNS]; /* of the parameters, by 1 of a column */
     double mm[MISFIT_COLUMNS][MISFIT_COLUMNS];           /* sums of the columns with each other */
     double my[MISFIT_COLUMNS];                           /* and the residual */

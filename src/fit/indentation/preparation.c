@@ -33,7 +33,7 @@ enum {
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 22 }; /* those below */
+    enum { N_ARRAYS = 25 }; /* those below */
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -56,10 +56,13 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
                                        &w->weight,
                                        &w->given_force,
                                        &w->given_time,
+                                       &w->given_retract,
                                        &w->by_work,
                                        &w->by_modulus,
                                        &w->retract_position,
                                        &w->retract_force,
+                                       &w->start_position,
+                                       &w->start_force,
                                        &w->by_contact,
                                        &w->time,
                                        &w->without_wave,

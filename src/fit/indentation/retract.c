@@ -169,6 +169,57 @@ static void take_out_wave(const curve_fitting *f, const double *position, double
         memcpy(above, part, n * sizeof *above);
 }
 
+/* In samples of the way out from its end on: the first that is in contact, behind the edge of the
+ * pull-off, by the largest sum of departures from half of it. */
+static size_t edge_of(const curve_samples *s, double pull)
+{
+    const double low = curve_span_of(s->force, s->n).low;
+    double sum = 0.0, most = -(double)INFINITY;
+    size_t edge = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        if (sum > most) {
+            most = sum;
+            edge = i;
+        }
+        sum += s->force[i] + 0.5 * pull;
+        if (!(s->force[i] > low))
+            break;
+    }
+    return edge;
+}
+
+/* For a fit: the way out as if it went in, without the samples of a lever on its way from the
+ * sample, which stand out of the noise. */
+static void keep_way_out(curve_fitting *f, size_t n)
+{
+    wt_indent_workspace *w = f->workspace;
+    curve_samples *s = &f->way_out.samples;
+    *s = (curve_samples){
+        n, w->retract_position, w->retract_force, f->input.samples.spring_constant, 0, 0};
+    for (size_t i = 0; i < n / 2; i++) {
+        const size_t j = n - 1 - i;
+        const double z = s->position[i], force = s->force[i];
+        s->position[i] = s->position[j];
+        s->force[i] = s->force[j];
+        s->position[j] = z;
+        s->force[j] = force;
+    }
+    if (!(f->pull_off > 0.0))
+        return;
+    const double noise = f->input.step_noise, low = curve_span_of(s->force, n).low;
+    size_t jump = edge_of(s, f->pull_off), end = jump;
+    if (-low > CURVE_PULL_NOISE * noise) {
+        jump = curve_tail_start(s->force, jump, noise);
+        while (s->force[end] > low)
+            end++;
+        end++;
+    }
+    memmove(s->position + jump, s->position + end, (n - end) * sizeof *s->position);
+    memmove(s->force + jump, s->force + end, (n - end) * sizeof *s->force);
+    s->n -= end - jump;
+    f->way_out.jump = jump;
+}
+
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
 {
     wt_indent_workspace *w = f->workspace;
@@ -198,4 +249,6 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     /* Else the sample took too little of the work to say. */
     if (share > 1.0 - most_loss && share < most_loss)
         f->loss = share;
+    if (!curve_has_wave(&f->solution.wave))
+        keep_way_out(f, kept);
 }

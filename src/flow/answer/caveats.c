@@ -71,6 +71,16 @@ static void indentation_caveats(answer_story *story)
             tell_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
             answer_caveat(story, CAVEAT_VERDICT, "%s.", text);
     }
+    for (int g = 0; g < 2; g++) {
+        const char *hidden = indentation_words(&story->indentation[g], INDENTATION_KEY_NOT_SHOWN),
+                   *before =
+                       g > 0 ? indentation_words(&story->indentation[0], INDENTATION_KEY_NOT_SHOWN)
+                             : NULL;
+        if (hidden != NULL && before == NULL)
+            answer_caveat(story, CAVEAT_CONDITIONS,
+                          "No indentation curve shows, and no interval of a modulus holds: %s.",
+                          hidden);
+    }
     const bool both = spots[0] != NULL && spots[1] == spots[0];
     for (int g = 0; g < (both ? 1 : 2); g++)
         if (spots[g] != NULL)

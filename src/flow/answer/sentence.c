@@ -21,8 +21,24 @@ static void next(sentence *s)
     say(s, "%s", s->told.used > 0 ? "; " : "");
 }
 
+/* Its words without what stands in brackets. */
+static void say_hidden(sentence *s, const char *text)
+{
+    char all[512];
+    size_t n = 0;
+    for (int depth = 0; *text != '\0' && n + 1 < sizeof all; text++) {
+        depth += *text == '(';
+        if (depth == 0 && !(*text == ' ' && text[1] == '('))
+            all[n++] = *text;
+        depth -= *text == ')';
+    }
+    all[n] = '\0';
+    say(s, "; what no curve shows is not in that: %s", all);
+}
+
 static void say_groups(sentence *s, const table_view *v)
 {
+    const char *hidden = NULL;
     for (size_t i = 0; i < v->n_rows; i++) {
         const finding modulus = finding_of_group(&s->found, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
@@ -32,16 +48,21 @@ static void say_groups(sentence *s, const table_view *v)
             n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
         table_view curves;
         char reasons[512];
-        if (table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK &&
-            words_of_rejected(&curves, reasons, sizeof reasons) > 0)
+        const bool known =
+            table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK;
+        if (known && words_of_rejected(&curves, reasons, sizeof reasons) > 0)
             say(s, " (rejected: %s)", reasons);
         if (isnan(modulus.number.value))
             continue;
+        if (known && hidden == NULL)
+            hidden = indentation_words(&curves, INDENTATION_KEY_NOT_SHOWN);
         say(s, ", E = %s%s", words_of_number(&modulus).text, words_of_frequency(&modulus).text);
         if (!isnan(modulus.low))
             say(s, " (%s, from %.0f spots)", words_of_interval(&modulus).text,
                 modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
+    if (hidden != NULL)
+        say_hidden(s, hidden);
 }
 
 static void say_ratio(sentence *s, const table_view *v)

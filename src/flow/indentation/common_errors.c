@@ -90,9 +90,12 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_er
         to->step[WT_COMMON_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
         to->step[WT_COMMON_RADIUS] = 0;
+    const bool tells_misfit =
+        job->options.least_chance > 0; /* what an unstated radius does to it */
     wt_status status = WT_OK;
     for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
-        if (status == WT_OK && to->stated && to->step[i] > 0)
+        if (status == WT_OK && to->step[i] > 0 &&
+            (to->stated || (i == WT_COMMON_RADIUS && tells_misfit)))
             status = move_tip(tip, (wt_common_source)i, to, err);
     return status;
 }
@@ -104,6 +107,10 @@ void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
         if (of->error[i] > 0 && of->tip[i][1] != NULL)
             workspace->tip_move[n++] =
                 (tip_move){of->tip[i][0], of->tip[i][1], of->error[i] / of->step[i]};
+    const double step = of->step[WT_COMMON_RADIUS];
+    if (!(of->error[WT_COMMON_RADIUS] > 0) && of->tip[WT_COMMON_RADIUS][1] != NULL)
+        workspace->any_radius =
+            (tip_move){of->tip[WT_COMMON_RADIUS][0], of->tip[WT_COMMON_RADIUS][1], 1 / step};
 }
 
 static void clear_curve(common_curve *curve)

@@ -12,6 +12,7 @@
 /* Of a modulus: what a base makes of it that is worth a word; less is in most stated errors. */
 static const double base_share = 0.05;
 static const double one_degree = M_PI / 180;
+static const double tenth = 0.1; /* of a radius */
 /* Of the depth: samples of which it is a thousandth are thick for any tip. */
 static const double thinnest = 0.1, thickest = 1e3;
 
@@ -58,6 +59,20 @@ static void say_half_angle(const wt_tip *tip, double depth, char *text, size_t s
         100 * (1 - g / of_wider));
 }
 
+/* Of a cap alone a radius is all but a factor of the force. */
+static void say_radius(const wt_tip *tip, double depth, char *text, size_t size)
+{
+    wt_tip larger = *tip;
+    larger.radius *= 1.0 + tenth;
+    if (!(tip->radius > 0) || tip->half_angle > 0 || tip->radius_error > 0)
+        return;
+    const double g = contact_values(tip, depth).g, of_larger = contact_values(&larger, depth).g;
+    clocale_append(text, size,
+                   "radius of the tip (%g %% larger: a modulus about %.2g %% smaller; state its "
+                   "error), ",
+                   100 * tenth, 100 * (1 - g / of_larger));
+}
+
 void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t size)
 {
     const wt_tip *tip = &job->tip;
@@ -65,6 +80,7 @@ void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t
     if (!(depth > 0))
         return;
     say_half_angle(tip, depth, text, size);
+    say_radius(tip, depth, text, size);
     const double thin = tip->sample_thickness > 0 ? (double)NAN : thickness_needed(tip, depth);
     if (thin > 0) {
         char words[32];
