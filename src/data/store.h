@@ -26,9 +26,9 @@ enum { STORE_FORMAT = 3, STORE_FORMAT_MAP };
 #define STORE_INPUTS_TABLE "provenance/inputs"
 
 /* What comes through the door: tables as bytes (table_bytes.h), with has_origin that of the inputs
- * behind them, the case file, version and command, a digest for each of these tables and for the case file,
- * and at the end this. The layout of HDF5 keeps no checksum over the values, so a flipped bit would
- * otherwise be a wrong number. */
+ * behind them, the case file, version and command, a digest for each of these tables and for the
+ * case file, and at the end this. The layout of HDF5 keeps no checksum over the values, so a
+ * flipped bit would otherwise be a wrong number. */
 enum { STORE_DIGEST_SIZE = 65 };
 typedef struct store_tail {
     uint8_t has_origin; /* the inputs, and of which version by which command */

@@ -21,7 +21,7 @@ void friction_side_clear(friction_side *side); /* NULL: nothing */
 /* As angular_cover. */
 wt_status friction_side_cover(friction_side *side, double lowest, double highest,
                               wt_error *err) WT_NODISCARD;
-/* Of a pass whose nodes are recorded and whose hysteresis has this error; of a velocity forwards. */
+/* Of a pass whose nodes are recorded and whose hysteresis has this error; forwards. */
 wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
                            const friction_record *record, double hysteresis_error,
                            wt_estimate *side) WT_NODISCARD;
