@@ -75,8 +75,8 @@ bool drawing_data(figure_drawing *d)
         for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++)
             span_curve(d, i, curve);
     }
-    return !span_empty(&d->x) && !(span_empty(&d->y[0]) && span_empty(&d->y[1])) &&
-           d->status == WT_OK;
+    return !span_empty(&d->x) && (!figure->of_several || d->x.high > d->x.low) &&
+           !(span_empty(&d->y[0]) && span_empty(&d->y[1])) && d->status == WT_OK;
 }
 
 /* ---- axes ------------------------------------------------------------------------------------ */

@@ -50,7 +50,7 @@ static void draw_temperature(figure_drawing *d)
     {                                                                                              \
         .name = "record_" which, .title = "Friction as measured, against " which,                  \
         .table = &record_schema, .data_title = "steady part", .x = {column, scale, label},         \
-        .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},                           \
+        .of_several = true, .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},       \
         .curves = {CURVE(RECORD_FRICTION, BARS, .style = 1, .with_errors = true)}, .words = words_ \
     }
 
@@ -81,6 +81,7 @@ const figure_description figures_record[] = {
      .table = &record_schema,
      .data_title = "steady part",
      .x = {RECORD_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .of_several = true,
      .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(RECORD_FRICTION, OWN, .with_errors = true)},
      .words =

@@ -33,6 +33,11 @@ static const expectation list[] = {
     {&friction_schema, "relative_change_at_reference", "kkkn"},
     {&friction_schema, "relative_change_low", "nnnn"},
     {&friction_schema, "relative_change_high", "nnnn"},
+    {&friction_schema, "shear_stress_at_reference", "...."}, /* it is constant */
+    {&friction_schema, "sensitivity_to_modulus", "nnnn"},
+    {&friction_schema, "sensitivity_to_spectrum", "nnnn"},
+    {&friction_schema, "sensitivity_to_pressure", "nnnn"},
+    {&friction_schema, "sensitivity_to_cutoff", "nnnn"},
     {&friction_schema, "friction", "kkkn"},
     {&friction_schema, "hysteresis", "kkkn"},
     {&friction_schema, "area_ratio", "kkkn"},
@@ -90,6 +95,7 @@ static void make(int way)
     sliding.shear_stress = stated(5e6, "Pa", all);
     sliding.velocity = velocity;
     sliding.n_velocity = 2;
+    sliding.sensitivities = true;
     job.critical_energy = stated(1e9, "J/m^3", all);
     job.specific_wear_rate = stated(1e-13, "m^2/N", all);
     work.threads = 1;

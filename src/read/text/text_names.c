@@ -423,7 +423,8 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
     known.unit = (text_span){names->value_unit, strlen(names->value_unit)};
     const text_column column = resolve_column(&r, 0, &known);
     table->n_names = table->n_columns = n;
-    table->group_cell = table->segment_cell = table->curve_cell = table->sample_cell = SIZE_MAX;
+    table->group_cell = table->segment_cell = table->curve_cell = SIZE_MAX;
+    table->sample_cell = table->number_cell = SIZE_MAX;
     for (size_t i = 0; i < n; i++) {
         table->columns[i] = column;
         table->columns[i].cell = i;
