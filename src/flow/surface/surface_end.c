@@ -163,7 +163,8 @@ static void say_beyond(const wt_job *work, const surface_whole *w, double end)
     if (w->knots.n > w->knots.n_measured)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "beyond the reliable range the spectrum goes on by its self-affine law, "
-                        "to waves of %s: %.0f %% of the squared slope are of it, and no error is",
+                        "to waves of %s: %.0f %% of the squared slope come from there, and no "
+                        "error holds that",
                         words, 100 * w->extrapolated_share);
     if (end > 2 * M_PI / shortest_wave)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
