@@ -313,6 +313,7 @@ typedef struct wt_record_job {
     wt_estimate track_radius; /* [m] instead of that of the file; NaN: that */
     /* Wear, NaN: not known; one of the first three, else the depth of the record under a ball. */
     wt_estimate track_area;   /* cross-section that is missing [m^2] */
+    const char *profile;      /* files of profiles across the track that tell it; NULL: none */
     wt_estimate mass_loss;    /* [kg], with */
     wt_estimate density;      /* [kg/m^3] */
     wt_estimate track_length; /* [m]; NaN: circumference of the track */

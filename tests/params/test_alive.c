@@ -151,6 +151,7 @@ static const struct {
     {NULL, "master", "the base has it"},
     {"master", "shifts", "a file of shifts: tests/cli/shifts.txt"},
     {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
+    {"record", "profile", "files of profiles: unit_flow_record"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
     {"run", "keep", "the result that is there, of the same command: cli_keep"},

@@ -3,6 +3,7 @@
 #include "all_formats.h"
 #include "cells.h"
 #include "near.h"
+#include "truth.h"
 
 #include "weartrack/flow.h"
 
@@ -148,6 +149,79 @@ static void test_wear(void **state)
     wt_record_tables_clear(&t);
 }
 
+/* A parabolic groove, 10 um deep and 0.2 mm wide: 2/3 of depth and width, times `size`. */
+static void write_groove(const char *folder, const char *name, double size)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("x (mm)\theight (um)\n", out);
+    for (int i = 0; i < 400; i++) {
+        const double x = i / 200.0, u = (x - 1) / 0.1;
+        fprintf(out, "%.9g\t%.9g\n", x, 3 * x - (u * u < 1 ? size * 10 * (1 - u * u) : 0));
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
+/* What the track lost, by profiles across it. */
+static void test_profiles(void **state)
+{
+    (void)state;
+    static const double area = 2.0 / 3 * 10e-6 * 0.2e-3, round = 2 * M_PI * 12e-3;
+    char folder[] = "profiles-XXXXXX", one[64], command[64];
+    wt_record_job job = disc_job();
+    assert_non_null(mkdtemp(folder));
+    write_groove(folder, "one.txt", 0.9);
+    (void)snprintf(one, sizeof one, "%s/one.txt", folder);
+    job.profile = one;
+    wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
+    /* the groove ends between two samples of forty */
+    assert_near(number_cell(t.wear, 0, "volume"), 0.9 * area * round, 1e-2);
+    wt_record_tables_clear(&t);
+    write_groove(folder, "two.txt", 1.1);
+    job.profile = folder;
+    t = made(&job, RECORDS "disc.csv", NULL);
+    assert_near(number_cell(t.wear, 0, "volume"), area * round, 1e-2);
+    assert_near(number_cell(t.wear, 0, "volume_standard_error"), 0.1 * area * round, 1e-2);
+    wt_record_tables_clear(&t);
+    (void)snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+
+    const char *const disc = RECORDS "disc.csv";
+    wt_error err = WT_ERROR_INIT;
+    job.track_area = (wt_estimate){1e-9, 0, 0, "m^2"};
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_ARG);
+    job.track_area.value = (double)NAN;
+    job.profile = WT_SOURCE_DIR "/fixtures/surface/place-1.gsf";
+    assert_int_equal(make(&job, &disc, 1, NULL, &t, &err), WT_E_ARG);
+    assert_non_null(strstr(err.message, "a height map"));
+}
+
+/* A disc whose laps are 0.1 m long. */
+static void test_length_by_laps(void **state)
+{
+    (void)state;
+    char path[] = "laps-XXXXXX";
+    wt_record_job job = disc_job();
+    wt_parselog *log = wt_parselog_new();
+    FILE *out = truth_file(path);
+    fputs("time (s)\tdistance (m)\tlaps\tmu\n", out);
+    for (int i = 0; i < 400; i++)
+        fprintf(out, "%.9g\t%.9g\t%.9g\t%g\n", 0.1 * i, 0.005 * i, 0.05 * i, 0.5 + 0.01 * (i % 7));
+    assert_int_equal(fclose(out), 0);
+    job.track_radius.value = (double)NAN;
+    job.track_area = (wt_estimate){1e-9, 0, 0, "m^2"};
+    wt_record_tables t = made(&job, path, log);
+    assert_near(number_cell(t.wear, 0, "volume"), 1e-10, 1e-9);
+    const size_t n = wt_parselog_count(log);
+    assert_true(n > 0);
+    assert_non_null(strstr(wt_parselog_get(log, n - 1).text, "100 mm long by distance and laps"));
+    wt_record_tables_clear(&t);
+    wt_parselog_free(log);
+    assert_int_equal(remove(path), 0);
+}
+
 static void test_what_is_lacking(void **state)
 {
     (void)state;
@@ -203,6 +277,8 @@ int main(void)
         cmocka_unit_test(test_steps),
         cmocka_unit_test(test_two_directions),
         cmocka_unit_test(test_wear),
+        cmocka_unit_test(test_profiles),
+        cmocka_unit_test(test_length_by_laps),
         cmocka_unit_test(test_what_is_lacking),
         cmocka_unit_test(test_a_contradiction),
     };

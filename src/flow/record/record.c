@@ -264,6 +264,34 @@ static void say_difference(const wt_job *work, const wt_cycles *cycles, const ch
                         cycles->difference);
 }
 
+/* Of a disc, by what its laps were long; NaN: neither tells it. */
+static double radius_of_laps(const wt_record *record)
+{
+    const double *const distance = record->channel[WT_RECORD_DISTANCE],
+                        *const laps = record->channel[WT_RECORD_LAPS];
+    const size_t last = record->n - 1;
+    if (distance == NULL || laps == NULL || record->n == 0)
+        return (double)NAN;
+    const double radius = (distance[last] - distance[0]) / (2 * M_PI * (laps[last] - laps[0]));
+    return radius > 0 && isfinite(radius) ? radius : (double)NAN;
+}
+
+/* The length of a track takes its radius, which a record of laps tells if it is of a disc. */
+static wt_status measure_wear(const wt_record_job *job, const wt_job *work, const wt_record *record,
+                              const wt_cycles *cycles, wt_estimate radius, const char *file,
+                              writers *w, wt_error *err)
+{
+    if (isnan(radius.value) && isnan(job->track_length.value) && cycles->kind != WT_CYCLE_STROKE) {
+        radius.value = radius_of_laps(record);
+        if (!isnan(radius.value))
+            wt_parselog_add(work->log, WT_WARNING, file, NULL,
+                            "the track is %.4g mm long by distance and laps, as that of a disc; "
+                            "track-length says another",
+                            2e3 * M_PI * radius.value);
+    }
+    return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
+}
+
 static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
                               writers *w, wt_error *err)
 {
@@ -287,7 +315,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = put_steps(job, work, &cycles, file->name, w, err);
     }
     if (status == WT_OK && wear_is_asked(job))
-        status = wear_add(job, &record, &cycles, radius, file->name, &w->wear, &w->rates, err);
+        status = measure_wear(job, work, &record, &cycles, radius, file->name, w, err);
     if (status != WT_OK)
         wt_error_file(err, file->name);
     wt_cycles_clear(&cycles);
@@ -356,6 +384,8 @@ static wt_status make_tables(const wt_record_job *job, const wt_job *work, const
 
 wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)
 {
+    if (job->profile != NULL && !isnan(job->track_area.value))
+        return wt_fail(err, WT_E_ARG, "profile and track-area both tell what the track lost: one");
     if (isnan(job->mass_loss.value) == isnan(job->density.value))
         return WT_OK;
     const char *const lacks = isnan(job->density.value) ? "density" : "mass-loss";
@@ -376,8 +406,11 @@ wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record
         status = wt_record_job_check(job, err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    wt_record_job whole = *job;
+    if (status == WT_OK && job->profile != NULL)
+        status = wear_area_of_profiles(job, work, &whole.track_area, err);
     if (status == WT_OK)
-        status = make_tables(job, work, &files, &made, err);
+        status = make_tables(&whole, work, &files, &made, err);
     flow_files_clear(&files);
     if (status == WT_OK) {
         *tables = made;

@@ -20,6 +20,9 @@ size_t conditions_step(const wt_cycle *cycles, size_t n);
 /* Whether anything of the wear was given. */
 bool wear_is_asked(const wt_record_job *job);
 wt_record_job wear_left_out(wt_record_job job);
+/* Mean cross-section of the profiles of job->profile, with their scatter. */
+wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
+                                wt_error *err);
 /* Rows of a file for the table of the wear. `radius` [m] of the track, NaN: not known. */
 typedef struct wear_rates {
     double sum, own, squares, n; /* of the rates: sum, sum of squared errors, sum of squares */

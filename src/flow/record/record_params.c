@@ -38,6 +38,11 @@ static const wt_param rows[] = {
     {PARAM("track-area", wt_record_job, track_area, WT_Q_AREA, ABOVE(0)), .value = "A", .unset = "",
      .help = "cross-section that the track has lost, such as \"3e-11m^2 +- 20%\", for the specific "
              "wear rate"},
+    {PARAM_TEXT_OF("profile", wt_record_job, profile), .value = "FILE", .unset = "",
+     .flags = PARAM_NO_CASE,
+     .help =
+         "the same from profiles of heights across the track: a file, a folder or a pattern; of "
+         "several the mean, with their scatter"},
     {PARAM("mass-loss", wt_record_job, mass_loss, WT_Q_MASS, ABOVE(0)), .value = "M", .unset = "",
      .help = "mass that was lost, such as \"3mg +- 0.2mg\"; with --density"},
     {PARAM("density", wt_record_job, density, WT_Q_MASS_DENSITY, ABOVE(0)), .value = "RHO",

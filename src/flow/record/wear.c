@@ -28,13 +28,15 @@ static bool given(wt_estimate e)
 
 bool wear_is_asked(const wt_record_job *job)
 {
-    return given(job->track_area) || given(job->mass_loss) || given(job->ball_radius);
+    return job->profile != NULL || given(job->track_area) || given(job->mass_loss) ||
+           given(job->ball_radius);
 }
 
 wt_record_job wear_left_out(wt_record_job job)
 {
     job.track_area.value = job.mass_loss.value = job.density.value = job.ball_radius.value =
         (double)NAN;
+    job.profile = NULL;
     return job;
 }
 
