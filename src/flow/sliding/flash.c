@@ -2,14 +2,12 @@
  * of a contact that stays hot where there are two solutions.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/flash.h"
-#include "flow/sliding/sliding_contact.h"
-#include "flow/work/cost.h"
+#include "flow/sliding/contrast.h"
 
 #include "base/clocale.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 TABLE_ROW(flash, FLASH, double velocity; wt_friction_point with, without;)
 
@@ -74,32 +72,7 @@ void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, 
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-typedef struct effect {
-    const wt_sliding *sliding;
-    wt_job work;
-    double *velocity;                  /* [n] the reference last */
-    wt_friction_point *with, *without; /* [n] */
-    double surroundings;
-    size_t n;
-} effect;
-
-static wt_status compute_contact(effect *e, bool heated, wt_error *err)
-{
-    const wt_layer_state none = {.modulus_ratio = 1};
-    wt_sliding sliding = *e->sliding;
-    sliding.flash.on = heated;
-    sliding_contact c = {0};
-    wt_status status =
-        sliding_contact_make(&sliding, &e->work, WT_NO_REPLICATE, NULL, none, &c, err);
-    if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, e->velocity, e->n,
-                                     heated ? e->with : e->without, err);
-    e->surroundings = c.temperature;
-    sliding_contact_clear(&c);
-    return status;
-}
-
-static void say_change(const effect *e, char text[192])
+static void say_change(const contrast *e, char text[192])
 {
     const wt_friction_point *with = &e->with[e->n - 1], *without = &e->without[e->n - 1];
     char velocity[32];
@@ -110,14 +83,14 @@ static void say_change(const effect *e, char text[192])
         clocale_print(text, 192,
                       "at %s %.1f K warmer at the finest scale, hysteresis friction %+.1f %%, "
                       "contact area %+.1f %%",
-                      velocity, with->temperature.value - e->surroundings,
+                      velocity, with->temperature.value - e->temperature,
                       100 * (with->hysteresis.value / without->hysteresis.value - 1),
                       100 * (with->area_ratio.value / without->area_ratio.value - 1));
 }
 
 /* WLF constants hold up to 100 K above the glass transition: Ferry, Viscoelastic Properties of
  * Polymers. What is hotter than the isotherms is beyond what the law was fitted to. */
-static void say_law_range(const effect *e, char text[192])
+static void say_law_range(const contrast *e, char text[192])
 {
     const double most = e->sliding->rubber->temperature_max;
     double hottest = 0;
@@ -131,7 +104,7 @@ static void say_law_range(const effect *e, char text[192])
                       hottest - WT_ZERO_CELSIUS, most - WT_ZERO_CELSIUS);
 }
 
-static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
+static wt_status make_table(const contrast *e, wt_table **table, wt_error *err)
 {
     const wt_flash *flash = &e->sliding->flash;
     const size_t n = e->n - 1;
@@ -140,7 +113,7 @@ static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
         const flash_row row = {e->velocity[i], e->with[i], e->without[i]};
         flash_add_row(&t, &row);
     }
-    flash_keys keys = {.surroundings = {e->surroundings, (double)NAN, (double)NAN, "K"},
+    flash_keys keys = {.surroundings = {e->temperature, (double)NAN, (double)NAN, "K"},
                        .contact_size = flash->contact_size,
                        .heat_capacity = flash->heat_capacity,
                        .diffusivity = flash->diffusivity,
@@ -156,17 +129,6 @@ static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
     return table_end(&t, table);
 }
 
-static void say_cost(const effect *e, const wt_job *work)
-{
-    cost_summary cost = {.tolerance_asked = work->tolerance, .items = 2 * (double)e->n};
-    for (size_t i = 0; i < e->n; i++) {
-        const wt_estimate *h = &e->with[i].hysteresis;
-        if (h->value > 0)
-            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / h->value);
-    }
-    cost_say(work, cost);
-}
-
 wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                         wt_error *err)
 {
@@ -177,27 +139,12 @@ wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table 
         status = wt_fail(err, WT_E_ARG, "no flash temperature was asked for");
     if (status != WT_OK)
         return status;
-    effect e = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
-    e.work.left_out = WT_EXTRAS;
-    e.velocity = malloc(e.n * sizeof *e.velocity);
-    e.with = malloc(e.n * sizeof *e.with);
-    e.without = malloc(e.n * sizeof *e.without);
-    if (e.velocity == NULL || e.with == NULL || e.without == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && i + 1 < e.n; i++)
-        e.velocity[i] = sliding->velocity[i];
-    if (status == WT_OK) {
-        e.velocity[e.n - 1] = flow_reference_velocity(sliding);
-        status = compute_contact(&e, true, err);
-    }
-    if (status == WT_OK)
-        status = compute_contact(&e, false, err);
+    contrast e;
+    wt_sliding without = *sliding;
+    without.flash.on = false;
+    status = contrast_make(sliding, &without, work, NULL, NULL, &e, err);
     if (status == WT_OK)
         status = make_table(&e, table, err);
-    if (status == WT_OK)
-        say_cost(&e, work);
-    free(e.velocity);
-    free(e.with);
-    free(e.without);
+    contrast_clear(&e);
     return status;
 }
