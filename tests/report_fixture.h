@@ -331,6 +331,7 @@ static inline void fixture_surface(void)
     job.end = 1e7;
     fixture_check(wt_topography_make(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.power_spectrum, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.angular_spectrum, NULL));
     wt_table_free(tables.surfaces); /* of which no figure is made */
     wt_formats_free(formats);
 }

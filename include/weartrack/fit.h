@@ -725,6 +725,7 @@ typedef struct wt_surface_heights {
     double area_excess;                         /* Sdr; NaN of a profile */
 } wt_surface_heights;
 
+enum { WT_SURFACE_SECTORS = 18 }; /* of a half turn */
 /* Modes with wavenumbers between 10^((index - 1/2)/10) and 10^((index + 1/2)/10) rad/m. */
 typedef struct wt_spectrum_bin {
     int index;
@@ -738,7 +739,12 @@ typedef struct wt_spectrum_bin {
                        ties neighbours together */
     double shared_freedom; /* its part of those of all bins together: modes of two bins are tied,
                               too */
-    double cosine, sine;   /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi), phi from x */
+    double cosine, sine;   /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi + */
+    double cosine_fourth, sine_fourth; /* the same of 4 phi), phi from x */
+    /* Modes within half a sector of k pi / WT_SURFACE_SECTORS, and the sum of C of each over the
+     * mean of all; none of profiles. */
+    double sector_modes[WT_SURFACE_SECTORS], sector_sum[WT_SURFACE_SECTORS];
+    double sector_tie; /* how many modes of a sector are as one that is independent */
     bool reliable;
 } wt_spectrum_bin;
 
@@ -778,13 +784,20 @@ WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surfac
  * Its standard error, and those of c0 and roll_off below, are of the logarithm, times the value. */
 WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
 
-/* Whether the directions differ: C(phi) = C (1 + amplitude cos 2 (phi - direction)), the mean over
- * the modes of all reliable bins. */
+/* Whether the directions differ: C(phi) = C (1 + amplitude cos order (phi - direction)), the mean
+ * over the modes of all reliable bins. Standard errors are by the scatter of the modes. */
 typedef struct wt_surface_anisotropy {
-    double amplitude, direction; /* [rad] from x, -pi/2 to pi/2: where the surface is roughest */
-    double chance;               /* of as much by scatter alone */
+    double amplitude, direction; /* [rad] from x, -pi/order to pi/order: of a maximum */
+    double amplitude_error, direction_error;
+    double chance; /* of as much by scatter alone */
 } wt_surface_anisotropy;
-WT_API wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum);
+/* order: 2 or 4. NaN of profiles. */
+WT_API wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum,
+                                                   unsigned order);
+/* C within half a sector of sector pi / WT_SURFACE_SECTORS from x over that of all directions, the
+ * mean over the modes of all reliable bins; of how many modes. NaN without any. */
+WT_API wt_interval wt_surface_sector(const wt_surface_spectrum *spectrum, size_t sector,
+                                     double *modes);
 
 /* C = c0 up to roll_off, c0 (q / roll_off)^(-2 (1 + hurst)) above it. */
 typedef struct wt_self_affine {

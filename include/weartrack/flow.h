@@ -239,7 +239,8 @@ typedef struct wt_topography_job {
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);
 typedef struct wt_topography_tables {
-    wt_table *power_spectrum, *surfaces, *scan_spectra; /* scan_spectra: NULL unless asked for */
+    wt_table *power_spectrum, *angular_spectrum, *surfaces; /* angular_spectrum: NULL of profiles */
+    wt_table *scan_spectra;                                 /* NULL unless asked for */
 } wt_topography_tables;
 WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,

@@ -45,6 +45,11 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
         (void)strcpy(lab.label, "°C");
         return lab;
     }
+    if (strcmp(unit, "rad") == 0) {
+        lab.factor = 180 / M_PI;
+        (void)strcpy(lab.label, "°");
+        return lab;
+    }
     const lab_choice *choice = choices, *end = choices + sizeof choices / sizeof *choices;
     while (choice < end && strcmp(choice->unit, unit) != 0)
         choice++;

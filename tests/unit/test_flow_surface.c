@@ -170,6 +170,79 @@ static void test_ends(void **state)
     clear(&m);
 }
 
+/* A made surface with x and y in each other's place, as a Gwyddion simple field. */
+static void write_turned(const char *path, const made_surface *made)
+{
+    const size_t n = made->n;
+    double *z = make_surface(made);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    const int used = fprintf(out,
+                             "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\nXReal = %g\n"
+                             "YReal = %g\nXYUnits = m\nZUnits = m\n",
+                             n, n, made->length, made->length);
+    assert_true(used > 0);
+    for (int i = 0; i < 4 - used % 4; i++)
+        assert_int_equal(fputc(0, out), 0);
+    for (size_t k = 0; k < n * n; k++) {
+        const float height = (float)z[k % n * n + k / n];
+        assert_int_equal(fwrite(&height, sizeof height, 1, out), 1);
+    }
+    assert_int_equal(fclose(out), 0);
+    free(z);
+}
+
+/* Texture across y: both orders with errors, and as friction takes them; none of surfaces that are
+ * alike in all directions, and no table of profiles. */
+static void test_directions(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/weartrack-surface-XXXXXX.gsf";
+    const int fd = mkstemps(path, 4);
+    assert_true(fd >= 0);
+    close(fd);
+    const char *const file[] = {path};
+    made_surface made = behind;
+    made.stretch = 0.6;
+    write_turned(path, &made);
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, file, 1);
+    assert_int_equal(m.status, WT_OK);
+    const wt_table *t = m.tables.power_spectrum;
+    double amplitude = 0, angle = 0;
+    assert_near_abs(key(t, "anisotropy"), 0.6, 3 * error_of(t, "anisotropy"));
+    assert_true(error_of(t, "anisotropy") < 0.1);
+    assert_near_abs(fabs(key(t, "anisotropy_direction")), M_PI_2,
+                    3 * error_of(t, "anisotropy_direction"));
+    assert_true(key(t, "anisotropy_fourth") < 4 * error_of(t, "anisotropy_fourth"));
+    assert_int_equal(sscanf(wt_table_key(t, "anisotropy_option"),
+                            "--anisotropy %lf --texture-angle %lfdeg", &amplitude, &angle),
+                     2);
+    assert_near(amplitude, key(t, "anisotropy"), 1e-3);
+    assert_near_abs(angle, 90, 10);
+    t = m.tables.angular_spectrum;
+    assert_int_equal(wt_table_n_rows(t), WT_SURFACE_SECTORS);
+    size_t within = 0;
+    for (size_t k = 0; k < WT_SURFACE_SECTORS; k++) {
+        const double c = 1 - 0.6 * cos(2 * cell(t, k, "direction"));
+        within += cell(t, k, "density_ratio_low") < c && c < cell(t, k, "density_ratio_high");
+    }
+    assert_true(within >= WT_SURFACE_SECTORS - 3);
+    assert_true(key(t, "chance") < 1e-6);
+    clear(&m);
+
+    make(&m, all, COUNT_OF(all));
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
+    assert_true(key(m.tables.angular_spectrum, "chance") > 0.01);
+    clear(&m);
+    make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
+    assert_int_equal(m.status, WT_OK);
+    assert_null(m.tables.angular_spectrum);
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
+    clear(&m);
+    unlink(path);
+}
+
 /* One scan says what it cannot know. */
 static void test_alone(void **state)
 {
@@ -357,9 +430,13 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),         cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_alone),         cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_failures),      cmocka_unit_test(test_map_as_roughness),
+        cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),
     };
     return cmocka_run_group_tests(tests, begin, end);

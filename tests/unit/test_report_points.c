@@ -104,6 +104,7 @@ static void test_whole_tables(void **state)
                                            {"wicket", "master_curve"},
                                            {"cole_cole", "master_curve"},
                                            {"measured_spectrum", "power_spectrum"},
+                                           {"angular_spectrum", "angular_spectrum"},
                                            {"power_spectrum", "roughness"},
                                            {"friction", "friction"},
                                            {"contact_area", "contact_area"},

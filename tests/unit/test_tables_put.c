@@ -1019,6 +1019,8 @@ static void see_surfaces(const char *const *files, size_t n)
     if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.power_spectrum);
+    if (tables.angular_spectrum != NULL)
+        see(tables.angular_spectrum);
     see(tables.surfaces);
     see(tables.scan_spectra);
     wt_topography_tables_clear(&tables);

@@ -100,6 +100,8 @@
     X(wear, WEAR, "wear", "Wear as measured", "record")                                            \
     X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
       "psd")                                                                                       \
+    X(angular_spectrum, ANGULAR_SPECTRUM, "angular_spectrum",                                      \
+      "Angular spectrum of a measured surface", "psd")                                             \
     X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \
     X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \

@@ -1,5 +1,6 @@
-/* The columns and keys of the tables of measured surfaces: their power spectrum, what the scans
- * are, their spectra. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The columns and keys of the tables of measured surfaces: their power spectrum, what of
+ * it depends on the direction, what the scans are, their spectra. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DATA_TABLES_TOPOGRAPHY_H
 #define WT_DATA_TABLES_TOPOGRAPHY_H
 
@@ -48,6 +49,10 @@
     X(POWER_SPECTRUM_KEY_ANISOTROPY, AS(anisotropy), NUMBER, LABEL("Anisotropy"), OPTIONAL)        \
     X(POWER_SPECTRUM_KEY_DIRECTION, AS(anisotropy_direction), SI(ANGLE),                           \
       LABEL("Roughest direction from x"), OPTIONAL)                                                \
+    X(POWER_SPECTRUM_KEY_FOURTH, AS(anisotropy_fourth), NUMBER, LABEL("Anisotropy of order 4"),    \
+      OPTIONAL)                                                                                    \
+    X(POWER_SPECTRUM_KEY_FOURTH_DIRECTION, AS(anisotropy_fourth_direction), SI(ANGLE),             \
+      LABEL("Roughest direction of order 4 from x"), OPTIONAL)                                     \
     X(POWER_SPECTRUM_KEY_DIRECTIONS, "directions_verdict", TEXT, SHOWS(directions),                \
       LABEL("Directions"))                                                                         \
     X(POWER_SPECTRUM_KEY_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
@@ -55,7 +60,24 @@
     X(POWER_SPECTRUM_KEY_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
+    X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
+      LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
+
+/* A direction in each row, half a turn of them: the other half is the same. */
+#define ANGULAR_SPECTRUM_COLUMNS(X)                                                                \
+    X(ANGULAR_SPECTRUM_DIRECTION, AS(direction), "direction of the wave vector, from x",           \
+      SI(ANGLE), LABEL("Direction"))                                                               \
+    NUMBER_AND_INTERVAL(                                                                           \
+        X, ANGULAR_SPECTRUM_RATIO, "density_ratio",                                                \
+        "C(q) there over that of all directions, the mean over the reliable range", NUMBER,        \
+        "C(phi) / C", SHOWS(ratio))                                                                \
+    X(ANGULAR_SPECTRUM_TERMS, AS(terms), "1 + a cos 2 (phi - t) + b cos 4 (phi - u), as fitted",   \
+      NUMBER)                                                                                      \
+    X(ANGULAR_SPECTRUM_MODES, AS(modes), "modes of the full plane there", NUMBER)
+#define ANGULAR_SPECTRUM_KEYS(X)                                                                   \
+    X(ANGULAR_SPECTRUM_KEY_CHANCE, AS(chance), NUMBER)                                             \
+    X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(chance_fourth), NUMBER)
 
 /* A scan in each row. Slopes are by forward differences of neighbours. */
 #define SURFACES_COLUMNS(X)                                                                        \

@@ -212,25 +212,3 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     }
     return status;
 }
-
-wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum)
-{
-    double n = 0, variance = 0, cosine = 0, sine = 0;
-    for (size_t k = 0; k < spectrum->n; k++) {
-        const wt_spectrum_bin *b = &spectrum->bins[k];
-        if (!b->reliable)
-            continue;
-        n += (double)b->n;
-        /* Each part scatters by 2 / sqrt(freedom) where the directions are alike and the modes are
-         * exponential; where these scatter more, by that. */
-        const double part = (double)b->n * 2 * b->deviation / b->density;
-        variance += part * part / b->freedom;
-        cosine += (double)b->n * b->cosine;
-        sine += (double)b->n * b->sine;
-    }
-    if (spectrum->kind != WT_SPECTRUM_2D || !(n > 0))
-        return (wt_surface_anisotropy){(double)NAN, (double)NAN, (double)NAN};
-    const double amplitude = hypot(cosine, sine) / n;
-    return (wt_surface_anisotropy){amplitude, atan2(sine, cosine) / 2,
-                                   exp(-amplitude * amplitude * n * n / (2 * variance))};
-}

@@ -109,12 +109,27 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
 
 /* ---- bins ------------------------------------------------------------------------------------ */
 
+/* By the numbers of modes. */
+static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
+{
+    const double w = (double)b->n;
+    to->cosine += w * b->cosine;
+    to->sine += w * b->sine;
+    to->cosine_fourth += w * b->cosine_fourth;
+    to->sine_fourth += w * b->sine_fourth;
+    to->sector_tie += w * b->sector_tie;
+    for (size_t k = 0; k < WT_SURFACE_SECTORS; k++) {
+        to->sector_modes[k] += b->sector_modes[k];
+        to->sector_sum[k] += b->sector_sum[k];
+    }
+}
+
 /* Means of ln q and ln C by the numbers of modes. A mean of logarithms is too low by more where a
  * scan has few modes: what it lacks against the mean of all modes is added. */
 static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
 {
     double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, shared = 0,
-           cosine = 0, sine = 0, deviation = 0;
+           deviation = 0;
     *to = (wt_spectrum_bin){.index = index, .reliable = true};
     for (size_t i = 0; i < j->n; i++) {
         const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
@@ -129,8 +144,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
         bias += w * surface_log_bias(b->freedom);
         variance += w * w * surface_log_variance(b->freedom);
         shared += w * w * surface_log_variance(b->shared_freedom);
-        cosine += w * b->cosine;
-        sine += w * b->sine;
+        add_directions(b, to);
         to->n += b->n;
         to->scans += b->scans;
         deviation += w * (b->deviation / b->density) * (b->deviation / b->density);
@@ -145,8 +159,11 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
     to->deviation = to->density * sqrt(deviation / n);
     to->shared_freedom = surface_freedom_of(shared / (n * n));
-    to->cosine = cosine / n;
-    to->sine = sine / n;
+    to->cosine /= n;
+    to->sine /= n;
+    to->cosine_fourth /= n;
+    to->sine_fourth /= n;
+    to->sector_tie /= n;
     return true;
 }
 

@@ -60,7 +60,9 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
         wt_spectrum_bin *b = &made.bins[made.n++];
         *b = profile->bins[k];
         b->density = c;
-        b->deviation = b->cosine = b->sine = (double)NAN;
+        b->deviation = b->cosine = b->sine = b->cosine_fourth = b->sine_fourth = (double)NAN;
+        for (size_t s = 0; s < WT_SURFACE_SECTORS; s++)
+            b->sector_modes[s] = b->sector_sum[s] = 0;
         b->shared_freedom *= surface_freedom_of(variance) / b->freedom;
         b->freedom = surface_freedom_of(variance);
     }

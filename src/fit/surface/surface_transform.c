@@ -126,6 +126,8 @@ static double density_at(const transform *t, size_t i, size_t j)
 typedef struct mode_sums {
     double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
     double first, cosine, sine, c_cosine, c_sine;
+    double cosine_fourth, sine_fourth, c_cosine_fourth, c_sine_fourth;
+    double sector_n[WT_SURFACE_SECTORS], sector_c[WT_SURFACE_SECTORS];
     double pairs; /* sum over pairs of modes of the squares of their correlation; 0: not counted */
 } mode_sums;
 
@@ -158,6 +160,24 @@ static int place_of(const binning *b, double q)
     return k >= 0 && (size_t)k < b->n ? k : -1;
 }
 
+/* What depends on the direction, whose double angle has this cosine and sine. */
+static void add_direction(mode_sums *s, double cosine, double sine, double c, double times)
+{
+    const double cosine_fourth = 2 * cosine * cosine - 1, sine_fourth = 2 * sine * cosine;
+    const double sector = atan2(sine, cosine) / 2 * WT_SURFACE_SECTORS / M_PI;
+    const size_t k = (size_t)(floor(sector + 0.5) + WT_SURFACE_SECTORS) % WT_SURFACE_SECTORS;
+    s->cosine += times * cosine;
+    s->sine += times * sine;
+    s->c_cosine += times * c * cosine;
+    s->c_sine += times * c * sine;
+    s->cosine_fourth += times * cosine_fourth;
+    s->sine_fourth += times * sine_fourth;
+    s->c_cosine_fourth += times * c * cosine_fourth;
+    s->c_sine_fourth += times * c * sine_fourth;
+    s->sector_n[k] += times;
+    s->sector_c[k] += times * c;
+}
+
 /* A mode that stands for `times` of the full plane. */
 static void add_mode(const binning *b, double qx, double qy, double c, double times)
 {
@@ -177,10 +197,7 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     s->ln_q2 += times * ln_q * ln_q;
     s->c += times * (c - s->first);
     s->square += times * (c - s->first) * (c - s->first);
-    s->cosine += times * cosine;
-    s->sine += times * sine;
-    s->c_cosine += times * c * cosine;
-    s->c_sine += times * c * sine;
+    add_direction(s, cosine, sine, c, times);
 }
 
 /* ---- how many modes are independent ---------------------------------------------------------- */
@@ -195,6 +212,18 @@ static double square_of(int apart)
 {
     const double r = hann_neighbours[apart < 0 ? -apart : apart];
     return r * r;
+}
+
+/* How many modes of a sector at q are as one that is independent: their neighbours along it, and
+ * across it those that are within its width. */
+static double sector_tie(const wt_height_map *map, wt_surface_window window, double q)
+{
+    const double along = window_correlation(window), two = square_of(1) + square_of(2);
+    const double step = 2 * M_PI / sqrt((double)map->nx * map->dx * (double)map->ny * map->dy);
+    const double wide = q / step * M_PI / WT_SURFACE_SECTORS;
+    const double within =
+        (square_of(1) * fmax(0, 1 - 1 / wide) + square_of(2) * fmax(0, 1 - 2 / wide)) / two;
+    return along * (1 + (along - 1) * within);
 }
 
 /* Bins of the modes from -reach to reach in both directions, row by row. */
@@ -266,17 +295,25 @@ static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double referenc
     const double edge = reference * pow(10, (index - 0.5) / PER_DECADE);
     const double c = s->first + s->c / s->n;
     const double squares = s->square - s->c * s->c / s->n;
-    return (wt_spectrum_bin){.index = index,
-                             .wavenumber = edge * exp(s->ln_q / s->n),
-                             .width = sqrt(fmax(0, s->ln_q2 - s->ln_q * s->ln_q / s->n) / s->n),
-                             .mean_wavenumber = s->q / s->n,
-                             .density = c,
-                             .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
-                             .n = (size_t)s->n,
-                             .freedom = freedom,
-                             .shared_freedom = s->n / correlation,
-                             .cosine = 2 * (s->c_cosine - c * s->cosine) / (s->n * c),
-                             .sine = 2 * (s->c_sine - c * s->sine) / (s->n * c)};
+    wt_spectrum_bin bin = {.index = index,
+                           .wavenumber = edge * exp(s->ln_q / s->n),
+                           .width = sqrt(fmax(0, s->ln_q2 - s->ln_q * s->ln_q / s->n) / s->n),
+                           .mean_wavenumber = s->q / s->n,
+                           .density = c,
+                           .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
+                           .n = (size_t)s->n,
+                           .freedom = freedom,
+                           .shared_freedom = s->n / correlation,
+                           .cosine = 2 * (s->c_cosine - c * s->cosine) / (s->n * c),
+                           .sine = 2 * (s->c_sine - c * s->sine) / (s->n * c),
+                           .cosine_fourth =
+                               2 * (s->c_cosine_fourth - c * s->cosine_fourth) / (s->n * c),
+                           .sine_fourth = 2 * (s->c_sine_fourth - c * s->sine_fourth) / (s->n * c)};
+    for (size_t k = 0; k < WT_SURFACE_SECTORS; k++) {
+        bin.sector_modes[k] = s->sector_n[k];
+        bin.sector_sum[k] = s->sector_c[k] / c;
+    }
+    return bin;
 }
 
 /* Of an even number of points the mode n/2 stands for itself alone, as that of 0 does. */
@@ -323,11 +360,15 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
         (lines ? bin_lines : bin_plane)(&t, map, &b);
         if (window == WT_WINDOW_HANN)
             status = count_pairs(map, lines, &b, err);
-        for (size_t k = 0; k < b.n; k++)
-            if (b.sums[k].n > 1)
-                to->bins[to->n++] = finish_bin(
-                    &b.sums[k], b.first + (int)k, bins->reference,
-                    freedom_of(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
+        for (size_t k = 0; k < b.n; k++) {
+            if (!(b.sums[k].n > 1))
+                continue;
+            wt_spectrum_bin *bin = &to->bins[to->n++];
+            *bin =
+                finish_bin(&b.sums[k], b.first + (int)k, bins->reference,
+                           freedom_of(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
+            bin->sector_tie = sector_tie(map, window, bin->wavenumber);
+        }
     }
     free(t.row);
     free(b.sums);

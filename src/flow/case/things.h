@@ -74,6 +74,7 @@
     X(WEAR, "wear", &wear_schema, "")                                                              \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(POWER_SPECTRUM, "power_spectrum", &power_spectrum_schema, "")                                \
+    X(ANGULAR_SPECTRUM, "angular_spectrum", &angular_spectrum_schema, "")                          \
     X(SURFACES, "surfaces", &surfaces_schema, "")                                                  \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \

@@ -54,7 +54,8 @@ typedef enum flow_extra {
     X(ROUGHNESS, roughness, "Power spectrum of the counter surface", B(COUNTER_SURFACE), 0,        \
       FLOW_NO_MORE, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                \
     X(TOPOGRAPHY, topography, "Power spectrum of the measured counter surface", B(HEIGHT_MAPS), 0, \
-      FLOW_NO_MORE, B(POWER_SPECTRUM) | B(SURFACES) | B(ROUGHNESS) | B(SURFACE),                   \
+      FLOW_NO_MORE,                                                                                \
+      B(POWER_SPECTRUM) | B(ANGULAR_SPECTRUM) | B(SURFACES) | B(ROUGHNESS) | B(SURFACE),           \
       flow_step_topography)                                                                        \
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO), 0,           \
       FLOW_NO_MORE, B(MODULUS_RATIO), flow_step_given_ratio)                                       \

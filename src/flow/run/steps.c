@@ -395,11 +395,12 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
 
 wt_status flow_step_topography(flow_run *run, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL};
+    wt_topography_tables made = {NULL, NULL, NULL, NULL};
     wt_status status = take_measured(run->c, &run->job, &run->surface, &made, err);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
+    run->table[FLOW_ANGULAR_SPECTRUM] = made.angular_spectrum;
     run->table[FLOW_SURFACES] = made.surfaces;
     return status;
 }

@@ -28,7 +28,7 @@ void surface_knots_clear(surface_knots *knots);
 typedef struct surface_whole {
     wt_surface_spectrum spectrum;
     wt_self_affine law;
-    wt_surface_anisotropy directions;
+    wt_surface_anisotropy directions, fourth; /* of orders 2 and 4 */
     surface_knots knots;
     double steep; /* where the rms slope reaches that of practice; NaN */
     bool steep_by_law;
@@ -40,6 +40,8 @@ wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, sur
                            wt_error *err) WT_NODISCARD;
 /* C of the law at a wavenumber; NaN if there is none. */
 double surface_law_density(const wt_self_affine *law, double q);
+/* Is it more than scatter? */
+bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */
 extern const double surface_steep;
 

@@ -7,16 +7,22 @@
 #include "data/tables/rows.h"
 #include "fit/students_t.h"
 #include "fit/surface/surface.h"
+#include "weartrack/kernel.h"
 
 #include <math.h>
+#include <string.h>
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
           double modes_error, self_affine, modes, scans; const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
-           wt_estimate steep; const char *steep_by; wt_estimate extrapolated_share, place_scatter,
-                                                    place_error, anisotropy, anisotropy_direction;
-           const char *directions, *includes, *lacks, *option; size_t n_scans;)
+           wt_estimate steep; const char *steep_by;
+           wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
+           anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
+           const char *directions, *includes, *lacks, *option, *anisotropy_option; size_t n_scans;)
+TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
+          double terms, modes;)
+TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, chance_fourth;)
 TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
 TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
 TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)
@@ -78,7 +84,7 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
         clocale_print(to, size, "cannot say: profiles; a height map would tell");
-    else if (a->chance < 0.01)
+    else if (surface_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
                       "as much by scatter: %.1g)",
@@ -102,18 +108,73 @@ static void print_option(const surface_whole *w, char *to, size_t size)
                       w->law.hurst.value, w->law.c0.value);
 }
 
+/* The orders that are more than scatter, as friction takes them. The angles of the texture are from
+ * the velocity, here along x: from 0 to a turn over the order. */
+static wt_anisotropy anisotropy_of(const surface_whole *w)
+{
+    const wt_surface_anisotropy *const found[] = {&w->directions, &w->fourth};
+    wt_anisotropy a = {{0}, {0}};
+    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
+        if (!surface_anisotropic(found[k]))
+            continue;
+        a.amplitude[k] = found[k]->amplitude;
+        a.angle[k] = found[k]->direction < 0 ? found[k]->direction + M_PI / (double)(k + 1)
+                                             : found[k]->direction;
+    }
+    return a;
+}
+
+/* What is typed where friction slides along x; none where directions are alike, or differ by more
+ * than two orders can tell. */
+static void print_anisotropy(const surface_whole *w, char *to, size_t size)
+{
+    static const char *const names[][2] = {{"anisotropy", "texture-angle"},
+                                           {"anisotropy-fourth", "texture-angle-fourth"}};
+    const wt_anisotropy a = anisotropy_of(w);
+    size_t used = 0;
+    clocale_print(to, size, "none");
+    if (wt_anisotropy_check(&a, NULL) != WT_OK)
+        return;
+    for (size_t k = 0; k < sizeof names / sizeof *names && used < size; k++)
+        if (a.amplitude[k] > 0) {
+            clocale_print(to + used, size - used, "%s--%s %.4g --%s %.4gdeg", used > 0 ? " " : "",
+                          names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
+            used = strlen(to);
+        }
+}
+
+static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error *err)
+{
+    const wt_surface_anisotropy *two = &w->directions, *four = &w->fourth;
+    table_writer t = table_begin(&angular_spectrum_schema, err);
+    for (size_t i = 1; i <= WT_SURFACE_SECTORS; i++) {
+        /* From above -pi/2 to pi/2, as the directions of maxima are: half a turn on is the same. */
+        const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
+        const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
+        double modes = 0;
+        const wt_interval ratio = wt_surface_sector(&w->spectrum, sector, &modes);
+        TABLE_ADD(angular_spectrum, &t, phi, ratio,
+                  1 + two->amplitude * cos(2 * (phi - two->direction)) +
+                      four->amplitude * cos(4 * (phi - four->direction)),
+                  modes);
+    }
+    TABLE_SET(angular_spectrum, &t, two->chance, four->chance);
+    return table_end(&t, table);
+}
+
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
-    char law[256], directions[256], option[256];
+    char law[256], directions[256], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
-    const bool places = !isnan(s->place_scatter), area = !isnan(w->directions.amplitude);
+    const bool places = !isnan(s->place_scatter);
     const double nan = (double)NAN;
     table_writer t = table_begin(&power_spectrum_schema, err);
     add_rows(&t, w);
     print_law(w, law, sizeof law);
     print_directions(w, directions, sizeof directions);
     print_option(w, option, sizeof option);
+    print_anisotropy(w, anisotropy, sizeof anisotropy);
     TABLE_SET(
         power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
         .hurst = of_interval(w->law.hurst, w->law.found),
@@ -128,14 +189,16 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
         .extrapolated_share =
             number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
         .place_scatter = number(s->place_scatter, 0), .place_error = number(place_error_of(s), 0),
-        .anisotropy = number(w->directions.amplitude, 0),
-        .anisotropy_direction = number(area ? w->directions.direction : nan, 0),
+        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
+        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
+        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
+        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
         .directions = directions,
         .includes = places ? "modes of each bin, scatter from place to place" : "modes of each bin",
         .lacks = places ? "calibration of the scanner, noise of the instrument"
                         : "places of the surface, calibration of the scanner, noise of the "
                           "instrument",
-        .option = option, .n_scans = n_scans);
+        .option = option, .anisotropy_option = anisotropy, .n_scans = n_scans);
     return table_end(&t, table);
 }
 
@@ -175,17 +238,20 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->power_spectrum);
+    wt_table_free(tables->angular_spectrum);
     wt_table_free(tables->surfaces);
     wt_table_free(tables->scan_spectra);
-    *tables = (wt_topography_tables){NULL, NULL, NULL};
+    *tables = (wt_topography_tables){NULL, NULL, NULL, NULL};
 }
 
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_whole *whole,
                               wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL};
+    wt_topography_tables made = {NULL, NULL, NULL, NULL};
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK && !isnan(whole->directions.amplitude))
+        status = make_angular(whole, &made.angular_spectrum, err);
     if (status == WT_OK)
         status = make_surfaces(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)

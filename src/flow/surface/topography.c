@@ -71,7 +71,7 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     if (status != WT_OK)
         return status;
     to->missing_share = (double)to->heights.missing / (double)to->heights.n;
-    to->directions = wt_surface_directions(&to->spectrum);
+    to->directions = wt_surface_directions(&to->spectrum, 2);
     if (to->missing_share > some_missing)
         wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
                         "%.2g %% of the heights are missing; they are filled smoothly, so that "
@@ -152,13 +152,18 @@ static wt_status join_scans(const surface_scan *scans, size_t n, const wt_job *w
     return status;
 }
 
+bool surface_anisotropic(const wt_surface_anisotropy *directions)
+{
+    return directions->chance < least_chance;
+}
+
 static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
 {
     if (n == 1)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "one scan: how much places of the surface differ is not known, and no "
                         "error holds it; scan several places");
-    if (w->directions.amplitude > least_anisotropy && w->directions.chance < least_chance)
+    if (w->directions.amplitude > least_anisotropy && surface_anisotropic(&w->directions))
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "the surface is not the same in all directions: the density changes by "
                         "%.0f %% about its mean, which is told; friction depends on the direction "
@@ -189,7 +194,8 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
     if (status == WT_OK)
         status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
-        whole.directions = wt_surface_directions(&whole.spectrum);
+        whole.directions = wt_surface_directions(&whole.spectrum, 2);
+        whole.fourth = wt_surface_directions(&whole.spectrum, 4);
         say_whole(&whole, n, work);
         status = surface_end_find(job, work, &whole, err);
     }
