@@ -36,6 +36,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME weartrack)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libweartrack${abi} (>= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "gwyddion, snakemake")
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION 
 "The command. It reads AFM force curves, DMA sweeps and power spectra as
 instruments export them and answers on one page whether there is a modified

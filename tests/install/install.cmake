@@ -29,7 +29,8 @@ foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/
         "share/man/man5/weartrack-case\\.5$" "share/bash-completion/completions/weartrack$"
         "share/zsh/site-functions/_weartrack$" "share/weartrack/formats/.*\\.xml$"
         "share/weartrack/formats/weartrack-format\\.xsd$"
-        "share/weartrack/formats/weartrack-case\\.xsd$" "share/weartrack/styles/.*\\.gp$")
+        "share/weartrack/formats/weartrack-case\\.xsd$" "share/weartrack/styles/.*\\.gp$"
+        "share/weartrack/campaign/Snakefile$")
   set(matching ${installed})
   list(FILTER matching INCLUDE REGEX "${pattern}")
   if(NOT matching)

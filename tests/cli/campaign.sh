@@ -1,0 +1,57 @@
+#!/bin/sh
+# The Snakemake workflow: each case is run once, what has changed again, what was done before a kill stays.
+# Usage: campaign.sh WEARTRACK SNAKEFILE FIXTURES WORK; 77 without Snakemake.
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+weartrack=$1 snakefile=$2 fixtures=$3 work=$4
+command -v snakemake >/dev/null || exit 77
+rm -rf "$work"; mkdir -p "$work"; cd "$work"
+export HOME=$work XDG_CACHE_HOME=$work/cache
+fail() { echo "$*"; cat said; exit 1; }
+campaign() { # OPTIONS
+  snakemake --snakefile "$snakefile" --cores 2 --config cases=cases weartrack="$weartrack" \
+    options="--replicates 10 --no-provenance" "$@" >said 2>&1
+}
+runs() { grep -c '^rule run:' said || true; }
+cp -R "$fixtures/case" cases
+chmod -R u+w cases
+rm -f cases/measured-road.xml
+mv cases/case.xml cases/one.xml
+sed 's/<temperature>30degC/<temperature>40degC/' cases/one.xml >cases/two.xml
+sed 's/bulk-4.jpk/absent.jpk/' cases/one.xml >cases/part.xml # answered in part
+
+campaign || fail "the campaign fails"
+[ "$(runs)" = 3 ] || fail "not three runs"
+[ "$(grep -v '^##' results/summary.tsv | wc -l)" = 4 ] || fail "not three rows: $(cat results/summary.tsv)"
+grep -q 'In short' results/two.txt || fail "no answer"
+grep -q 'absent.jpk' results/part.log || fail "nothing is said of the file that is missing"
+"$weartrack" run -q --no-report --replicates 10 --no-provenance cases/two.xml -o by-hand.h5 >answer
+cmp answer results/two.txt || fail "another answer than by hand"
+
+campaign || fail "the second campaign fails"
+[ "$(runs)" = 0 ] || fail "something was run again though nothing has changed"
+printf '\n' >>cases/two.xml
+campaign || fail "the third campaign fails"
+[ "$(runs)" = 1 ] || fail "not the case alone that has changed"
+printf '\n' >>cases/dma.txt
+campaign || fail "the fourth campaign fails"
+[ "$(runs)" = 3 ] || fail "a file of all cases has changed, and not all are run again"
+
+# Killed after the first result.
+rm -rf results
+setsid snakemake --snakefile "$snakefile" --cores 1 --config cases=cases weartrack="$weartrack" \
+  options="--replicates 2000" >said 2>&1 &
+snake=$!
+tries=0
+until [ -n "$(ls results/*.h5 2>/dev/null)" ]; do
+  tries=$((tries + 1))
+  [ $tries -lt 600 ] || fail "no result after a minute"
+  sleep 0.1
+done
+kill -KILL -"$snake" || fail "it cannot be killed"
+wait $snake 2>/dev/null || true
+snakemake --snakefile "$snakefile" --unlock --config cases=cases >said 2>&1 || fail "it does not unlock"
+[ ! -e results/summary.tsv ] || fail "it was not killed in time"
+campaign --rerun-incomplete --rerun-triggers mtime || fail "it does not go on after a kill"
+[ "$(runs)" -lt 3 ] || fail "everything is run again after a kill"
+[ "$(grep -v '^##' results/summary.tsv | wc -l)" = 4 ] || fail "not three rows after a kill"
