@@ -1,7 +1,7 @@
 # groff reads every man page without a word of complaint.
 # Run: cmake -DGROFF=.. -DMAN=<folder> -P man_lint.cmake. SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
-file(GLOB pages "${MAN}/*.[15]")
+file(GLOB pages "${MAN}/*.[157]")
 list(LENGTH pages n)
 if(n LESS 10)
   message(FATAL_ERROR "only ${n} man pages")

@@ -26,7 +26,7 @@ file(GLOB_RECURSE installed RELATIVE ${prefix} "${prefix}/*")
 foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/weartrack/base\\.h$"
         "^include/weartrack/weartrack\\.h$" "weartrack\\.pc$" "weartrack-config\\.cmake$"
         "share/man/man1/weartrack\\.1$" "share/man/man1/weartrack-run\\.1$"
-        "share/man/man5/weartrack-case\\.5$" "share/bash-completion/completions/weartrack$"
+        "share/man/man5/weartrack-case\\.5$" "share/man/man7/weartrack-tutorial\\.7$" "share/bash-completion/completions/weartrack$"
         "share/zsh/site-functions/_weartrack$" "share/weartrack/formats/.*\\.xml$"
         "share/weartrack/formats/weartrack-format\\.xsd$"
         "share/weartrack/formats/weartrack-case\\.xsd$" "share/weartrack/styles/.*\\.gp$"

@@ -12,6 +12,14 @@
 #include <math.h>
 #include <string.h>
 
+/* An anisotropy that could be scatter is none. */
+static const double least_chance = 0.01;
+
+bool surface_anisotropic(const wt_surface_anisotropy *directions)
+{
+    return directions->chance < least_chance;
+}
+
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
           double modes_error, self_affine, modes, scans; const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;

@@ -8,9 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* An anisotropy that could be scatter is none, and less than this changes friction by less than the
- * scatter of a spectrum does. A heuristic. */
-static const double least_chance = 0.01, least_anisotropy = 0.1;
+/* Less than this changes friction by less than the scatter of a spectrum does. A heuristic. */
+static const double least_anisotropy = 0.1;
 /* A share of filled heights that is worth a word. A heuristic: above it C may be off by as much. */
 static const double some_missing = 0.01;
 
@@ -150,11 +149,6 @@ static wt_status join_scans(const surface_scan *scans, size_t n, const wt_job *w
     }
     free(of);
     return status;
-}
-
-bool surface_anisotropic(const wt_surface_anisotropy *directions)
-{
-    return directions->chance < least_chance;
 }
 
 static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
