@@ -8,9 +8,10 @@ command -v snakemake >/dev/null || exit 77
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
 export HOME=$work XDG_CACHE_HOME=$work/cache
 fail() { echo "$*"; cat said; exit 1; }
+options='--replicates 10 --no-provenance'
 campaign() { # OPTIONS
   snakemake --snakefile "$snakefile" --cores 2 --config cases=cases weartrack="$weartrack" \
-    options="--replicates 10 --no-provenance" "$@" >said 2>&1
+    options="$options" "$@" >said 2>&1
 }
 runs() { grep -c '^rule run:' said || true; }
 cp -R "$fixtures/case" cases
@@ -37,20 +38,24 @@ printf '\n' >>cases/dma.txt
 campaign || fail "the fourth campaign fails"
 [ "$(runs)" = 3 ] || fail "a file of all cases has changed, and not all are run again"
 
-# Killed after the first result.
+options='--replicates 11 --no-provenance'
+campaign || fail "the fifth campaign fails"
+[ "$(runs)" = 3 ] || fail "with other options old results stay"
+
+# Killed when the first job is done.
 rm -rf results
 setsid snakemake --snakefile "$snakefile" --cores 1 --config cases=cases weartrack="$weartrack" \
-  options="--replicates 2000" >said 2>&1 &
+  options="--replicates 2000" >killed 2>&1 &
 snake=$!
 tries=0
-until [ -n "$(ls results/*.h5 2>/dev/null)" ]; do
+until grep -q 'Finished job' killed 2>/dev/null; do
   tries=$((tries + 1))
   [ $tries -lt 600 ] || fail "no result after a minute"
   sleep 0.1
 done
 kill -KILL -"$snake" || fail "it cannot be killed"
 wait $snake 2>/dev/null || true
-snakemake --snakefile "$snakefile" --unlock --config cases=cases >said 2>&1 || fail "it does not unlock"
+campaign --unlock || fail "it does not unlock"
 [ ! -e results/summary.tsv ] || fail "it was not killed in time"
 campaign --rerun-incomplete --rerun-triggers mtime || fail "it does not go on after a kill"
 [ "$(runs)" -lt 3 ] || fail "everything is run again after a kill"
