@@ -414,7 +414,9 @@ static void put_rest(FILE *out, const new_case *c)
         put_comment(out, e->path);
         fputs(": ", out);
         put_comment(out, e->found.words);
-        fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: see weartrack spot"
+        fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: of the counter surface it goes "
+                                                 "into roughness as files, of a spot see "
+                                                 "weartrack spot"
               : e->found.kind == WT_KIND_NOISE ? "; noise of a lever: see weartrack thermal"
               : e->found.is_result             ? "; a result of weartrack"
                                                : "",
