@@ -678,6 +678,15 @@ static void test_flash(void **state)
     assert_non_null(strstr(wt_table_key(table, "unsettled"), "no temperature below 300 degC"));
     see(table);
     wt_table_free(table);
+    static const double temperature = 293.15;
+    sliding.temperatures = &temperature;
+    sliding.n_temperatures = 1;
+    if (wt_friction_map_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(
+        strstr(wt_table_key(table, "material_statement"), "no flash temperature is found"));
+    see(table);
+    wt_table_free(table);
 }
 
 /* Strain sweeps that reach half of the fall and its double. */

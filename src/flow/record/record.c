@@ -407,7 +407,7 @@ wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     wt_record_job whole = *job;
-    if (status == WT_OK && job->profile != NULL)
+    if (status == WT_OK && job->profile != NULL && job->n_sets > 0)
         status = wear_area_of_profiles(job, work, &whole.track_area, err);
     if (status == WT_OK)
         status = make_tables(&whole, work, &files, &made, err);

@@ -105,6 +105,8 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
         else
             compare_file(k, &files.file[i], before);
     }
+    if (status == WT_OK && *seen > n_before && wt_table_n_rows(failures) > 0)
+        differs(k, "a file that it was made of is gone");
     flow_files_clear(&files);
     wt_table_free(failures);
     wt_parselog_free(log);

@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 TABLE_ROW(friction_map, FRICTION_MAP, const char *against;
           double temperature, pressure, velocity, reduced_velocity, shift_factor;
@@ -20,7 +21,7 @@ TABLE_ROW(friction_map, FRICTION_MAP, const char *against;
 
 TABLE_KEYS(friction_map, FRICTION_MAP, wt_estimate pressure, temperature, reference_temperature,
            shear_stress;
-           char material[512], statement[840], numerical[160];)
+           char material[512], statement[920], numerical[160];)
 
 /* One temperature and pressure. */
 typedef struct map_line {
@@ -38,6 +39,7 @@ typedef struct friction_map {
     wt_friction_point *points; /* [n_velocity] */
     double lowest, highest;    /* reduced velocities of all */
     double worst;              /* relative numerical error where the tolerance is not reached */
+    size_t n_unsettled;        /* points without a flash temperature, which are NaN */
     size_t n_extrapolated;     /* temperatures beyond what was measured, */
     char statement[320];       /* and what is to be said of them */
 } friction_map;
@@ -130,6 +132,7 @@ static void add_rows(friction_map *m, const map_line *line, table_writer *t, cos
         const double relative =
             p->hysteresis.value > 0 ? p->hysteresis.numerical_error / p->hysteresis.value : 0;
         cost->items++;
+        m->n_unsettled += p->unsettled ? 1 : 0;
         cost->error_estimated = fmax(cost->error_estimated, relative);
         if (!p->reached)
             m->worst = fmax(m->worst, relative);
@@ -178,6 +181,11 @@ static void set_keys(const friction_map *m, const sliding_contact *c, table_writ
     (void)wt_rubber_describe(s->rubber, keys.material, sizeof keys.material);
     snprintf(keys.statement, sizeof keys.statement, "%s%s%s", m->statement,
              m->statement[0] != '\0' && c->statement[0] != '\0' ? "; " : "", c->statement);
+    const size_t used = strlen(keys.statement);
+    if (m->n_unsettled > 0)
+        snprintf(keys.statement + used, sizeof keys.statement - used,
+                 "%sno flash temperature is found at %zu points, which are nan",
+                 used > 0 ? "; " : "", m->n_unsettled);
     if (m->worst > 0)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       m->work->tolerance, m->worst);
