@@ -23,6 +23,7 @@ typedef struct jpk_writer_curve {
     double x, y;  /* [m] */
     size_t n_segments;
     const jpk_writer_segment *segments;
+    size_t n_more; /* segments that its header counts beside them */
 } jpk_writer_curve;
 
 typedef enum jpk_writer_encoding {
