@@ -1,4 +1,4 @@
-/* What a segment of a text export says against itself: rows that are not there.
+/* What rows of a text export say against themselves: some are missing, there twice or elsewhere.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -50,12 +50,12 @@ static broken_steps find_breaks(const text_table *t, size_t first, size_t end, c
     return found.wrong <= WRONG_MAX ? found : none;
 }
 
-void text_check_steps(const text_file *file, const text_table *t, wt_segment_kind kind,
-                      size_t first, size_t end, wt_parselog *log)
+void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
+                      size_t end, wt_parselog *log)
 {
     static const wt_quantity even[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT};
     for (size_t i = 0; i < COUNT_OF(even); i++) {
-        const text_column *const c = text_table_column(t, even[i], (int)kind);
+        const text_column *const c = text_table_column(t, even[i], segment);
         const broken_steps broken = c != NULL && end > first + STEPS_LEAST
                                         ? find_breaks(t, first, end, c)
                                         : (broken_steps){0, 0, 0};
