@@ -504,6 +504,30 @@ static void lost_segments(void **state)
     }
 }
 
+static void cut_header(void **state)
+{
+    (void)state;
+    static const char path[] = "cut-header.jpk-force";
+    jpk_writer_file f = make_file(path);
+    reading r;
+    bool said = false;
+    f.map = false;
+    f.n_curves = 1;
+    f.n_planned = 0;
+    f.columns = f.rows = 0;
+    samples[0].segments[3].cut_header = true;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
+        const wt_log_entry e = wt_parselog_get(r.log, i);
+        said |= e.severity == WT_WARNING && strstr(e.text, "lists no channels") != NULL;
+    }
+    assert_true(said);
+    close_all(&r);
+    unlink(path);
+}
+
 /* An entry that unpacks to many times what its points take is refused before it is unpacked: it
  * would fill the memory. */
 static void swollen_entry(void **state)
@@ -550,6 +574,7 @@ int main(void)
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
         cmocka_unit_test(lost_segments),
+        cmocka_unit_test(cut_header),
         cmocka_unit_test(swollen_entry),
     };
     return cmocka_run_group_tests(tests, open_formats, free_formats);

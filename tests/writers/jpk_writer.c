@@ -363,6 +363,9 @@ static int add_segment_header(const writer *w, const jpk_writer_segment *s, cons
         put_style(w, t.out, own, s->style);
     else
         fprintf(t.out, "%sforce-segment-header-info.*=%zu\n", own, style_number(s->style));
+    snprintf(name, sizeof name, "%ssegment-header.properties", folder);
+    if (s->cut_header)
+        return text_add(w, &t, name);
     fprintf(t.out, "%snum-points=%zu\n", own, s->n);
     if (!isnan(s->duration))
         fprintf(t.out, "%sduration=%.17g\n%ssettings.segment-settings.duration=%.17g\n", own,
@@ -389,7 +392,6 @@ static int add_segment_header(const writer *w, const jpk_writer_segment *s, cons
                 channel_names[c], prefix);
         fprintf(t.out, "%sdata.num-points=%zu\n", prefix, s->n);
     }
-    snprintf(name, sizeof name, "%ssegment-header.properties", folder);
     return text_add(w, &t, name);
 }
 

@@ -16,6 +16,7 @@ typedef struct jpk_writer_segment {
     const double *height;          /* [n] m, falling towards the sample */
     const double *force;           /* [n] N, positive when the tip is pushed away */
     const double *measured_height; /* [n] m, or NULL */
+    bool cut_header;               /* it ends behind the style */
 } jpk_writer_segment;
 
 typedef struct jpk_writer_curve {
