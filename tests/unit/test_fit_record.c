@@ -114,6 +114,30 @@ static void test_of_the_reference(void **state)
     check_reference("velstep4_BRAVA_expb819_basalt.txt", "mu", WT_CYCLE_SAMPLE);
 }
 
+/* One odd cycle at either end is no step: where the mean changes is not looked for in the outermost
+ * 2 % of a series. */
+static void test_of_the_ends_of_a_step(void **state)
+{
+    (void)state;
+    enum { CYCLES = 200, STEP = 120, EDGE = 4 };
+    double y[CYCLES];
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < STEP ? 0 : 1;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[0] = 8;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[0] = 0;
+    y[CYCLES - 1] = -8;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[CYCLES - 1] = 1;
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < EDGE ? 1 : 0;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), EDGE);
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < CYCLES - EDGE ? 0 : 1;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), CYCLES - EDGE);
+}
+
 /* 3 N in every row, 7.6 samples in a lap, and a running-in that ends where the rules say, too. */
 static void test_of_a_measured_disc(void **state)
 {
@@ -520,6 +544,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_of_the_reference),
         cmocka_unit_test(test_of_a_measured_disc),
+        cmocka_unit_test(test_of_the_ends_of_a_step),
         cmocka_unit_test(test_of_the_likelihood),
         cmocka_unit_test(test_of_the_mean_of_a_law),
         cmocka_unit_test(test_of_the_error_of_a_mean),
