@@ -396,6 +396,28 @@ static void test_of_laps(void **state)
     }
 }
 
+/* A span is as long as nearly all steps, also of a record of milliseconds. */
+static void test_of_short_spans(void **state)
+{
+    (void)state;
+    enum { DENSE = 10, ALL = 100 };
+    wt_record record = empty_record();
+    double *time = with(&record, WT_RECORD_TIME), *mu = with(&record, WT_RECORD_COEFFICIENT), t = 0;
+    record.n = ALL;
+    for (int i = 0; i < ALL; i++) {
+        time[i] = t;
+        mu[i] = 1;
+        t += i < DENSE ? 1e-3 : 2e-3;
+    }
+    wt_cycles c;
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_TIME, (double)NAN, (double)NAN, &c, NULL),
+                     WT_OK);
+    assert_int_equal(c.cycle[0].n, 2);
+    assert_int_equal(c.cycle[c.n - 1].n, 1);
+    assert_int_equal(c.n, ALL - DENSE / 2);
+    wt_cycles_clear(&c);
+}
+
 /* A rate of sampling that is a hundred times higher in the second half gives it no more weight, and
  * a step is no cycle of two. */
 static void test_of_spans_of_time(void **state)
@@ -553,6 +575,7 @@ int main(void)
         cmocka_unit_test(test_of_stick_slip),
         cmocka_unit_test(test_of_strokes),
         cmocka_unit_test(test_of_laps),
+        cmocka_unit_test(test_of_short_spans),
         cmocka_unit_test(test_of_spans_of_time),
         cmocka_unit_test(test_of_a_force_without_a_load),
         cmocka_unit_test(test_of_a_made_track),
