@@ -504,6 +504,28 @@ static void lost_segments(void **state)
     }
 }
 
+/* Where the header of a curve was cut, say. */
+static void lost_position(void **state)
+{
+    (void)state;
+    static const char path[] = "nowhere.jpk-force-map";
+    for (int lost = 0; lost < 2; lost++) {
+        jpk_writer_file f = make_file(path);
+        size_t n_said = 0;
+        reading r;
+        curves[1].y = lost != 0 ? (double)NAN : curves[1].y;
+        assert_int_equal(jpk_write(&f), 0);
+        assert_int_equal(open_path(&r, path, NULL), WT_OK);
+        for (size_t i = 0; i < f.n_curves; i++)
+            assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        for (size_t i = 0; i < wt_parselog_count(r.log); i++)
+            n_said += strstr(wt_parselog_get(r.log, i).text, "says no position") != NULL;
+        assert_int_equal(n_said, lost);
+        close_all(&r);
+        unlink(path);
+    }
+}
+
 static void cut_header(void **state)
 {
     (void)state;
@@ -574,6 +596,7 @@ int main(void)
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
         cmocka_unit_test(lost_segments),
+        cmocka_unit_test(lost_position),
         cmocka_unit_test(cut_header),
         cmocka_unit_test(swollen_entry),
     };

@@ -206,6 +206,9 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
         if (place >= 0 && place < 1e9)
             number = (size_t)place;
     }
+    if (file->map && file->position.n > 0 && (isnan(curve->x) || isnan(curve->y)))
+        wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
+                        "the header of a curve says no position, as where it was cut");
     (void)force_place(file->columns, file->rows, file->back_and_forth, number, curve);
 }
 
