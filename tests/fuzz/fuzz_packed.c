@@ -1,7 +1,5 @@
 /* Any bytes as a packed file: gzip and .xls by their signatures, other bytes as the list of entries
- * (pack_list.h) of an .xlsx. The sweep in it is read, then the sheet called "A". Of three lengths
- * in four it is not asked which format the text in it has: that takes twice as long as all the rest
- * and is what the targets of texts try.
+ * (pack_list.h) of an .xlsx. The sweep in it is read, then the sheet called "A".
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,7 +17,6 @@ static void read_sweep(const uint8_t *bytes, size_t length, const char *sheet)
     wt_error err = WT_ERROR_INIT;
     wt_read_options options = wt_read_defaults();
     options.sheet = sheet;
-    options.format = length % 4 != 0 ? "eplexor" : NULL;
     if ((formats == NULL && wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK) ||
         wt_input_open_memory(bytes, length, "fuzz", &input, NULL) != WT_OK)
         abort();
