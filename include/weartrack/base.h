@@ -237,7 +237,9 @@ WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
 /* x_si = factor * x + offset for x in `unit` (any UDUNITS-2 spelling, UTF-8; also "%", "°C", "µm",
  * square brackets around it; "" and "-" for a dimensionless quantity). WT_E_UNIT if it is unknown
  * or does not measure `quantity`. Hz and rad/s are never converted into each other: that is the
- * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. */
+ * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. Units
+ * that are not built in are asked of UDUNITS-2, whose scanner calls exit(2) where it gets no
+ * memory; the command ends before that. */
 WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor,
                                double *offset, wt_error *err) WT_NODISCARD;
 /* Parses "0.4MPa", "20 degC", "35deg", "1e-4 mm^3/(N m)" to SI. The unit is required unless the

@@ -16,6 +16,7 @@ typedef struct jpk_writer_segment {
     const double *height;          /* [n] m, falling towards the sample */
     const double *force;           /* [n] N, positive when the tip is pushed away */
     const double *measured_height; /* [n] m, or NULL */
+    bool cut_header;               /* it ends behind the style */
 } jpk_writer_segment;
 
 typedef struct jpk_writer_curve {
@@ -23,6 +24,7 @@ typedef struct jpk_writer_curve {
     double x, y;  /* [m] */
     size_t n_segments;
     const jpk_writer_segment *segments;
+    size_t n_more; /* segments that its header counts beside them */
 } jpk_writer_curve;
 
 typedef enum jpk_writer_encoding {

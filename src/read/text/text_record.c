@@ -151,6 +151,19 @@ static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log
     return status;
 }
 
+/* A step of a recipe may count its time anew. */
+static void check_steps(const text_file *file, wt_parselog *log)
+{
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const text_table *const t = &file->tables[i];
+        for (size_t first = 0, end = 0; first < t->n_rows; first = end) {
+            while (end < t->n_rows && t->blocks[end] == t->blocks[first])
+                end++;
+            text_check_steps(file, t, -1, first, end, log);
+        }
+    }
+}
+
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
                            wt_parselog *log, wt_record *record, wt_error *err)
 {
@@ -171,6 +184,7 @@ wt_status text_read_record(const file_reader *self, wt_input *input, const wt_re
         status = run_on(&file, &made, WT_RECORD_LAPS, "the number of laps", err);
     if (status == WT_OK) {
         turn_load(&file, &made, log);
+        check_steps(&file, log);
         *record = made;
     } else {
         wt_record_clear(&made);
