@@ -86,6 +86,8 @@ typedef struct cmd_usage {
     const char *arguments; /* "[OPTION]... FILE..." */
     const char *what;      /* what it does, a few lines */
     const char *common; /* as `only` of the common options; quiet, strict and help are everywhere */
+    const char *first;  /* the options that most need, for --help without "all"; NULL: all */
+    const char *master; /* those that are told by weartrack master; NULL: none */
     const char *notes;  /* after the options; NULL if none */
     int n_files;        /* how many must be given; CMD_SOME: one or more; 0: any number */
     const char *files;  /* said of another number: "two files are needed" */
