@@ -121,5 +121,8 @@ int main(int argc, char **argv)
         status = dispatch(argc - 1, argv + 1);
     if (wt_door_gaps() != NULL) /* of the system, not of the data: no remark of a result */
         cmd_say("weartrack: warning: %s\n", wt_door_gaps());
-    return close_stdout(status);
+    status = close_stdout(status);
+    const cmd_word last = {"status", NULL, (size_t)status};
+    cmd_event("end", &last, 1);
+    return status;
 }

@@ -36,6 +36,9 @@ static const wt_param common_rows[] = {
      .help = "version, command line, digests and times in what is written"},
     {PARAM_FLAG_OF("cost", cmd_common, cost),
      .help = "also the table cost: time, nodes, files and errors of every stage"},
+    {PARAM_CHOICE_OF("log", cmd_common, log, "text|json"),
+     .help = "what is said on standard error: for people, or one object of JSON a line with all "
+             "messages, failures, the progress every second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
     {PARAM_FLAG_OF("strict", cmd_common, strict),
@@ -390,6 +393,8 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
                 row = &list->rows[i];
         if (!set_option(s, row, optarg))
             return false;
+        if (s->common.log == CMD_LOG_JSON)
+            cmd_log_json(s->name);
         const char *value = row->param->value;
         if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
             (row->param->flags & PARAM_WRITTEN) == 0)
@@ -416,7 +421,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s quiet strict help", usage->common);
+    snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
     cmd_part last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->parts = parts;
