@@ -43,6 +43,7 @@ int cmd_psd(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
 int cmd_new_case(int argc, char **argv);
+int cmd_collect(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_table(int argc, char **argv);
