@@ -394,6 +394,30 @@ WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n,
 WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
 
+/* ---- results of cases side by side ----------------------------------------------------------- */
+
+/* A result of wt_run; its sample and condition are those of the case, or `file` and "". */
+typedef struct wt_collected {
+    const wt_result *result;
+    const char *file;
+} wt_collected;
+
+typedef struct wt_collect_job {
+    double margin; /* relative difference of modulus ratios that does not matter; default 0.2 */
+} wt_collect_job;
+WT_API wt_collect_job wt_collect_job_defaults(void);
+WT_API const wt_params *wt_collect_job_params(void);
+
+/* The tables of these names; NULL: no case has anything for it, or there is no pair. */
+typedef struct wt_collection_tables {
+    wt_table *collection, *collected_modulus, *collected_friction, *ratio_pairs;
+} wt_collection_tables;
+WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
+/* Modulus ratios of pairs are compared as if they knew nothing of each other. WT_E_EMPTY without a
+ * case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
+WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
+                            wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
 
 /* The samples of isotherms and temperature sweeps, in the order of their names; that of sweeps

@@ -589,6 +589,10 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_story_clear(&story);
     if (wt_case_title(c)[0] != '\0') /* the title of the page */
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
+    if (c->sample[0] != '\0')
+        answer_set_text(&answer, ANSWER_KEY_CASE_SAMPLE, c->sample);
+    if (c->condition[0] != '\0')
+        answer_set_text(&answer, ANSWER_KEY_CASE_CONDITION, c->condition);
     wt_table *made = NULL;
     status = table_end(&answer, &made);
     if (status == WT_OK && story.status != WT_OK)
