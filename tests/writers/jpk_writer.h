@@ -16,7 +16,6 @@ typedef struct jpk_writer_segment {
     const double *height;          /* [n] m, falling towards the sample */
     const double *force;           /* [n] N, positive when the tip is pushed away */
     const double *measured_height; /* [n] m, or NULL */
-    bool cut_header;               /* it ends behind the style */
 } jpk_writer_segment;
 
 typedef struct jpk_writer_curve {
@@ -24,7 +23,6 @@ typedef struct jpk_writer_curve {
     double x, y;  /* [m] */
     size_t n_segments;
     const jpk_writer_segment *segments;
-    size_t n_more; /* segments that its header counts beside them */
 } jpk_writer_curve;
 
 typedef enum jpk_writer_encoding {
@@ -47,7 +45,9 @@ typedef struct jpk_writer_file {
     double setpoint;        /* [N]; NaN = none */
     bool force_from_volts;  /* the slot of the force leads to the volts, not to the distance */
     jpk_writer_encoding encoding;
-    unsigned n_more;     /* channels that are listed beside those there are */
+    const jpk_writer_curve *miscounted;     /* its header counts one segment more; NULL: none */
+    const jpk_writer_segment *without_rest; /* its header ends behind the style; NULL: none */
+    unsigned n_more;                        /* channels that are listed beside those there are */
     bool bare_height;    /* the height stays in volts: its conversions are not defined */
     bool odd_height;     /* its samples are integers of a kind that nobody knows */
     bool inline_headers; /* no shared-data: every key stands in the segment header */
