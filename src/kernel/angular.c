@@ -490,23 +490,39 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
 }
 
 /* From frequencies below a limit. */
-static double part_below(const angular_law *a, size_t limit, double w, double j1)
+static void parts_below(const angular_law *a, size_t limit, const double *w, const double *j1,
+                        size_t n, double *part)
 {
-    double part, j2;
-    if (w <= a->limit[limit])
-        return j1;
-    angular_panels_integrate(&a->below[limit], w, &part, &j2);
-    return part;
+    const double end = a->limit[limit];
+    double lowest = w[0], j2;
+    for (size_t i = 1; i < n; i++)
+        lowest = w[i] < lowest ? w[i] : lowest;
+    if (lowest >= 2 * end) {
+        angular_panels_far(&a->below[limit], w, n, part);
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (w[i] > end)
+            angular_panels_integrate(&a->below[limit], w[i], &part[i], &j2);
+        else
+            part[i] = j1[i];
 }
 
-double angular_outside(const angular_law *angular, double w, double j1)
+void angular_outside(const angular_law *angular, const double *w, const double *j1, size_t n,
+                     double *outside)
 {
-    double outside = 0;
-    if (!isnan(angular->limit[0]))
-        outside += part_below(angular, 0, w, j1);
-    if (!isnan(angular->limit[1]))
-        outside += j1 - part_below(angular, 1, w, j1);
-    return fmin(fmax(outside, 0), j1);
+    double part[RULE_MOST];
+    for (size_t i = 0; i < n; i++)
+        outside[i] = 0;
+    for (size_t limit = 0; limit < 2; limit++) {
+        if (isnan(angular->limit[limit]))
+            continue;
+        parts_below(angular, limit, w, j1, n, part);
+        for (size_t i = 0; i < n; i++)
+            outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
+    }
+    for (size_t i = 0; i < n; i++)
+        outside[i] = !(outside[i] > 0) ? 0 : outside[i] < j1[i] ? outside[i] : j1[i];
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */

@@ -381,6 +381,20 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
 
 /* ---- one pass -------------------------------------------------------------------------------- */
 
+/* What of a part comes from frequencies outside the data. */
+static double outside_of(const angular_law *angular, const node_view *view, const pass_part *part)
+{
+    const size_t n = view->rule->n;
+    double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
+    for (size_t j = 0; j < n; j++)
+        j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
+    angular_outside(angular, view->omega, j1, n, outside);
+    for (size_t j = 0; j < n; j++)
+        if (part->share[j] > 0)
+            sum += part->share[j] * (outside[j] / j1[j]);
+    return sum;
+}
+
 /* Adds a part, from the nodes in view, to a pass: of the core (place 0) or of a panel. */
 static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
                      size_t place)
@@ -392,12 +406,8 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     const double variance = pass->variance + part->variance;
     if (w->record != NULL)
         friction_record_add(w->record, view->q, part->share, n);
-    for (size_t j = 0; w->with_outside && j < n; j++)
-        if (part->share[j] > 0) {
-            const double j1 = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
-            pass->outside +=
-                part->share[j] * (angular_outside(ws->angular, view->omega[j], j1) / j1);
-        }
+    if (w->with_outside)
+        pass->outside += outside_of(ws->angular, view, part);
     pass->variance_error += part->variance_error;
     add_moved(ws, panel, view->log_omega, view->j1, view->j2, n, w->at.log_lowest, part->variance,
               part->hysteresis, variance, pass);
