@@ -26,17 +26,13 @@ enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
  * smooth: its poles lie at pi/2 beside the axis. */
 static const double law_width = 0.7, closed_width = 1;
-/* At a goal no tighter than the last, pieces twice as wide do with the same degree: 3.4^-8 is 5e-5.
- */
-static const double loose_width = 2, loose_goal = 1e-5;
 /* Two bounds in ln w closer than this are one: their difference is rounding. */
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
  * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
  * coefficient.
  */
-static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6,
-                    most_closed_goal = 1e-4;
+static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
 /* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
@@ -405,7 +401,8 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     }
 }
 
-/* z of x in a piece; what rounding puts beside it goes to its end. */
+/* z of x in a piece, or beside it by rounding. */
+WIDE_REGISTERS
 static void place_in(const series *restrict s, const double *restrict x, size_t n,
                      double *restrict z)
 {
@@ -416,8 +413,6 @@ static void place_in(const series *restrict s, const double *restrict x, size_t 
     else
         for (size_t i = 0; i < n; i++)
             z[i] = (sqrt(x[i] > anchor ? x[i] - anchor : 0) - middle) * scale;
-    for (size_t i = 0; i < n; i++)
-        z[i] = z[i] < -1 ? -1 : z[i] > 1 ? 1 : z[i];
 }
 
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
@@ -535,9 +530,8 @@ static double limit_of(double frequency)
 static void choose_pieces(angular_law *a, bool closed)
 {
     a->closed = closed;
-    a->goal =
-        fmin(fmax(goal_share * a->tolerance, least_goal), closed ? most_closed_goal : most_goal);
-    a->piece_width = !closed ? law_width : a->goal >= loose_goal ? loose_width : closed_width;
+    a->goal = fmin(fmax(goal_share * a->tolerance, least_goal), most_goal);
+    a->piece_width = closed ? closed_width : law_width;
 }
 
 void angular_weigh(angular_law *angular, const angular_weight *weight)

@@ -55,7 +55,6 @@ struct wt_friction_workspace {
     size_t n_knots; /* of the material, rad/s */
     double *slopes; /* [n_knots + 1] of the material between them */
     const gauss_rule *rules[FRICTION_RULES];
-    double seen;     /* by rule_error */
     panel_plan plan; /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */

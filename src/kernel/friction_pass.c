@@ -264,7 +264,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
     rule_top top_g, top_mu;
     rule_tops(rule, g, mu, &top_g, &top_mu);
     part->variance = weighted_sum(rule, g);
-    part->variance_error = rule_error(rule, &top_g, ws->seen);
+    part->variance_error = rule_error(rule, &top_g);
     part->closed_error = 0;
     if (part->variance > CONTACT_FULL) {
         for (size_t i = 0; i < rule->n; i++)
@@ -277,7 +277,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->closed_error = (most - least) * integral;
     }
     part->hysteresis = contact * weighted_sum(rule, mu);
-    part->hysteresis_error = contact * rule_error(rule, &top_mu, ws->seen);
+    part->hysteresis_error = contact * rule_error(rule, &top_mu);
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
@@ -324,19 +324,18 @@ static const double area_begun = 0.3;
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
  * Where P leaves 1 the difference is too small to show in the last coefficients, so it is looked at
  * alone. */
-static double hysteresis_error(const wt_friction_workspace *ws, const gauss_rule *rule,
-                               const rule_top *full, const rule_top *part, double before,
-                               double after)
+static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
+                               double before, double after)
 {
     rule_top gap;
     if (!(before < area_begun))
-        return rule_error(rule, part, ws->seen);
-    const double own = rule_error(rule, full, ws->seen);
+        return rule_error(rule, part);
+    const double own = rule_error(rule, full);
     if (!(after > CONTACT_FULL))
         return own;
     for (size_t k = 0; k < RULE_TOP; k++)
         gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
-    return own + rule_error(rule, &gap, ws->seen);
+    return own + rule_error(rule, &gap);
 }
 
 /* On top of a variance so far. */
@@ -372,11 +371,11 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
         part->hysteresis += part->share[j];
     }
     rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance_error = rule_error(rule, &top_g, ws->seen);
+    part->variance_error = rule_error(rule, &top_g);
     if (variance < area_begun)
         rule_tops(rule, full, mu, &top_full, &top_mu);
     part->hysteresis_error =
-        hysteresis_error(ws, rule, &top_full, &top_mu, variance, variance + part->variance);
+        hysteresis_error(rule, &top_full, &top_mu, variance, variance + part->variance);
 }
 
 /* ---- one pass -------------------------------------------------------------------------------- */
