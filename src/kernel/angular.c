@@ -516,8 +516,10 @@ void angular_outside(const angular_law *angular, const double *w, const double *
         for (size_t i = 0; i < n; i++)
             outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
     }
-    for (size_t i = 0; i < n; i++)
-        outside[i] = !(outside[i] > 0) ? 0 : outside[i] < j1[i] ? outside[i] : j1[i];
+    for (size_t i = 0; i < n; i++) {
+        const double some = outside[i] > 0 ? outside[i] : 0;
+        outside[i] = some < j1[i] ? some : j1[i];
+    }
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */

@@ -111,9 +111,11 @@ static void choose_panels(wt_friction_workspace *ws)
 
 static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
 {
+    /* between knots panels are narrow */
+    const size_t last = COUNT_OF(ladders) - (ws->n_knots > 0 ? 2 : 1);
     size_t ladder = 0;
     wt_status status = WT_OK;
-    while (ws->options.tolerance < ladders[ladder].tolerance)
+    while (ladder < last && ws->options.tolerance < ladders[ladder].tolerance)
         ladder++;
     for (size_t k = 0; status == WT_OK && k < FRICTION_RULES; k++)
         status = rule_of(ladders[ladder].nodes[k], &ws->rules[k], err);
@@ -194,8 +196,13 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         ws->knots = material->law->breaks(material, &ws->n_knots);
     if (ws->n_knots > 0)
         ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
-    if (ws->slopes != NULL)
+    if (ws->n_knots > 0)
+        ws->log_knots = pool_numbers(&ws->memory, ws->n_knots);
+    if (ws->slopes != NULL && ws->log_knots != NULL) {
         grid_slopes(material, ws->knots, ws->n_knots, ws->slopes);
+        for (size_t k = 0; k < ws->n_knots; k++)
+            ws->log_knots[k] = log(ws->knots[k]);
+    }
 
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
@@ -334,7 +341,7 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
     if (!ws->n_knots && !n_cuts)
         return &ws->plan;
     for (size_t k = 0; k < ws->n_knots; k++)
-        scratch->knots[k] = log(ws->knots[k] / (at->speed * ws->roughness->q0));
+        scratch->knots[k] = ws->log_knots[k] - at->log_lowest;
     if (at->heat != NULL)
         friction_move_knots(ws, &at->heat->heat, scratch->knots);
     panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
