@@ -401,7 +401,7 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     }
 }
 
-/* z of x in a piece, or beside it by rounding. */
+/* z of x in a piece; what rounding puts beside it goes to its end. */
 WIDE_REGISTERS
 static void place_in(const series *restrict s, const double *restrict x, size_t n,
                      double *restrict z)
@@ -413,6 +413,10 @@ static void place_in(const series *restrict s, const double *restrict x, size_t 
     else
         for (size_t i = 0; i < n; i++)
             z[i] = (sqrt(x[i] > anchor ? x[i] - anchor : 0) - middle) * scale;
+    for (size_t i = 0; i < n; i++) {
+        const double below = z[i] < 1 ? z[i] : 1;
+        z[i] = below > -1 ? below : -1;
+    }
 }
 
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
