@@ -582,6 +582,8 @@ typedef struct wt_cycle {
     double zero;      /* of strokes: mean of there and back, with their signs, as a coefficient */
     double deviation; /* of its samples */
     double normal_force, velocity, pressure, temperature, wear_depth;
+    double rotation; /* of the disc [rad/s] */
+    double duration; /* to the first sample of the next one [s] */
 } wt_cycle;
 
 typedef struct wt_cycles {

@@ -29,6 +29,8 @@ number_words words_of_value(wt_estimate estimate);    /* without its errors */
 number_words words_of_estimate(wt_estimate estimate); /* +- the standard error where it is known */
 /* "1.20 s (95 %: 0.90 s to 1.50 s)", of a number that is no finding. */
 number_words words_of_known(wt_estimate estimate);
+/* The same, of a number above 0 whose error is a factor: the logarithm is normal. */
+number_words words_of_positive(wt_estimate estimate);
 number_words words_of_celsius(double kelvin);
 
 /* ---- findings -------------------------------------------------------------------------------- */
