@@ -385,6 +385,8 @@ static void say_friction(sentence *s, const table_view *v)
         say(s, "with layer %s, ", words_of_finding(&with_layer).text);
         tell_change(&s->told, &s->found, false);
         say(s, ", ");
+    } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
+        say(s, "friction with the layer not known without a shear stress, ");
     }
     say(s, "hysteresis %s, contact area of the nominal one %s", words_of_finding(&hysteresis).text,
         words_of_finding(&area).text);
