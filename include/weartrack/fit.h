@@ -595,6 +595,7 @@ typedef struct wt_cycles {
     double
         difference; /* largest of mu and friction force over load, where the file has both; NaN */
     bool has_zero;  /* there and back have opposite signs */
+    size_t n_unloaded; /* samples that a load of 0 or less gives no coefficient */
 } wt_cycles;
 /* `radius` [m] of the track tells laps by the distance, and the velocity by the rotation; NaN: not
  * known. `load` [N] where none was recorded; NaN. `kind` other than WT_CYCLE_AUTO that the record

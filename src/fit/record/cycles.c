@@ -34,7 +34,7 @@ static double load_of(const wt_record *record, double load, size_t i)
 
 /* The coefficient of the file, unless it lost the sign that its force has. */
 static wt_status friction_of(const wt_record *record, double load, double *friction,
-                             double *difference, wt_error *err)
+                             wt_cycles *cycles, wt_error *err)
 {
     const double *const given = record->channel[WT_RECORD_COEFFICIENT],
                         *const force = record->channel[WT_RECORD_FRICTION_FORCE];
@@ -42,7 +42,6 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
                by_force = force != NULL && has_load &&
                           (given == NULL ||
                            (has_both_signs(force, record->n) && !has_both_signs(given, record->n)));
-    *difference = (double)NAN;
     if (given == NULL && !by_force) {
         const wt_status status = wt_fail(err, WT_E_MISSING, "a friction force without a load");
         wt_error_expected(err, "a column of the normal force or of the friction coefficient");
@@ -53,8 +52,9 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
         const double normal = load_of(record, load, i),
                      ratio = force != NULL && normal > 0 ? force[i] / normal : (double)NAN;
         friction[i] = by_force ? ratio : given[i];
+        cycles->n_unloaded += by_force && normal <= 0;
         if (given != NULL)
-            *difference = fmax(*difference, fabs(fabs(given[i]) - fabs(ratio)));
+            cycles->difference = fmax(cycles->difference, fabs(fabs(given[i]) - fabs(ratio)));
     }
     return WT_OK;
 }
@@ -337,7 +337,7 @@ wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double rad
     *cycles = (wt_cycles){.difference = (double)NAN};
     if (record == NULL || record->n == 0)
         return wt_fail(err, WT_E_ARG, "cycles of a record without samples");
-    wt_cycles made = {.n = 0};
+    wt_cycles made = {.difference = (double)NAN};
     double *const friction = calloc(record->n, sizeof *friction), *const room = calloc(
                                                                       record->n, sizeof *room);
     cycle_spans spans = {calloc(record->n, sizeof *spans.span), 0};
@@ -345,7 +345,7 @@ wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double rad
                            ? WT_OK
                            : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = friction_of(record, load, friction, &made.difference, err);
+        status = friction_of(record, load, friction, &made, err);
     if (status == WT_OK)
         status = choose(record, kind, radius, friction, room, &spans, &made.kind, err);
     if (status == WT_OK) {

@@ -119,8 +119,12 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
 {
     pool memory = {0};
     const double variance = total_variance(y, n);
-    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || !(variance > 0))
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return WT_OK;
+    if (!(variance > 0)) {
+        r->why_not = "the cycles do not scatter";
+        return WT_OK;
+    }
     likelihoods l = {n, pool_numbers(&memory, n + 1), pool_numbers(&memory, n + 1),
                      SCATTER_DIGITS * SCATTER_DIGITS * variance};
     if (memory.failed) {

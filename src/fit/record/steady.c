@@ -11,7 +11,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FEWEST = 4 };              /* two more than a line has constants */
+enum { FEWEST = 4 }; /* two more than a line has constants */
+/* Of the mean: what rounding makes of equal samples. */
+static const double rounding = 1e-12;
 static const double tail = 0.025; /* on each side of an interval of 95 % */
 /* Fewer independent points than these do not tell how far they scatter. */
 static const double least_independent = 8;
@@ -79,7 +81,9 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
         steady->min = fmin(steady->min, y[i]);
         steady->max = fmax(steady->max, y[i]);
     }
-    if (n < FEWEST || !(m.variance > 0))
+    if (n >= FEWEST && !(steady->deviation > rounding * fabs(m.mean)))
+        steady->note = "the cycles do not scatter, which tells no error";
+    if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
     scatter_parts parts;
     double *room;

@@ -311,6 +311,10 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         say_difference(work, &cycles, file->name);
+        if (cycles.n_unloaded > 0)
+            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                            "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                            record.n);
         status = put_steps(job, work, &cycles, file->name, w, err);
     }
     if (status == WT_OK && wear_is_asked(job))
