@@ -183,53 +183,20 @@ static void say_payne(sentence *s, const table_view *v)
         say(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
-/* Of the rows in which something slides, or is not known to rest; *n counts them. */
-static double extreme_friction(const table_view *v, double sign, size_t *n)
-{
-    double most = (double)NAN;
-    *n = 0;
-    for (size_t i = 0; i < v->n_rows; i++) {
-        if (record_get(v, i, RECORD_VELOCITY) == 0 || record_get(v, i, RECORD_ROTATION) == 0)
-            continue;
-        most = sign * fmax(sign * most, sign * record_get(v, i, RECORD_FRICTION));
-        ++*n;
-    }
-    return most;
-}
-
 static void say_record(sentence *s, const table_view *v)
 {
-    const wt_estimate mu = record_value(v, RECORD_KEY_FRICTION);
     if (v->n_rows == 0)
         return;
-    size_t n;
-    const double least = extreme_friction(v, -1, &n), most = extreme_friction(v, 1, &n);
     next(s);
-    if (n == 0)
-        say(s, "no friction of sliding: nothing slides");
-    else if (isnan(mu.value))
-        say(s, "friction as measured at %zu conditions, from %.4g to %.4g", n, least, most);
-    else
-        say(s, "friction as measured %s", words_of_estimate(mu).text);
-    const double end = record_get(v, 0, RECORD_RUNNING_IN);
-    if (v->n_rows == 1 && !isnan(end))
-        say(s, ", after a running-in of %.0f cycles", end);
-    else if (v->n_rows == 1)
-        say(s, "; %s", record_text(v, 0, RECORD_RUNNING_IN_NOTE));
-    if (v->n_rows == 1 && record_text(v, 0, RECORD_NOTE)[0] != '\0')
-        say(s, "; %s", record_text(v, 0, RECORD_NOTE));
+    tell_record(&s->told, v);
 }
 
 static void say_wear(sentence *s, const table_view *v)
 {
-    const wt_estimate k = wear_value(v, WEAR_KEY_RATE);
     if (v->n_rows == 0)
         return;
     next(s);
-    if (isnan(k.value))
-        say(s, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
-    else
-        say(s, "specific wear rate %s", words_of_positive(k).text);
+    tell_wear(&s->told, v);
 }
 
 static void say_dwell(sentence *s, const table_view *v)

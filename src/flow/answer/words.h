@@ -61,6 +61,10 @@ void tell_rates(telling *t, const finding_tables *tables);
 void tell_thickness(telling *t, const finding_tables *tables);
 /* "open whether the layer lowers or raises friction: -18 % (...)" */
 void tell_change(telling *t, const finding_tables *tables, bool with_choices);
+/* Of tables with rows: "friction as measured 0.80 +- 0.01, after a running-in of 20 cycles" and
+ * "specific wear rate ..." */
+void tell_record(telling *t, const table_view *record);
+void tell_wear(telling *t, const table_view *wear);
 /* "predicted from a given U_c" */
 const char *words_of_origin(const finding_tables *tables);
 
