@@ -288,7 +288,35 @@ static void test_velocity_of_strokes(void **state)
     }
 }
 
-/* Laps of 7 and of 8 samples, whose distance the instrument divides by their number: the velocity
+/* Records that tell no velocity and records at two: no one friction for all. */
+static void test_unknown_velocity(void **state)
+{
+    (void)state;
+    char unknown[] = "a-XXXXXX", known[] = "b-XXXXXX";
+    const wt_record_job job = wt_record_job_defaults();
+    FILE *out = truth_file(unknown);
+    fputs("time (s),mu\n", out);
+    for (int i = 0; i < 100; i++)
+        fprintf(out, "%d,%g\n", i, 0.5 + 0.001 * (i % 7));
+    assert_int_equal(fclose(out), 0);
+    out = truth_file(known);
+    fputs("step,time (s),velocity (mm/s),mu\n", out);
+    for (int i = 0; i < 200; i++)
+        fprintf(out, "%d,%d,%d,%g\n", i / 100, i, 10 + 40 * (i / 100), 0.6 + 0.001 * (i % 7));
+    assert_int_equal(fclose(out), 0);
+    const char *const paths[] = {unknown, known};
+    wt_record_tables t = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_estimate key;
+    assert_int_equal(make(&job, paths, 2, NULL, &t, &err), WT_OK);
+    assert_int_equal(wt_table_n_rows(t.record), 3);
+    assert_false(wt_table_estimate(t.record, "friction_coefficient", &key));
+    wt_record_tables_clear(&t);
+    assert_int_equal(remove(unknown), 0);
+    assert_int_equal(remove(known), 0);
+}
+
+/* Laps of 4 and of 8 samples, whose distance the instrument divides by their number: the velocity
  * is path over time, and not the mean over laps. */
 static void test_uneven_laps(void **state)
 {
@@ -400,6 +428,7 @@ int main(void)
         cmocka_unit_test(test_rotation_alone),
         cmocka_unit_test(test_velocity_of_strokes),
         cmocka_unit_test(test_uneven_laps),
+        cmocka_unit_test(test_unknown_velocity),
         cmocka_unit_test(test_depth_by_archard),
         cmocka_unit_test(test_what_is_lacking),
         cmocka_unit_test(test_a_contradiction),

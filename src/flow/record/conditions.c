@@ -128,14 +128,18 @@ bool conditions_rest(record_conditions at)
     return !(at.velocity > 0 || at.rotation > 0) && (at.velocity == 0 || at.rotation == 0);
 }
 
+/* What only one of them tells is not known to be alike. */
 static bool alike(double a, double b, condition which)
 {
-    return isnan(a) || isnan(b) || fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
+    if (isnan(a) || isnan(b))
+        return isnan(a) && isnan(b);
+    return fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
 }
 
 bool conditions_alike(record_conditions a, record_conditions b)
 {
-    return alike(a.velocity, b.velocity, VELOCITY) && alike(a.rotation, b.rotation, ROTATION) &&
+    return alike(a.velocity, b.velocity, VELOCITY) &&
+           (!isnan(a.velocity) || alike(a.rotation, b.rotation, ROTATION)) &&
            alike(a.normal_force, b.normal_force, NORMAL_FORCE) &&
            alike(a.pressure, b.pressure, PRESSURE) &&
            alike(a.temperature, b.temperature, TEMPERATURE);
