@@ -216,7 +216,8 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_MASS, "mass", "kg", "mass")                                                             \
     X(WT_Q_HEAT_CAPACITY, "heat_capacity", "J/(m^3 K)", "heat capacity per volume")                \
     X(WT_Q_DIFFUSIVITY, "diffusivity", "m^2/s", "thermal diffusivity")                             \
-    X(WT_Q_ENERGY, "energy", "J", "energy")
+    X(WT_Q_ENERGY, "energy", "J", "energy")                                                        \
+    X(WT_Q_MOLAR_ENERGY, "molar_energy", "J/mol", "energy per mole")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,
@@ -225,7 +226,7 @@ typedef enum wt_quantity {
         WT_Q_COUNT
 } wt_quantity;
 
-typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has fewer than 64 entries */
+typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has 64 entries at most */
 #define WT_Q_BIT(q) ((wt_quantity_set)1 << (unsigned)(q))
 #define WT_Q_ALL (~(wt_quantity_set)0)
 

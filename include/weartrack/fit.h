@@ -595,6 +595,8 @@ typedef struct wt_cycle {
     double zero;      /* of strokes: mean of there and back, with their signs, as a coefficient */
     double deviation; /* of its samples */
     double normal_force, velocity, pressure, temperature, wear_depth;
+    double rotation; /* of the disc [rad/s] */
+    double duration; /* to the first sample of the next one [s] */
 } wt_cycle;
 
 typedef struct wt_cycles {
@@ -606,6 +608,7 @@ typedef struct wt_cycles {
     double
         difference; /* largest of mu and friction force over load, where the file has both; NaN */
     bool has_zero;  /* there and back have opposite signs */
+    size_t n_unloaded; /* samples that a load of 0 or less gives no coefficient */
 } wt_cycles;
 /* `radius` [m] of the track tells laps by the distance, and the velocity by the rotation; NaN: not
  * known. `load` [N] where none was recorded; NaN. `kind` other than WT_CYCLE_AUTO that the record

@@ -317,7 +317,7 @@ typedef struct wt_record_job {
     const char *profile;      /* files of profiles across the track that tell it; NULL: none */
     wt_estimate mass_loss;    /* [kg], with */
     wt_estimate density;      /* [kg/m^3] */
-    wt_estimate track_length; /* [m]; NaN: circumference of the track */
+    wt_estimate track_length; /* [m]; NaN: circumference of the track, or the stroke */
     wt_estimate ball_radius;  /* [m] */
     /* Nominal pressure of the ball. */
     wt_estimate modulus;  /* Young's, at the frequency of the contact [Pa] */

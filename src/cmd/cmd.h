@@ -123,6 +123,8 @@ typedef struct cmd_session {
     wt_cost *cost; /* NULL: not asked for */
     wt_job work;   /* for the job: what failed is listed, inputs go to the result's provenance */
     cmd_progress progress;
+    wt_read_options *shared; /* by files of several kinds: its units are those of columns that one
+                                of them has; NULL: none */
 } cmd_session;
 
 /* Nothing but the defaults of the job, for its options; may be freed. */
@@ -146,6 +148,9 @@ bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */
 wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user);
+/* Files of several kinds are read by these options, which stay where they are until the end: a unit
+ * is for a column that any of them has. False if it cannot. */
+bool cmd_share_units(cmd_session *s, wt_read_options *read);
 /* Says what failed, the remarks and, unless `made` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status made);
 /* The same after writing the tables, in this order, and the record behind them, if they were made;

@@ -856,13 +856,14 @@ static void test_record(void **state)
     uint64_t seed = 4;
     FILE *out = fopen(strokes, "w");
     assert_non_null(out);
-    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),T (degC),pressure (MPa),"
-                 "Ff (N),Fn (N),mu,wear depth (um)\n");
+    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),rotation (rad/s),T (degC),"
+                 "pressure (MPa),Ff (N),Fn (N),mu,wear depth (um)\n");
     for (int i = 0; i < 40 * 60; i++) {
         const double phase = 2 * M_PI * (i + 0.5) / 40, way = sin(phase) > 0 ? 1 : -1,
                      lap = i / 40.0, force = (lap < 20 ? 6 : 5) + 0.1 * truth_normal(&seed);
-        fprintf(out, "%g,%g,%g,%g,%g,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap, -5 * cos(phase),
-                25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001, 1 + 0.01 * i);
+        fprintf(out, "%g,%g,%g,%g,%g,2,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap,
+                -5 * cos(phase), 25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001,
+                1 + 0.01 * i);
     }
     fclose(out);
     out = fopen(disc, "w");

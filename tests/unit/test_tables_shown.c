@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
+#include "data/store.h"
 #include "data/tables/tables.h"
 
 #include <string.h>
@@ -138,6 +139,22 @@ static void test_parts(void **state)
         }
 }
 
+/* A headline is read for `summary`. */
+static void test_headlines(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    for (size_t s = 0; s < table_n_schemas; s++)
+        for (size_t i = 0; i < table_schemas[s]->n_keys; i++) {
+            n += table_schemas[s]->keys[i].headline != NULL;
+            if (table_schemas[s]->keys[i].headline != NULL &&
+                !store_has_headlines(table_schemas[s]->name))
+                fail_msg("%s: %s is a headline that summary does not read", table_schemas[s]->name,
+                         table_schemas[s]->keys[i].name);
+        }
+    assert_true(n > 10);
+}
+
 /* A mistake of the program is found where it is made. */
 static void test_writer(void **state)
 {
@@ -160,7 +177,8 @@ static void test_writer(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bindings),
-                                       cmocka_unit_test(test_parts), cmocka_unit_test(test_writer)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bindings), cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_headlines), cmocka_unit_test(test_writer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

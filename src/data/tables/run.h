@@ -7,8 +7,8 @@
     X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
     X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
     X(ANSWER_KIND, "kind",                                                                         \
-      "short, material, layer, difference, thickness, friction, caveat or folded: a caveat that "  \
-      "changes less than those before",                                                            \
+      "short, material, layer, difference, thickness, friction, surface, record, caveat or "       \
+      "folded: a caveat that changes less than those before",                                      \
       TEXT)
 #define ANSWER_KEYS(X)                                                                             \
     X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \

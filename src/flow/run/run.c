@@ -214,7 +214,8 @@ static void warn_of_copies(const conduct *d)
         const wt_provenance_input *a = wt_provenance_get_input(p, i);
         for (size_t k = i + 1; k < n; k++) {
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
-            if (a->bytes == b->bytes && a->fingerprint == b->fingerprint)
+            const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
+            if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
                 wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
                                 "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }
