@@ -69,8 +69,8 @@
       TEXT, LABEL("Differ"))
 #define RATIO_PAIRS_KEYS(X)                                                                        \
     X(RATIO_PAIRS_KEY_PAIRS, AS(pairs), NUMBER, LABEL("Pairs compared"))                           \
-    X(RATIO_PAIRS_KEY_DIFFERENT, AS(different), NUMBER, LABEL("Pairs that differ"),                \
-      HEADLINE("Pairs that differ"))                                                               \
+    X(RATIO_PAIRS_KEY_DIFFERENT, "pairs_that_differ", NUMBER, SHOWS(different),                    \
+      LABEL("Pairs that differ"), HEADLINE("Pairs that differ"))                                   \
     X(RATIO_PAIRS_KEY_UNDECIDED, AS(undecided), NUMBER, LABEL("Pairs of which it cannot be said")) \
     X(RATIO_PAIRS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))                \
     X(RATIO_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),     \
