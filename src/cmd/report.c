@@ -3,8 +3,9 @@
 #include "cmd/tables.h"
 
 static const wt_param rows[] = {
-    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FOLDER", .letter = 'o',
-     .flags = PARAM_REQUIRED, .help = "the folder to write"},
+    {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
+     .flags = PARAM_REQUIRED,
+     .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
 PARAM_LOCAL_TABLE(own_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
 
@@ -12,10 +13,11 @@ int cmd_report(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "report",
-        .arguments = "RESULT -o FOLDER [OPTION]...",
-        .what = "Writes a folder with one page, index.html, and for each figure its data, script "
-                "and picture; the figures can be drawn again without weartrack. RESULT is HDF5 or "
-                "a text stream, - is standard input.",
+        .arguments = "RESULT -o PLACE [OPTION]...",
+        .what = "Writes one page that needs no other file and can be mailed, or a folder with that "
+                "page, index.html, and for each figure its data, script and picture; the figures "
+                "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
+                "standard input.",
         .common = "provenance",
         .n_files = 1,
         .files = "one result file is needed"};
@@ -39,6 +41,6 @@ int cmd_report(int argc, char **argv)
     else
         cmd_tables_remarks(&s, s.files[0], s.result);
     if (made == WT_OK && !s.common.quiet)
-        cmd_say("report page: %s/index.html\n", s.common.output);
+        cmd_say_page(s.common.output);
     return cmd_session_free(&s);
 }

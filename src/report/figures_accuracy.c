@@ -374,6 +374,7 @@ const figure_description figures_accuracy[] = {
          "another source does not take the number below them.",
      .draw = draw_error_budget},
     {.name = "cost",
+     .in_depth = true,
      .title = "Time and error of each stage",
      .table = &cost_schema,
      .nothing = "no stage was timed",

@@ -504,6 +504,7 @@ static void caption_vertical_shifts(figure_drawing *d)
 
 const figure_description figures_master[] = {
     {.name = "isotherms",
+     .in_depth = true,
      .title = "Isotherms before shifting",
      .table = &master_curve_schema,
      .data_title = "isotherms",
@@ -560,6 +561,7 @@ const figure_description figures_master[] = {
      .draw = draw_shift_factors,
      .caption = caption_shift_factors},
     {.name = "vertical_shifts",
+     .in_depth = true,
      .title = "Vertical shift factors",
      .table = &shift_factors_schema,
      .data_title = "vertical shift factors",
@@ -574,6 +576,7 @@ const figure_description figures_master[] = {
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},
     {.name = "van_gurp_palmen",
+     .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",
      PLANE,
      .words = "Phase angle against the size of the modulus, shifted vertically only: frequency and "
@@ -581,6 +584,7 @@ const figure_description figures_master[] = {
               "they fan out with temperature no horizontal shift can join them.",
      .draw = draw_van_gurp_palmen},
     {.name = "wicket",
+     .in_depth = true,
      .title = "Superposition: wicket plot",
      PLANE,
      .words = "tan δ against the storage modulus, shifted vertically only. In a good one all "
@@ -589,6 +593,7 @@ const figure_description figures_master[] = {
               "sample or at the limit of the instrument.",
      .draw = draw_wicket},
     {.name = "cole_cole",
+     .in_depth = true,
      .title = "Superposition: Cole-Cole plot",
      PLANE,
      .words =

@@ -150,6 +150,7 @@ static void draw_directions(figure_drawing *d)
 
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
+     .in_depth = true,
      .title = "Power spectrum of the counter surface",
      .table = &roughness_schema,
      .data_title = "power spectrum",
@@ -177,6 +178,7 @@ const figure_description figures_friction[] = {
      .caption = caption_friction},
     {
         .name = "contact_area",
+        .in_depth = true,
         .title = "Real contact area against magnification",
         .table = &contact_area_schema,
         .data_title = "area_ratio",
@@ -190,6 +192,7 @@ const figure_description figures_friction[] = {
     },
     {
         .name = "friction_scales",
+        .in_depth = true,
         .title = "Which length scales make the friction",
         .table = &contact_area_schema,
         .data_title = "hysteresis",

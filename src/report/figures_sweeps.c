@@ -129,6 +129,7 @@ const figure_description figures_dma[] = {
      .draw = draw_dma_comparison,
      .caption = caption_dma_comparison},
     {.name = "relaxation_spectrum",
+     .in_depth = true,
      .title = "Relaxation spectrum",
      .table = &relaxation_spectrum_schema,
      .data_title = "relaxation spectrum",

@@ -19,9 +19,10 @@
 enum { REPORT_NAME = 128 };
 
 struct report_folder {
-    char *place; /* where it goes */
-    char *made;  /* the temporary one */
-    int in_use;  /* keeps that from being swept away; -1 before it is made */
+    char *place;  /* where it goes */
+    bool is_page; /* of which only the page goes there */
+    char *made;   /* the temporary one */
+    int in_use;   /* keeps that from being swept away; -1 before it is made */
     char *plots;
 };
 
@@ -49,11 +50,27 @@ static const char *file_of_report(size_t i, char name[REPORT_NAME])
     return name;
 }
 
-static bool has_mark(const char *folder)
+/* Whether what goes to a place is one file. */
+static bool is_page(const char *place)
+{
+    static const char ending[] = ".html";
+    struct stat info;
+    const size_t length = strlen(place);
+    return length >= sizeof ending && strcmp(place + length - (sizeof ending - 1), ending) == 0 &&
+           (stat(place, &info) != 0 || !S_ISDIR(info.st_mode));
+}
+
+char *wt_report_page(const char *place)
+{
+    return is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
+}
+
+/* Whether weartrack wrote the page of a place. */
+static bool has_mark(const char *place)
 {
     enum { HEAD = 4096 };
     char head[HEAD + 1];
-    char *path = wt_path_join(folder, "index.html");
+    char *path = wt_report_page(place);
     FILE *file = path == NULL ? NULL : fopen(path, "rb");
     free(path);
     if (file == NULL)
@@ -68,9 +85,10 @@ static wt_status fail_not_replaceable(wt_error *err, const char *path, const cha
 {
     wt_status status = wt_fail(err, WT_E_IO, "will not be replaced: it is not a weartrack report");
     wt_error_file(err, path);
-    wt_error_expected(err, "a new name, an empty folder or an older report");
+    wt_error_expected(err, is_page(path) ? "a new name or an older report"
+                                         : "a new name, an empty folder or an older report");
     wt_error_found(err, "%s", found);
-    wt_error_advice(err, "name another folder, or move away what is there");
+    wt_error_advice(err, "give another name, or move away what is there");
     return status;
 }
 
@@ -104,6 +122,10 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     struct stat info;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
+    if (is_page(path))
+        return !S_ISREG(info.st_mode) || !has_mark(path)
+                   ? fail_not_replaceable(err, path, "another file of that name")
+                   : wt_guard_write(path, err);
     if (!S_ISDIR(info.st_mode))
         return fail_not_replaceable(err, path, "a file of that name");
     if (!has_mark(path))
@@ -168,8 +190,9 @@ static wt_status find_place(const char *path, char **place, wt_error *err)
 static wt_status make_temporary(report_folder *folder, wt_error *err)
 {
     struct stat info;
-    char *parent =
-        stat(folder->place, &info) == 0 ? strdup(folder->place) : wt_path_folder(folder->place);
+    char *parent = !folder->is_page && stat(folder->place, &info) == 0
+                       ? strdup(folder->place)
+                       : wt_path_folder(folder->place);
     if (parent == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     temporary_sweep(parent);
@@ -189,6 +212,7 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
     wt_status status = find_place(path, &folder->place, err);
+    folder->is_page = status == WT_OK && is_page(folder->place);
     if (status == WT_OK)
         status = check_replaceable(folder->place, err);
     if (status == WT_OK)
@@ -251,6 +275,23 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
     return status;
 }
 
+/* The page alone, in the place of an older one, whose mode it gets. */
+static wt_status move_page(const report_folder *folder, wt_error *err)
+{
+    struct stat info;
+    wt_status status = check_replaceable(folder->place, err); // again: time has passed
+    if (status != WT_OK)
+        return status;
+    char *page = wt_path_join(folder->made, "index.html");
+    if (page == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else if ((lstat(folder->place, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
+             rename(page, folder->place) != 0)
+        status = io_error(err, "cannot be written", folder->place);
+    free(page);
+    return status;
+}
+
 /* File by file into a folder that is there, the page first: it needs no other file, and says whose
  * folder it is. One run at a time. */
 static wt_status move_files(const report_folder *folder, wt_error *err)
@@ -279,7 +320,9 @@ wt_status folder_commit(report_folder *folder, wt_error *err)
 {
     struct stat info;
     wt_status status = WT_OK;
-    if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
+    if (folder->is_page)
+        status = move_page(folder, err);
+    else if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
         free(folder->made);
         folder->made = NULL;
     } else

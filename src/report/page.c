@@ -39,26 +39,32 @@ static size_t folded_answers(page_writer *page, size_t row)
         end++;
     if (end == row)
         return end;
-    text_format(&page->out, "<details>\n<summary>%zu more</summary>\n", end - row);
+    text_format(&page->out, "<details class=\"printed\">\n<summary>%zu more</summary>\n",
+                end - row);
     for (; row < end; row++)
         text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
     text_add(&page->out, "</details>\n");
     return end;
 }
 
-/* Several answers to one question stand under it together. */
+/* Several answers to one question stand under it together; what must be kept in mind stands beside
+ * them where there is place. */
 static void page_answer(page_writer *page)
 {
     const table_view *table = &page->tables->answer;
     if (table->n_rows == 0)
         return;
     page_heading(page, "answer", "Answer");
+    text_add(&page->out, "<div class=\"answers\">\n<div>\n");
     const char *question = NULL;
+    bool beside = false;
     for (size_t row = 0; row < table->n_rows;) {
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
             bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
             text_add(&page->out, question == NULL ? "" : "</section>\n");
+            text_add(&page->out, caveat && !beside ? "</div>\n<div>\n" : "");
+            beside = beside || caveat;
             text_html(&page->out, "<section class=\"%s\">\n<h3>%s</h3>\n",
                       caveat ? "answer caveat" : "answer", next);
             question = next;
@@ -69,13 +75,22 @@ static void page_answer(page_writer *page)
         else
             row = end;
     }
-    text_add(&page->out, "</section>\n");
+    text_add(&page->out, "</section>\n</div>\n</div>\n");
 }
 
 /* One column of the page, or all of it with the type of the same size. */
 static const char *width_class(double width)
 {
     return width > 1.2 ? "wide" : width > 0 && width < 0.9 ? "narrow" : "single";
+}
+
+/* A file that the page holds. */
+static void add_file(page_writer *page, const char *name, const char *ending,
+                     const growing_text *file)
+{
+    text_html(&page->out, "<a download=\"%s.%s\" href=\"", name, ending);
+    text_data_link(&page->out, "text/plain", text_string(file), file->length);
+    text_html(&page->out, "\">%s.%s</a>", name, ending);
 }
 
 static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t number,
@@ -92,33 +107,65 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
         return status;
     }
     text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", number);
-    text_html(&page->out,
-              "%s.</strong> %s <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">"
-              "%s.tsv</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
-              figure->title, text_string(&drawn->drawing.caption), figure->name, figure->name,
-              figure->name, figure->name);
+    text_html(&page->out, "%s.</strong> %s <span class=\"source\">Data and script: ", figure->title,
+              text_string(&drawn->drawing.caption));
+    add_file(page, figure->name, "tsv", &drawn->data);
+    text_add(&page->out, ", ");
+    add_file(page, figure->name, "gp", &drawn->script);
+    text_add(&page->out, ".</span></figcaption>\n</figure>\n");
     return WT_OK;
 }
 
-static wt_status page_figures(page_writer *page, wt_error *err)
+/* Those that answer, or those behind them; counts on. */
+static wt_status add_figures(page_writer *page, bool in_depth, size_t *number, wt_error *err)
 {
     wt_status status = WT_OK;
-    size_t number = 0, n = 0;
-    for (size_t i = 0; i < page->n_figures; i++)
-        n += page->figures[i].drawing.figure != NULL;
-    if (n == 0)
-        return WT_OK;
-    page_heading(page, "figures", "Figures");
     text_add(&page->out, "<div class=\"figures\">\n");
     for (size_t i = 0; i < page->n_figures && status == WT_OK; i++)
-        if (page->figures[i].svg.length > 0)
-            status = add_figure(page, &page->figures[i], ++number, err);
+        if (page->figures[i].svg.length > 0 &&
+            page->figures[i].drawing.figure->in_depth == in_depth)
+            status = add_figure(page, &page->figures[i], ++*number, err);
     text_add(&page->out, "</div>\n");
+    return status;
+}
+
+static void add_missing_figures(page_writer *page)
+{
     for (size_t i = 0; i < page->n_figures; i++) {
         const figure_description *figure = page->figures[i].drawing.figure;
         if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
             text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
                       figure->nothing);
+    }
+}
+
+static wt_status page_figures(page_writer *page, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t number = 0, n = 0, drawn[2] = {0, 0};
+    for (size_t i = 0; i < page->n_figures; i++) {
+        const figure_description *figure = page->figures[i].drawing.figure;
+        n += figure != NULL;
+        if (figure != NULL && page->figures[i].svg.length > 0)
+            drawn[figure->in_depth]++;
+    }
+    if (n == 0)
+        return WT_OK;
+    page_heading(page, "figures", "Figures");
+    if (drawn[false] > 0)
+        status = add_figures(page, false, &number, err);
+    add_missing_figures(page);
+    if (status == WT_OK && drawn[true] > 0) {
+        if (drawn[false] > 0)
+            page_fold(page, "more-figures", "More figures", PAGE_UNPRINTED);
+        status = add_figures(page, true, &number, err);
+        if (drawn[false] > 0)
+            page_fold_end(page);
+    }
+    if (number > 0) {
+        text_add(&page->out, "<p class=\"source\">The scripts are of gnuplot, and load ");
+        add_file(page, "style", "gp", page->style);
+        text_add(&page->out, ".</p>\n");
     }
     return status;
 }
@@ -145,6 +192,7 @@ wt_status page_write(page_writer *page, wt_error *err)
     // The body first, so that the contents before it are known.
     growing_text body = {0};
     page_answer(page);
+    page_failures(page);
     page_numbers(page);
     wt_status status = page_figures(page, err);
     if (status == WT_OK) {

@@ -65,8 +65,9 @@ static bool go_on(void *user)
     return tell_progress(user, 0);
 }
 
-static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
+static wt_status write_data(const report_folder *folder, drawn_figure *figure, wt_error *err)
 {
+    const figure_drawing *const d = &figure->drawing;
     wt_status status = WT_OK;
     char name[128], *bytes = NULL;
     size_t length = 0;
@@ -83,33 +84,34 @@ static wt_status write_data(const report_folder *folder, const figure_drawing *d
     (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
     if (status == WT_OK)
         status = folder_write(folder, name, bytes, length, err);
+    if (status == WT_OK)
+        text_bytes(&figure->data, bytes, length);
     free(bytes);
     return status;
 }
 
-static wt_status write_script(const report_folder *folder, const figure_drawing *d, wt_error *err)
+static wt_status write_script(const report_folder *folder, drawn_figure *drawn, wt_error *err)
 {
+    const figure_drawing *const d = &drawn->drawing;
     const char *const figure = d->figure->name;
-    growing_text script = {0};
+    growing_text *const script = &drawn->script;
     char name[128];
-    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
-    text_format(&script,
+    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
+    text_format(script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
                 figure);
-    text_comment(&script, text_string(&d->caption));
-    text_format(&script,
+    text_comment(script, text_string(&d->caption));
+    text_format(script,
                 "reset\nfigure_width = %s; figure_height = %s\nload 'style.gp'\n"
                 "set datafile separator \"\\t\"\nset output '%s.svg'\n",
                 LITERAL(d->width), LITERAL(d->height), figure);
-    text_add(&script, text_string(&d->script));
-    text_add(&script, "set output\n");
+    text_add(script, text_string(&d->script));
+    text_add(script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
-    wt_status status = script.failed
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : folder_write(folder, name, text_string(&script), script.length, err);
-    text_free(&script);
-    return status;
+    return script->failed || drawn->data.failed
+               ? wt_fail(err, WT_E_MEMORY, "out of memory")
+               : folder_write(folder, name, text_string(script), script->length, err);
 }
 
 /* What the picture of a figure is made of; nothing if there is nothing to draw. */
@@ -125,8 +127,8 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (d->script.length == 0)
         return WT_OK;
-    if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, err)) != WT_OK || r->has_style)
+    if ((status = write_data(r->folder, &r->figures[i], err)) != WT_OK ||
+        (status = write_script(r->folder, &r->figures[i], err)) != WT_OK || r->has_style)
         return status;
     r->has_style = true;
     return folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
@@ -190,6 +192,7 @@ static wt_status make_page(const report *r, const wt_result *result, bool with_p
 {
     page_writer page = {.result = result,
                         .tables = &r->tables,
+                        .style = &r->style,
                         .with_provenance = with_provenance,
                         .figures = r->figures,
                         .n_figures = wt_figure_count()};
@@ -257,6 +260,8 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     folder_discard(r.folder);
     for (size_t i = 0; r.figures != NULL && i < n; i++) {
         drawing_clear(&r.figures[i].drawing);
+        text_free(&r.figures[i].data);
+        text_free(&r.figures[i].script);
         text_free(&r.figures[i].svg);
     }
     free(r.figures);

@@ -5,6 +5,7 @@
 #include "report/svg.h"
 
 #include "base/array.h"
+#include "base/number.h"
 
 #include <string.h>
 
@@ -22,6 +23,24 @@ static size_t up_to(const char *s, size_t n, const char *end)
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
+/* Width of the picture in the unit of its own, 0 if it says none. */
+static double canvas_width(const char *svg, const char *end)
+{
+    static const char box[] = "viewBox=\"0 0 ";
+    const char *found = memmem(svg, (size_t)(end - svg), box, sizeof box - 1);
+    double width = 0;
+    if (found == NULL)
+        return 0;
+    found += sizeof box - 1;
+    const char *const blank = memchr(found, ' ', (size_t)(end - found));
+    const bool read = blank != NULL && number_read(found, (size_t)(blank - found), &width);
+    return read && width > 0 && width < 1e5 ? width : 0;
+}
+
+/* The type of the built-in style, 15 units, is as tall as 14 of the 16 pixels of the text of a
+ * page: the same in every picture, and two of the usual width stand beside each other. */
+static const double rem_per_unit = 14.0 / 15 / 16;
+
 bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
                 const char *label)
 {
@@ -30,8 +49,11 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
         return false;
-    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
     const char *const end = svg + length;
+    const double width = canvas_width(begin, end);
+    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
+    if (width > 0)
+        text_format(page, " style=\"max-width:%.1frem\"", rem_per_unit * width);
     bool in_tag = true;
     for (const char *s = begin + 4; s < end;) {
         const size_t left = (size_t)(end - s);
