@@ -18,8 +18,18 @@ typedef struct wt_report_options {
     const char *gnuplot; /* program; default "gnuplot" */
     bool with_provenance; /* version, command line and times on the page; default true */
     double gnuplot_time;  /* the longest that one figure may take to draw [s]; default 120 */
-    unsigned threads;     /* figures drawn at a time; 0 = one per processor */
+    unsigned figures;     /* pictures for a paper, of wt_figure_formats; 0: those of the page */
+    double width;         /* of a figure [m], those with panels beside each other are 0.17 m wide at
+                             least; NaN, the default: that of the style */
+    const char *font;     /* of all type in figures; NULL, the default: that of the style */
 } wt_report_options;
+
+typedef enum wt_figure_formats {
+    WT_FIGURE_SVG = 1, /* as large as asked for; the page's has no size of its own */
+    WT_FIGURE_PDF = 2,
+    WT_FIGURE_PNG = 4 /* 600 dots in an inch */
+} wt_figure_formats;
+
 WT_API wt_report_options wt_report_defaults(void);
 WT_API const wt_params *wt_report_params(void);
 

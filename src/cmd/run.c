@@ -180,7 +180,6 @@ static bool is_page_kept(const run_call *r)
 
 static wt_status draw_page(run_call *r)
 {
-    r->report.threads = r->run.threads;
     r->run.progress = cmd_progress_start(&r->s);
     cmd_catch_interruptions();
     wt_status status =

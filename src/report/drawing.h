@@ -48,6 +48,9 @@ typedef struct figure_drawing {
     size_t n_items;                         /* of the plot command that is being written */
 } figure_drawing;
 
+/* Whether it has panels beside each other: on the page it has no other figure beside it. */
+bool drawing_is_wide(const figure_drawing *d);
+
 /* Fills sections, script and caption; without anything to draw it leaves no script. drawing_clear
  * also after a failure. */
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,

@@ -4,6 +4,7 @@
  */
 #include "report/folder.h"
 
+#include "base/array.h"
 #include "base/temporary.h"
 #include "weartrack/report.h"
 
@@ -39,19 +40,20 @@ static wt_status io_error(wt_error *err, const char *what, const char *path)
 /* Name of the i-th file that a report can have, with the folder "plots"; NULL past the last one. */
 static const char *file_of_report(size_t i, char name[REPORT_NAME])
 {
-    static const char *const endings[] = {"tsv", "gp", "svg"};
-    const size_t figure = i < 2 ? 0 : (i - 2) / 3;
-    if (i >= 2 && figure >= wt_figure_count())
+    static const char *const common[] = {"index.html", "plots/style.gp", "plots/output.gp"},
+                             *const endings[] = {"tsv", "gp", "svg", "pdf", "png"};
+    enum { COMMON = COUNT_OF(common), ENDINGS = COUNT_OF(endings) };
+    if (i < COMMON)
+        return common[i];
+    const size_t figure = (i - COMMON) / ENDINGS;
+    if (figure >= wt_figure_count())
         return NULL;
-    if (i < 2)
-        return i == 0 ? "index.html" : "plots/style.gp";
     (void)snprintf(name, REPORT_NAME, "plots/%s.%s", wt_figure_get(figure).name,
-                   endings[(i - 2) % 3]);
+                   endings[(i - COMMON) % ENDINGS]);
     return name;
 }
 
-/* Whether what goes to a place is one file. */
-static bool is_page(const char *place)
+bool place_is_page(const char *place)
 {
     static const char ending[] = ".html";
     struct stat info;
@@ -62,7 +64,7 @@ static bool is_page(const char *place)
 
 char *wt_report_page(const char *place)
 {
-    return is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
+    return place_is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
 }
 
 /* Whether weartrack wrote the page of a place. */
@@ -85,8 +87,8 @@ static wt_status fail_not_replaceable(wt_error *err, const char *path, const cha
 {
     wt_status status = wt_fail(err, WT_E_IO, "will not be replaced: it is not a weartrack report");
     wt_error_file(err, path);
-    wt_error_expected(err, is_page(path) ? "a new name or an older report"
-                                         : "a new name, an empty folder or an older report");
+    wt_error_expected(err, place_is_page(path) ? "a new name or an older report"
+                                               : "a new name, an empty folder or an older report");
     wt_error_found(err, "%s", found);
     wt_error_advice(err, "give another name, or move away what is there");
     return status;
@@ -122,7 +124,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     struct stat info;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
-    if (is_page(path))
+    if (place_is_page(path))
         return !S_ISREG(info.st_mode) || !has_mark(path)
                    ? fail_not_replaceable(err, path, "another file of that name")
                    : wt_guard_write(path, err);
@@ -212,7 +214,7 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
     wt_status status = find_place(path, &folder->place, err);
-    folder->is_page = status == WT_OK && is_page(folder->place);
+    folder->is_page = status == WT_OK && place_is_page(folder->place);
     if (status == WT_OK)
         status = check_replaceable(folder->place, err);
     if (status == WT_OK)

@@ -11,6 +11,9 @@
 /* How index.html says that weartrack wrote it; the version may follow. */
 #define REPORT_MARK "<meta name=\"generator\" content=\"weartrack"
 
+/* Whether what goes to a place is one file, the page. */
+bool place_is_page(const char *place);
+
 typedef struct report_folder report_folder;
 /* Makes a new folder with an empty folder "plots" in it; a path that ends in .html is to have the
  * page alone. WT_E_IO if something else than an older report or an empty folder is at `path`,

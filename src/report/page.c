@@ -22,6 +22,8 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
               "/>\n<title>%s</title>\n<style>\n",
               title);
     text_add(out, file_of_library("page.css"));
+    if (page->font != NULL) // letters, digits, blanks and hyphens
+        text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
     text_html(out,
               "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
               "<nav aria-label=\"Contents\">\n<ul>\n",
@@ -78,12 +80,6 @@ static void page_answer(page_writer *page)
     text_add(&page->out, "</section>\n</div>\n</div>\n");
 }
 
-/* One column of the page, or all of it with the type of the same size. */
-static const char *width_class(double width)
-{
-    return width > 1.2 ? "wide" : width > 0 && width < 0.9 ? "narrow" : "single";
-}
-
 /* A file that the page holds. */
 static void add_file(page_writer *page, const char *name, const char *ending,
                      const growing_text *file)
@@ -98,7 +94,7 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
 {
     const figure_description *figure = drawn->drawing.figure;
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
-              figure->name, width_class(drawn->drawing.width));
+              figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
     if (!svg_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
                     figure->title)) {
         wt_status status =
@@ -164,8 +160,13 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     }
     if (number > 0) {
         text_add(&page->out, "<p class=\"source\">The scripts are of gnuplot, and load ");
+        growing_text output = {0};
+        text_add(&output, file_of_library("output.gnuplot"));
         add_file(page, "style", "gp", page->style);
+        text_add(&page->out, " and ");
+        add_file(page, "output", "gp", &output);
         text_add(&page->out, ".</p>\n");
+        text_done(&output, &page->out);
     }
     return status;
 }

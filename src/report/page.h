@@ -10,7 +10,7 @@
 /* A figure that this library knows, drawn or not. */
 typedef struct drawn_figure {
     figure_drawing drawing;         /* zeroed if the result does not have its table */
-    growing_text data, script, svg; /* empty if there was nothing to draw */
+    growing_text data, script, svg; /* of the page; empty if there was nothing to draw */
 } drawn_figure;
 
 typedef struct page_writer {
@@ -19,6 +19,7 @@ typedef struct page_writer {
     const wt_result *result;
     const bound_tables *tables;
     const growing_text *style; /* that the scripts load */
+    const char *font;          /* of the figures; NULL: that of the style */
     bool with_provenance;
     const drawn_figure *figures;
     size_t n_figures;

@@ -23,18 +23,38 @@ static size_t up_to(const char *s, size_t n, const char *end)
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
-/* Width of the picture in the unit of its own, 0 if it says none. */
-static double canvas_width(const char *svg, const char *end)
+/* Width and height of the picture in units of its own; false if it does not say them. */
+static bool canvas_size(const char *svg, size_t length, double size[2])
 {
     static const char box[] = "viewBox=\"0 0 ";
-    const char *found = memmem(svg, (size_t)(end - svg), box, sizeof box - 1);
-    double width = 0;
-    if (found == NULL)
-        return 0;
-    found += sizeof box - 1;
-    const char *const blank = memchr(found, ' ', (size_t)(end - found));
-    const bool read = blank != NULL && number_read(found, (size_t)(blank - found), &width);
-    return read && width > 0 && width < 1e5 ? width : 0;
+    const char *s = memmem(svg, length, box, sizeof box - 1);
+    const char *const end = svg + length;
+    if (s == NULL)
+        return false;
+    s += sizeof box - 1;
+    for (int i = 0; i < 2; i++) {
+        const char *number = s;
+        while (s < end && *s != ' ' && *s != '"')
+            s++;
+        if (!number_read(number, (size_t)(s - number), &size[i]) || !(size[i] > 0 && size[i] < 1e5))
+            return false;
+        s += s < end;
+    }
+    return true;
+}
+
+void svg_sized(growing_text *out, const char *svg, size_t length, double unit)
+{
+    double size[2];
+    const char *begin = memmem(svg, length, "<svg", 4);
+    if (begin == NULL || !canvas_size(svg, length, size)) {
+        text_bytes(out, svg, length);
+        return;
+    }
+    begin += 4;
+    text_bytes(out, svg, (size_t)(begin - svg));
+    text_format(out, " width=\"%.2fmm\" height=\"%.2fmm\"", unit * size[0], unit * size[1]);
+    text_bytes(out, begin, (size_t)(svg + length - begin));
 }
 
 /* The type of the built-in style, 15 units, is as tall as 14 of the 16 pixels of the text of a
@@ -50,10 +70,10 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     if (begin == NULL)
         return false;
     const char *const end = svg + length;
-    const double width = canvas_width(begin, end);
+    double size[2];
     text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
-    if (width > 0)
-        text_format(page, " style=\"max-width:%.1frem\"", rem_per_unit * width);
+    if (canvas_size(begin, (size_t)(end - begin), size))
+        text_format(page, " style=\"max-width:%.1frem\"", rem_per_unit * size[0]);
     bool in_tag = true;
     for (const char *s = begin + 4; s < end;) {
         const size_t left = (size_t)(end - s);

@@ -14,4 +14,7 @@
 bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
                 const char *label);
 
+/* Appends the picture with its width and height, `unit` millimetres for each unit of its own. */
+void svg_sized(growing_text *out, const char *svg, size_t length, double unit);
+
 #endif

@@ -47,8 +47,8 @@ static void test_everything(void **state)
     wt_result *result = fixture_result();
     write_report(result, "out", NULL);
     assert_int_equal(count_files("out"), 2);
-    assert_int_equal(count_files("out/plots"), 3 * wt_figure_count() + 1);
-    assert_true(exists("out/plots/style.gp"));
+    assert_int_equal(count_files("out/plots"), 3 * wt_figure_count() + 2);
+    assert_true(exists("out/plots/style.gp") && exists("out/plots/output.gp"));
     for (size_t i = 0; i < wt_figure_count(); i++) {
         static const char *const endings[] = {"tsv", "gp", "svg"};
         for (size_t k = 0; k < 3; k++) {
@@ -343,9 +343,7 @@ static void test_the_same_bytes_twice(void **state)
     wt_result *result = fixture_result();
     wt_report_options options = wt_report_defaults();
     options.with_provenance = false;
-    options.threads = 1;
     write_report(result, "one", &options);
-    options.threads = 3; /* however many at a time */
     write_report(result, "two", &options);
     for (size_t i = 0; i <= wt_figure_count(); i++) {
         char one[160], two[160];
@@ -367,6 +365,19 @@ static void test_the_same_bytes_twice(void **state)
     wt_result_free(result);
 }
 
+/* Without its empty groups: a gnuplot that has drawn nothing yet begins with one. */
+static size_t leave_out_empty_groups(char *picture)
+{
+    for (char *group = strstr(picture, "<g "); group != NULL; group = strstr(group, "<g ")) {
+        char *end = strchr(group, '>');
+        if (end != NULL && strncmp(end, ">\n</g>\n", 7) == 0)
+            memmove(group, end + 7, strlen(end + 7) + 1);
+        else
+            group++;
+    }
+    return strlen(picture);
+}
+
 /* `cd plots && gnuplot NAME.gp` gives the same picture, also after the folder has moved. */
 static void test_plots_can_be_drawn_again(void **state)
 {
@@ -380,6 +391,8 @@ static void test_plots_can_be_drawn_again(void **state)
     assert_int_equal(unlink("moved/plots/layer.svg"), 0);
     assert_int_equal(system("cd moved/plots && gnuplot -d layer.gp >/dev/null 2>&1"), 0); // NOLINT
     char *after = read_all("moved/plots/layer.svg", &m);
+    n = leave_out_empty_groups(before);
+    m = leave_out_empty_groups(after);
     assert_int_equal(n, m);
     assert_memory_equal(before, after, n);
     free(before);
@@ -802,7 +815,7 @@ static void test_leftovers(void **state)
         assert_int_equal(end, 0);
         (void)unlink("out/begun");
         assert_int_equal(count_files("out"), 2);
-        assert_int_equal(count_files("out/plots"), 4);
+        assert_int_equal(count_files("out/plots"), 5);
         assert_int_equal(count_files("."), 4); // out, other, and the two programs
     }
     wt_result_free(result);
