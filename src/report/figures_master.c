@@ -105,10 +105,21 @@ static void plot_points(figure_drawing *d, const char *using, const char *with)
 }
 
 /* The spectrum with its interval: columns of value, low and high. */
-static void plot_band(figure_drawing *d, size_t column, const char *unit)
+static void plot_band(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
-    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 notitle",
-              column + 1, unit, column + 2, unit);
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 %s",
+              column + 1, unit, column + 2, unit, title);
+}
+
+static const char interval_title[] = "title '95 % interval'";
+
+/* The axis says to which temperature it is reduced. */
+static void reduced_axis(figure_drawing *d)
+{
+    char label[DRAWING_LABEL];
+    drawing_label_at(label, d->figure->x.label,
+                     master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
+    drawing_axis(d, "x", &d->figure->x, label, d->x);
 }
 
 static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, const char *title)
@@ -125,8 +136,8 @@ static void plot_moduli(figure_drawing *d, bool fitted, marking with)
 {
     const char letter = letter_of(d);
     if (fitted) {
-        plot_band(d, FITTED + 1, "y_unit");
-        plot_band(d, FITTED + 4, "y_unit");
+        plot_band(d, FITTED + 1, "y_unit", interval_title);
+        plot_band(d, FITTED + 4, "y_unit", "notitle");
     }
     plot_points(d, "($1*x_unit):($2*y_unit)", with.storage);
     plot_points(d, "($1*x_unit):($3*y_unit)", with.loss);
@@ -150,7 +161,10 @@ static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
     d->height = 1.6;
     define_combinations(d);
     text_add(&d->script, "set multiplot layout 2,1\n");
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    if (fitted)
+        reduced_axis(d);
+    else
+        drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
     if (!span_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
@@ -158,7 +172,7 @@ static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
     combined_axis(d, "y", &loss_ratio);
     text_add(&d->script, "unset key\nunset colorbox\n");
     if (fitted)
-        plot_band(d, FITTED + 7, "1");
+        plot_band(d, FITTED + 7, "1", "notitle");
     plot_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
     if (fitted)
         plot_spectrum(d, FITTED + 7, "1", "notitle");
@@ -224,13 +238,15 @@ static void draw_step(figure_drawing *d, bool fitted)
 {
     if (!drawing_data(d))
         return;
-    d->width = 1.15;
     drawing_axes(d);
-    if (!span_empty(&d->colour))
+    if (fitted)
+        reduced_axis(d);
+    if (!span_empty(&d->colour) && d->n_colours == 0)
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     if (fitted)
-        plot_band(d, FITTED + 1, "y_unit");
+        plot_band(d, FITTED + 1, "y_unit", interval_title);
     plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
+    drawing_colours(d, "points ls 51");
     if (fitted)
         plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
     plot_end(d);
@@ -394,7 +410,8 @@ static void draw_shift_factors(figure_drawing *d)
         d->height = 1.6;
         text_add(&d->script, "set multiplot layout 2,1\n");
         plot_item(d, d->data[0],
-                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 notitle");
+                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 "
+                  "title '95 %% interval of the law'");
         plot_other(d, "law(x) with lines ls 11 title '%s'",
                    law_is_given(d->table) ? "given law" : "fitted law");
     }

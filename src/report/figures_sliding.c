@@ -183,7 +183,7 @@ const figure_description figures_friction[] = {
         .table = &contact_area_schema,
         .data_title = "area_ratio",
         .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
-        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Real over nominal contact area A/A₀"}},
+        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Contact area A/A₀"}},
         .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
         .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
         .nothing = "no number to draw",

@@ -117,6 +117,14 @@ static wt_status check_empty(const char *path, wt_error *err)
     return status;
 }
 
+/* Pictures of gnuplot's, not text like all else that is written: the mark of their folder tells
+ * whose they are, and none was read. */
+static bool is_bitmap_or_pdf(const char *name)
+{
+    const char *const ending = strrchr(name, '.');
+    return ending != NULL && (strcmp(ending, ".pdf") == 0 || strcmp(ending, ".png") == 0);
+}
+
 /* A folder may be used if nothing is in it or an older report, whose files may be replaced unless
  * they were read; what else is in a report stays. */
 static wt_status check_replaceable(const char *path, wt_error *err)
@@ -140,10 +148,13 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (lstat(plots, &info) == 0 && !S_ISDIR(info.st_mode))
         status = fail_not_replaceable(err, path, "plots, which is no folder");
     free(plots);
-    for (size_t i = 0; status == WT_OK && file_of_report(i, name) != NULL; i++) {
-        char *file = wt_path_join(path, file_of_report(i, name));
-        status =
-            file == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(file, err);
+    const char *own;
+    for (size_t i = 0; status == WT_OK && (own = file_of_report(i, name)) != NULL; i++) {
+        char *file = wt_path_join(path, own);
+        if (file == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        else if (!is_bitmap_or_pdf(own))
+            status = wt_guard_write(file, err);
         free(file);
     }
     return status;
