@@ -28,6 +28,8 @@ void page_inputs(page_writer *page)
 {
     const bound_tables *t = page->tables;
     folded_table(page, "inputs", "Inputs", &t->inputs, "Files read, with their digests");
+    folded_table(page, "methods", "Methods", &t->methods,
+                 "Methods, what they did here, and where they are described");
     folded_table(page, "notes", "Notes of reading and fitting", &t->notes, "Notes and warnings");
 }
 
