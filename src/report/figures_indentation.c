@@ -244,7 +244,7 @@ const figure_description figures_indentation[] = {
               "contact point.",
      .caption = caption_force_indentation},
     {.name = "modulus_groups",
-     .title = "Modulus in and beside the wear track",
+     .title = "Modulus of each group",
      .table = &modulus_groups_schema,
      .beside = "comparison",
      .by_group = true,

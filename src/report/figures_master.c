@@ -320,8 +320,18 @@ static void draw_wicket(figure_drawing *d)
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-/* The law as it was fitted, with the offset of the reference isotherm, over the measured range
- * only; the pole is never in it. */
+/* Temperatures of the isotherms that determine the law: over the others it is not drawn. */
+static value_span span_of_law(const figure_drawing *d)
+{
+    value_span span = SPAN_EMPTY;
+    for (size_t row = 0; row < d->table->n_rows; row++)
+        if (shift_factors_get(d->table, row, SHIFT_FACTORS_DETERMINED) != 0)
+            span_add(&span, shift_factors_get(d->table, row, SHIFT_FACTORS_TEMPERATURE), true);
+    return span;
+}
+
+/* The law as it was fitted, with the offset of the reference isotherm, over those only; the pole is
+ * never in it. */
 static bool define_law(figure_drawing *d)
 {
     const table_view *shifts = d->table;
@@ -333,7 +343,8 @@ static bool define_law(figure_drawing *d)
                  reference =
                      shift_factors_value(shifts, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
     const bool has_wlf = isfinite(c1) && isfinite(c2), has_energy = isfinite(energy);
-    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset))
+    const value_span over = span_of_law(d);
+    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset) || span_empty(&over))
         return false;
     /* K and degrees Celsius; WLF above the joint, Arrhenius below it */
     const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
@@ -342,14 +353,15 @@ static bool define_law(figure_drawing *d)
                 LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
     text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
                 LITERAL(has_energy ? energy / (GAS_CONSTANT * M_LN10) : 0), LITERAL(at),
-                LITERAL(d->x.low - WT_ZERO_CELSIUS), LITERAL(d->x.high - WT_ZERO_CELSIUS));
+                LITERAL(over.low - WT_ZERO_CELSIUS), LITERAL(over.high - WT_ZERO_CELSIUS));
     text_add(&d->script,
              "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
              "wlf(t) = -c1*(t - t_ref)/(c2 + t - t_ref)\n"
              "arrhenius(t) = slope/(t + 273.15)\n"
              "warm(t) = c1 == 0 ? 0 : wlf(upper(t)) - wlf(upper(t_ref))\n"
              "cold(t) = slope == 0 ? 0 : arrhenius(lower(t)) - arrhenius(lower(t_ref))\n"
-             "law(t) = t < t_low || t > t_high ? NaN : offset + warm(t) + cold(t)\n"
+             "over(t, y) = t < t_low - 1e-6 || t > t_high + 1e-6 ? NaN : y\n"
+             "law(t) = over(t, offset + warm(t) + cold(t))\n"
              "set samples 400\n");
     return true;
 }
@@ -384,7 +396,9 @@ static void plot_residual(figure_drawing *d)
     const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
     drawing_axis(d, "y", &d->figure->y[1], NULL, span_residual(d, offset));
     text_add(&d->script, "unset key\nset ylabel 'Residual, log_{10} a_T' enhanced\n");
-    plot_item(d, d->data[0], "($1+x_offset):($6-$5):($7-$5) with filledcurves ls 61 notitle");
+    plot_item(d, d->data[0],
+              "($1+x_offset):(over($1+x_offset,$6)-$5):($7-$5) with filledcurves ls 61 "
+              "notitle");
     plot_other(d, "0 with lines ls 11 notitle");
     plot_item(d, d->data[0],
               "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):3 with yerrorbars ls 1 notitle");
@@ -410,7 +424,7 @@ static void draw_shift_factors(figure_drawing *d)
         d->height = 1.6;
         text_add(&d->script, "set multiplot layout 2,1\n");
         plot_item(d, d->data[0],
-                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 "
+                  "($1+x_offset):(over($1+x_offset,$6)+offset):($7+offset) with filledcurves ls 61 "
                   "title '95 %% interval of the law'");
         plot_other(d, "law(x) with lines ls 11 title '%s'",
                    law_is_given(d->table) ? "given law" : "fitted law");

@@ -4,6 +4,7 @@
  */
 #include "report/page.h"
 
+#include "base/array.h"
 #include "report/files.h"
 #include "report/folder.h"
 #include "report/svg.h"
@@ -171,18 +172,25 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     return status;
 }
 
-/* The title of the case if the result has one; of one subcommand's tables that of the first figure,
- * or of the first table. */
+/* The title of the case if the result has one; else what was asked for last, as it holds the rest,
+ * the first figure that answers, or the first table. */
 static const char *page_title(const page_writer *page)
 {
     const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     if (title != NULL && title[0] != '\0')
         return title;
-    if (page->tables->answer.table != NULL || wt_result_n_tables(page->result) == 0)
-        return comparison_schema.title;
-    for (size_t i = 0; i < page->n_figures; i++)
-        if (page->figures[i].drawing.figure != NULL && page->figures[i].svg.length > 0)
-            return page->figures[i].drawing.figure->title;
+    const table_view *const asked[] = {&page->tables->comparison, &page->tables->layer,
+                                       &page->tables->friction};
+    for (size_t i = 0; i < COUNT_OF(asked); i++)
+        if (asked[i]->n_rows > 0)
+            return asked[i]->schema->title;
+    for (int in_depth = 0; in_depth < 2; in_depth++)
+        for (size_t i = 0; i < page->n_figures; i++)
+            if (page->figures[i].svg.length > 0 &&
+                page->figures[i].drawing.figure->in_depth == in_depth)
+                return page->figures[i].drawing.figure->title;
+    if (wt_result_n_tables(page->result) == 0)
+        return "Nothing was answered";
     const wt_table *first = wt_result_table(page->result, 0);
     title = wt_table_title(first);
     return title[0] != '\0' ? title : wt_table_name(first);

@@ -332,7 +332,7 @@ static void test_nothing_from_a_file_is_run(void **state)
     // Without an answer the page is called by what is in it.
     size_t length = 0;
     char *page = read_all("out/index.html", &length);
-    assert_non_null(strstr(page, "<title>Modulus in and beside the wear track"));
+    assert_non_null(strstr(page, "<title>Modulus of each group"));
     free(page);
 }
 

@@ -183,7 +183,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"shift_factors", "title 'too little overlap'", "temperature determined log_a"},
         {"shift_factors", "$2-offset-$5",
          "temperature determined log_a law_log_a log_a_standard_error"},
-        {"shift_factors", "($6-$5)", "temperature law_log_a_low law_log_a law_log_a_high"},
+        {"shift_factors", "-$5):($7-$5)", "temperature law_log_a_low law_log_a law_log_a_high"},
         {"vertical_shifts", "title 'isotherms'", "temperature log_b log_b_standard_error"},
         {"vertical_shifts", "title 'material'", "temperature log_b_material"},
         {"vertical_shifts", "title 'rubber elasticity'", "temperature log_b_physical"},
@@ -477,6 +477,10 @@ static void test_label_with_subscripts(void **state)
     NEED_REPORT();
     char *script = read_plot("out", "shift_factors", "gp");
     assert_non_null(strstr(script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n"));
+    // The law is not drawn over the first isotherm, of -30 degC, which does not determine it.
+    const char *low = strstr(script, "; t_low = ");
+    assert_non_null(low);
+    assert_near_abs(strtod(low + strlen("; t_low = "), NULL), -20, 0.1);
     free(script);
 }
 
