@@ -32,7 +32,7 @@ void page_fold_end(page_writer *page)
 }
 
 /* More columns than a sheet of paper has place for beside each other, in the type of the page. */
-enum { MANY_COLUMNS = 8 };
+enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* of small type, too: each row is a block */ };
 
 static void begin_table(page_writer *page, const char *caption, size_t n_columns)
 {
@@ -40,7 +40,11 @@ static void begin_table(page_writer *page, const char *caption, size_t n_columns
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
               "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
-              caption, n_columns > MANY_COLUMNS ? "many" : "few", caption);
+              caption,
+              n_columns > MOST_COLUMNS   ? "blocks"
+              : n_columns > MANY_COLUMNS ? "many"
+                                         : "few",
+              caption);
 }
 
 void page_table_end(page_writer *page)

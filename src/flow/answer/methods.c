@@ -44,10 +44,10 @@ static void say_indentation(telling *t, const table_view *table)
                *ratio = indentation_words(table, INDENTATION_KEY_POISSON_RATIO),
                *accepted = indentation_words(table, INDENTATION_KEY_N_ACCEPTED);
     tell(t,
-         "Young's modulus of each of %zu force curves%s%s%s was fitted together with the line of "
+         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
          "the baseline and the contact point",
-         table->n_rows, accepted != NULL ? " (" : "", accepted != NULL ? accepted : "",
-         accepted != NULL ? " of them accepted)" : "");
+         table->n_rows, table->n_rows == 1 ? "" : "s", accepted != NULL ? " (" : "",
+         accepted != NULL ? accepted : "", accepted != NULL ? " of them accepted)" : "");
     tell(t, ", with the contact law of the tip (%s)", tip != NULL ? tip : "not stated");
     tell(t, ratio != NULL ? " and a Poisson's ratio of %s." : ".%s", ratio != NULL ? ratio : "");
 }
@@ -103,12 +103,19 @@ static void say_shifting(telling *t, const table_view *table)
 {
     const double reference =
         shift_factors_value(table, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
-    tell(t,
-         "%zu isotherms were shifted to %s so that one relaxation spectrum lies behind all of "
-         "them, with its smoothness and their noise by restricted maximum likelihood "
-         "(superposition %s).",
-         table->n_rows, words_of_celsius(reference).text,
-         shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    const char *by = shift_factors_words(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
+    if (table->n_rows == 1)
+        tell(t,
+             "One relaxation spectrum was fitted to the isotherm at %s, with its smoothness and "
+             "the noise by restricted maximum likelihood.",
+             words_of_celsius(reference).text);
+    else
+        tell(t,
+             "%zu isotherms were shifted to %s%s%s so that one relaxation spectrum lies behind all "
+             "of them, with its smoothness and their noise by restricted maximum likelihood "
+             "(superposition %s).",
+             table->n_rows, words_of_celsius(reference).text, by != NULL ? " by the " : "",
+             by != NULL ? by : "", shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }
 
 static bool has_wlf(const table_view *table)
@@ -138,26 +145,33 @@ static void say_arrhenius(telling *t, const table_view *table)
          has_wlf(table) ? " in the cold" : "", words_of_estimate(energy).text);
 }
 
-static void say_reduced(telling *t, const table_view *table)
+static bool has_zener(const table_view *table)
+{
+    return prony_reduced_words(table, PRONY_REDUCED_KEY_BETTER) != NULL;
+}
+
+static void say_zener(telling *t, const table_view *table)
 {
     tell(t,
-         "The number of terms, %zu, of the Prony series for finite elements was chosen by "
-         "Akaike's criterion with the correction for few points.",
-         table->n_rows);
+         "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
+         "criterion with the correction for few points.",
+         table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
 static void say_payne(telling *t, const table_view *table)
 {
-    tell(t, "The softening with strain in %zu strain sweeps was described by the law of Kraus.",
-         table->n_rows);
+    tell(t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
+         table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
 /* ---- sliding --------------------------------------------------------------------------------- */
 
 static void say_spectrum(telling *t, const table_view *table)
 {
-    tell(t, "The power spectrum of the counter surface was computed from %s scans.",
-         power_spectrum_words(table, POWER_SPECTRUM_KEY_N_SCANS));
+    const char *scans = power_spectrum_words(table, POWER_SPECTRUM_KEY_N_SCANS);
+    const bool one = scans != NULL && strcmp(scans, "1") == 0;
+    tell(t, "The power spectrum of the counter surface was computed from %s scan%s.",
+         scans != NULL ? scans : "its", one ? "" : "s");
 }
 
 static void say_friction(telling *t, const table_view *table)
@@ -171,8 +185,10 @@ static void say_friction(telling *t, const table_view *table)
          words_of_value(pressure).text, words_of_celsius(temperature.value).text);
     if (isfinite(shear.value))
         tell(t, ", with a shear stress of %s in the real contact", words_of_estimate(shear).text);
-    tell(t, "; intervals by %s draws of what has an error.",
-         friction_words(table, FRICTION_KEY_REPLICATES));
+    const char *draws = friction_words(table, FRICTION_KEY_REPLICATES);
+    if (draws != NULL && strcmp(draws, "0") != 0)
+        tell(t, "; intervals by %s draws of what has an error", draws);
+    tell(t, ".");
 }
 
 static double gamma_of(const table_view *table)
@@ -221,12 +237,6 @@ static void say_archard(telling *t, const table_view *table)
          words_of_estimate(rate).text);
 }
 
-static void say_record(telling *t, const table_view *table)
-{
-    tell(t, "The steady part of %zu steps of friction records was found by the rule MSER-5.",
-         table->n_rows);
-}
-
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static const method methods[] = {
@@ -244,13 +254,13 @@ static const method methods[] = {
      "S. Holm, Scand. J. Stat. 6 (1979) 65", ""},
     {"Hedges' g", &comparison_schema, NULL, say_hedges, "L. V. Hedges, J. Educ. Stat. 6 (1981) 107",
      "10.3102/10769986006002107"},
-    {"shifting by one relaxation spectrum", &shift_factors_schema, NULL, say_shifting,
+    {"one relaxation spectrum", &shift_factors_schema, NULL, say_shifting,
      "S. N. Wood and M. Fasiolo, Biometrics 73 (2017) 1071", "10.1111/biom.12666"},
     {"law of Williams, Landel and Ferry", &shift_factors_schema, has_wlf, say_wlf,
      "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
      "10.1021/ja01619a008"},
     {"Arrhenius' law", &shift_factors_schema, has_energy, say_arrhenius, "", ""},
-    {"corrected criterion of Akaike", &prony_reduced_schema, NULL, say_reduced,
+    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener, say_zener,
      "C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297", "10.1093/biomet/76.2.297"},
     {"law of Kraus", &payne_schema, NULL, say_payne,
      "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
@@ -272,8 +282,6 @@ static const method methods[] = {
      "M. Mokhtari, thesis, University of Twente (2015)", "10.3990/1.9789036540018"},
     {"Archard's law of wear", &layer_schema, NULL, say_archard,
      "J. F. Archard, J. Appl. Phys. 24 (1953) 981", "10.1063/1.1721448"},
-    {"rule MSER-5 for the steady part", &record_schema, NULL, say_record,
-     "K. P. White, Simulation 69 (1997) 323", "10.1177/003754979706900601"},
 };
 
 TABLE_ROW(methods, METHODS, const char *method, *text, *reference, *doi;)
