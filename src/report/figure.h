@@ -84,4 +84,10 @@ const figure_description *figure_find(size_t i); /* NULL past the last one */
 /* Of each group whose curves lie on a grid. */
 void draw_modulus_map(struct figure_drawing *d);
 
+/* Shifts and the law through them. */
+void draw_shift_factors(struct figure_drawing *d);
+void caption_shift_factors(struct figure_drawing *d);
+void draw_vertical_shifts(struct figure_drawing *d);
+void caption_vertical_shifts(struct figure_drawing *d);
+
 #endif
