@@ -87,6 +87,10 @@ WT_API wt_status wt_job_failed(const wt_job *work, const char *file, wt_status s
  * are. */
 WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
+/* Table "methods" of a result: the methods by which its tables were made, in sentences with their
+ * numbers, with references. */
+WT_API wt_status wt_methods_table(const wt_result *result, wt_table **table,
+                                  wt_error *err) WT_NODISCARD;
 /* What jobs cost, stage by stage. `timed` false: counts without times, so that two runs give the
  * same table. NULL when out of memory. */
 WT_API wt_cost *wt_cost_new(bool timed, unsigned threads);

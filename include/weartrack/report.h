@@ -1,4 +1,5 @@
-/* weartrack - report room: from a result to one folder with data, scripts, pictures and a page.
+/* weartrack - report room: from a result to one page, or a folder with page, data, scripts and
+ * pictures.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,8 +18,18 @@ typedef struct wt_report_options {
     const char *gnuplot; /* program; default "gnuplot" */
     bool with_provenance; /* version, command line and times on the page; default true */
     double gnuplot_time;  /* the longest that one figure may take to draw [s]; default 120 */
-    unsigned threads;     /* figures drawn at a time; 0 = one per processor */
+    unsigned figures;     /* pictures for a paper, of wt_figure_formats; 0: those of the page */
+    double width;         /* of a figure [m], those with panels beside each other are 0.17 m wide at
+                             least; NaN, the default: that of the style */
+    const char *font;     /* of all type in figures; NULL, the default: that of the style */
 } wt_report_options;
+
+typedef enum wt_figure_formats {
+    WT_FIGURE_SVG = 1, /* as large as asked for; the page's has no size of its own */
+    WT_FIGURE_PDF = 2,
+    WT_FIGURE_PNG = 4 /* 600 dots in an inch */
+} wt_figure_formats;
+
 WT_API wt_report_options wt_report_defaults(void);
 WT_API const wt_params *wt_report_params(void);
 
@@ -27,11 +38,16 @@ WT_API const wt_params *wt_report_params(void);
 WT_API wt_status wt_report_check(const char *folder, const wt_report_options *options,
                                  wt_error *err) WT_NODISCARD;
 
-/* Writes FOLDER/index.html (self-contained), FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and the style
- * file, for every figure whose tables are in the result. A new folder appears whole or not at all;
- * the files of an older report are replaced one by one when all is drawn, and others in it stay.
- * WT_E_TOOL if gnuplot is missing, fails or takes too long (the message carries its words).
- * `progress` is asked while gnuplot runs, too. */
+/* The page of a report written to a place: that itself if its name ends in .html and it is no
+ * folder, else index.html in it. New, NULL without memory. */
+WT_API char *wt_report_page(const char *place) WT_NODISCARD;
+
+/* Writes FOLDER/index.html, which needs no other file, FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and
+ * the style file, for every figure whose tables are in the result; of a FOLDER that ends in .html
+ * the page alone, under that name. A new folder appears whole or not at all; the files of an older
+ * report are replaced one by one when all is drawn, and others in it stay. WT_E_TOOL if gnuplot is
+ * missing, fails or takes too long (the message carries its words). `progress` is asked while
+ * gnuplot runs, too. */
 WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
                                  const wt_report_options *options, const wt_progress *progress,
                                  wt_error *err) WT_NODISCARD;

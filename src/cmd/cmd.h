@@ -189,6 +189,8 @@ void cmd_event(const char *event, const cmd_word *words, size_t n);
 /* To standard error. What a terminal would obey, in the name of a file say, is shown as \x1b; only
  * the format itself may end a line. */
 void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
+/* Where the page of a report is that was written to a place. */
+void cmd_say_page(const char *place);
 /* Prints the error on stderr as one line; returns false. */
 bool cmd_fail(cmd_session *s);
 /* The same of one among others, which go on; what was given is then answered in part. */

@@ -59,6 +59,14 @@ void cmd_say(const char *format, ...)
     free(text);
 }
 
+void cmd_say_page(const char *place)
+{
+    char *page = wt_report_page(place);
+    if (page != NULL)
+        cmd_say("report page: %s\n", page);
+    free(page);
+}
+
 void cmd_partly(cmd_session *s)
 {
     s->status = s->status == CMD_OK ? CMD_PARTLY : s->status;

@@ -83,10 +83,26 @@ wt_status cmd_provenance(wt_result *result, wt_error *err)
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
+/* A result that is kept says how it was made; one in a pipe goes on to others. */
+static wt_status add_methods(wt_result *result, wt_error *err)
+{
+    wt_table *methods = NULL;
+    if (wt_result_find(result, "methods") != NULL)
+        return WT_OK;
+    const wt_status status = wt_methods_table(result, &methods, err);
+    if (status != WT_OK || wt_table_n_rows(methods) == 0) {
+        wt_table_free(methods);
+        return status;
+    }
+    return wt_result_add(result, methods, err);
+}
+
 wt_status cmd_write(cmd_session *s)
 {
     const char *output = s->common.output;
     wt_status status = cmd_provenance(s->result, &s->err);
+    if (status == WT_OK && cmd_is_store(output))
+        status = add_methods(s->result, &s->err);
     if (status != WT_OK)
         return status;
     if (cmd_is_store(output))

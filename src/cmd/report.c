@@ -1,44 +1,139 @@
 /* weartrack report: plots and one page from a result file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "cmd/tables.h"
 
 static const wt_param rows[] = {
-    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FOLDER", .letter = 'o',
-     .flags = PARAM_REQUIRED, .help = "the folder to write"},
+    {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
+     .unset = "required, but with --methods standard output",
+     .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
-PARAM_LOCAL_TABLE(own_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
+PARAM_LOCAL_TABLE(place_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
+
+typedef struct own_options {
+    bool methods;
+} own_options;
+
+static const wt_param own_rows[] = {
+    {PARAM_FLAG_OF("methods", own_options, methods),
+     .help = "write no page, but the text of a section on methods with the numbers of this result "
+             "and its references"},
+};
+CMD_OPTIONS(own_params, own_options, own_rows)
+
+/* ---- a section on methods -------------------------------------------------------------------- */
+
+static const char *cell(const wt_table *methods, size_t row, const char *column)
+{
+    return wt_table_text(methods, row, (size_t)wt_table_find(methods, column));
+}
+
+/* Number of the reference of a row, from 1: that of the first row that has it; 0: none. */
+static size_t number_of(const wt_table *methods, size_t row)
+{
+    const char *const reference = cell(methods, row, "reference");
+    size_t number = 0;
+    if (reference[0] == '\0')
+        return 0;
+    for (size_t i = 0; i <= row; i++) {
+        bool first = cell(methods, i, "reference")[0] != '\0';
+        for (size_t k = 0; k < i && first; k++)
+            first = strcmp(cell(methods, k, "reference"), cell(methods, i, "reference")) != 0;
+        number += first;
+        if (strcmp(cell(methods, i, "reference"), reference) == 0)
+            return number;
+    }
+    return number;
+}
+
+static void print_methods(FILE *out, const wt_table *methods)
+{
+    size_t last = 0;
+    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
+        const char *const text = cell(methods, row, "text");
+        const size_t number = number_of(methods, row), length = strlen(text);
+        if (number > 0) /* before the full stop */
+            fprintf(out, "%.*s [%zu].\n", (int)(length - 1), text, number);
+        else
+            fprintf(out, "%s\n", text);
+    }
+    fprintf(out, "All was computed with weartrack %s.\n\nReferences\n", wt_version());
+    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
+        const size_t number = number_of(methods, row);
+        const char *const doi = cell(methods, row, "doi");
+        if (number <= last)
+            continue;
+        last = number;
+        fprintf(out, "[%zu] %s%s%s\n", number, cell(methods, row, "reference"),
+                doi[0] != '\0' ? ". https://doi.org/" : "", doi);
+    }
+}
+
+static wt_status write_methods(cmd_session *s)
+{
+    wt_table *methods = NULL;
+    cmd_sink sink;
+    wt_status status = wt_methods_table(s->result, &methods, &s->err);
+    if (status == WT_OK && wt_table_n_rows(methods) == 0) {
+        status = wt_fail(&s->err, WT_E_EMPTY, "no method is known that made these tables");
+        wt_error_file(&s->err, s->files[0]);
+    }
+    if (status == WT_OK && (status = cmd_sink_open(s->common.output, &sink, &s->err)) == WT_OK) {
+        print_methods(sink.stream, methods);
+        status = cmd_sink_close(&sink, WT_OK, &s->err);
+    }
+    wt_table_free(methods);
+    return status;
+}
+
+/* ---- the page -------------------------------------------------------------------------------- */
+
+static wt_status write_page(cmd_session *s, const wt_report_options *options)
+{
+    const wt_progress progress = cmd_progress_start(s);
+    cmd_catch_interruptions();
+    const wt_status status =
+        wt_report_write(s->result, s->common.output, options, &progress, &s->err);
+    cmd_progress_end(s);
+    return status;
+}
 
 int cmd_report(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "report",
-        .arguments = "RESULT -o FOLDER [OPTION]...",
-        .what = "Writes a folder with one page, index.html, and for each figure its data, script "
-                "and picture; the figures can be drawn again without weartrack. RESULT is HDF5 or "
-                "a text stream, - is standard input.",
+        .arguments = "RESULT -o PLACE [OPTION]...",
+        .what = "Writes one page that needs no other file and can be mailed, or a folder with that "
+                "page, index.html, and for each figure its data, script and picture; the figures "
+                "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
+                "standard input.",
         .common = "provenance",
         .n_files = 1,
         .files = "one result file is needed"};
     cmd_session s = cmd_session_defaults();
     wt_report_options report_options = wt_report_defaults();
-    cmd_part parts[] = {{own_params(), &s.common, NULL, 0},
+    own_options own = {0};
+    cmd_part parts[] = {{place_params(), &s.common, NULL, 0},
+                        {own_params(), &own, NULL, 0},
                         {wt_report_params(), &report_options, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
+    if (s.common.output == NULL && !own.methods) {
+        (void)cmd_usage_error(&s, "-o is required: NAME.html or a folder");
+        return cmd_session_free(&s);
+    }
     report_options.with_provenance = s.common.provenance;
-    const wt_progress progress = cmd_progress_start(&s);
-    cmd_catch_interruptions();
     wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (made == WT_OK)
-        made = wt_report_write(s.result, s.common.output, &report_options, &progress, &s.err);
-    cmd_progress_end(&s);
+        made = own.methods ? write_methods(&s) : write_page(&s, &report_options);
     if ((made == WT_E_MISSING || made == WT_E_UNIT) && s.err.file[0] == '\0')
         wt_error_file(&s.err, s.files[0]); // what a table of it lacks
     if (made != WT_OK)
         cmd_fail(&s);
     else
         cmd_tables_remarks(&s, s.files[0], s.result);
-    if (made == WT_OK && !s.common.quiet)
-        cmd_say("report page: %s/index.html\n", s.common.output);
+    if (made == WT_OK && !s.common.quiet && !own.methods)
+        cmd_say_page(s.common.output);
     return cmd_session_free(&s);
 }

@@ -67,9 +67,10 @@ PARAM_LOCAL_TABLE(output_params, cmd_common, output_rows, cmd_common_defaults, N
 static const wt_param own_rows[] = {
     {PARAM_FLAG_OF("plan", own_options, plan),
      .help = "only say which stages would run and why, and why the others would not"},
-    {PARAM_TEXT_OF("report", own_options, report), .value = "FOLDER", .letter = 'r',
+    {PARAM_TEXT_OF("report", own_options, report), .value = "PLACE", .letter = 'r',
      .unset = "the name of the case with -report, in the current folder",
-     .help = "where the report goes; a report that is there is replaced, another folder is not"},
+     .help = "where the report goes: one page if it ends in .html, else a folder; a report that is "
+             "there is replaced, anything else is not"},
     {PARAM_FLAG_OF("no-report", own_options, no_report), .help = "write no report"},
     {PARAM_FLAG_OF("keep", own_options, keep),
      .help = "do not run again what would give the same: the result is there, and neither version, "
@@ -168,9 +169,9 @@ static bool is_kept(run_call *r)
 static bool is_page_kept(const run_call *r)
 {
     struct stat page, result;
-    char *name = NULL;
-    const bool kept = asprintf(&name, "%s/index.html", r->folder_name) >= 0 &&
-                      stat(name, &page) == 0 && stat(r->result_name, &result) == 0 &&
+    char *name = wt_report_page(r->folder_name);
+    const bool kept = name != NULL && stat(name, &page) == 0 &&
+                      stat(r->result_name, &result) == 0 &&
                       (page.st_mtim.tv_sec > result.st_mtim.tv_sec ||
                        (page.st_mtim.tv_sec == result.st_mtim.tv_sec &&
                         page.st_mtim.tv_nsec >= result.st_mtim.tv_nsec));
@@ -180,14 +181,13 @@ static bool is_page_kept(const run_call *r)
 
 static wt_status draw_page(run_call *r)
 {
-    r->report.threads = r->run.threads;
     r->run.progress = cmd_progress_start(&r->s);
     cmd_catch_interruptions();
     wt_status status =
         wt_report_write(r->s.result, r->folder_name, &r->report, &r->run.progress, &r->s.err);
     cmd_progress_end(&r->s);
     if (status == WT_OK && !r->s.common.quiet)
-        cmd_say("report page: %s/index.html\n", r->folder_name);
+        cmd_say_page(r->folder_name);
     return status;
 }
 

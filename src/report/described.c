@@ -4,6 +4,7 @@
  */
 #include "report/drawing.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- data ------------------------------------------------------------------------------------ */
@@ -99,14 +100,54 @@ static bool is_coloured(const figure_drawing *d)
     return !span_empty(&d->colour) && d->colour.high > d->colour.low;
 }
 
+/* The different values of the colour, if they are few. */
+static void find_colours(figure_drawing *d)
+{
+    static const double alike = 0.01; // a frequency is not set more exactly
+    const size_t place = place_of(d, d->figure->colour.column);
+    size_t n = 0;
+    for (size_t i = 0; i < d->n_groups; i++)
+        for (size_t row = 0; row < drawing_rows(d, d->data[i]); row++) {
+            const double value = wt_table_number(d->sections[d->data[i]], row, place);
+            bool known = !isfinite(value);
+            for (size_t k = 0; k < n && !known; k++)
+                known = fabs(value - d->colours[k]) <= alike * fabs(d->colours[k]);
+            if (!known && n == FEW_COLOURS)
+                return;
+            if (!known)
+                d->colours[n++] = value;
+        }
+    d->n_colours = n;
+}
+
 void drawing_axes(figure_drawing *d)
 {
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], d->y_label, d->y[0]);
     if (!is_coloured(d))
         return;
-    d->width = 1.15;
     drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    find_colours(d);
+    if (d->n_colours > 0)
+        text_add(&d->script, "unset colorbox\nset rmargin 3\n");
+    else
+        d->width = 1.15;
+}
+
+void drawing_colours(figure_drawing *d, const char *with)
+{
+    const schema_field *column = &d->figure->table->columns[d->figure->colour.column];
+    for (size_t i = 0; i < d->n_colours; i++)
+        plot_other(d, "keyentry with %s lc palette cb %s%s title '%s'", with,
+                   LITERAL(d->colours[i]),
+                   column->quantity == WT_Q_TEMPERATURE ? "+cb_offset" : "*cb_unit",
+                   VALUE(column->quantity, schema_unit(column), d->colours[i]));
+}
+
+void drawing_label_at(char label[DRAWING_LABEL], const char *words, double temperature)
+{
+    (void)snprintf(label, DRAWING_LABEL, isfinite(temperature) ? "%s at %s" : "%s%s", words,
+                   isfinite(temperature) ? VALUE(WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
 char drawing_letter(const char *deformation)
@@ -137,17 +178,20 @@ static void add_place(growing_text *item, const figure_drawing *d, const char *l
  * zero. */
 static void plot_band(figure_drawing *d, size_t group, const figure_curve *curve)
 {
+    const bool titled = !d->band_titled && !d->figure->by_group && curve->title != NULL;
+    const char *const title = titled ? "title 'one standard error'" : "notitle";
+    d->band_titled = d->band_titled || titled;
     size_t y = place_of(d, curve->column) + 1,
            e = place_of(d, d->figure->table->columns[curve->column].standard_error) + 1;
     if (d->figure->y[curve->panel].scale == AXIS_LOG)
         plot_item(d, d->data[group],
                   "($1*x_unit):($%zu > 0 ? ($%zu > $%zu ? $%zu-$%zu : 1e-3*$%zu)*y_unit : NaN):"
-                  "($%zu > 0 ? ($%zu+$%zu)*y_unit : NaN) with filledcurves ls %d notitle",
-                  y, y, e, y, e, y, y, y, e, curve->band);
+                  "($%zu > 0 ? ($%zu+$%zu)*y_unit : NaN) with filledcurves ls %d %s",
+                  y, y, e, y, e, y, y, y, e, curve->band, title);
     else
         plot_item(d, d->data[group],
-                  "($1*x_unit):($%zu-$%zu):($%zu+$%zu) with filledcurves ls %d notitle", y, e, y, e,
-                  curve->band);
+                  "($1*x_unit):($%zu-$%zu):($%zu+$%zu) with filledcurves ls %d %s", y, e, y, e,
+                  curve->band, title);
 }
 
 static bool has_key(const figure_description *figure)
@@ -166,7 +210,7 @@ static void add_title(figure_drawing *d, size_t group, const figure_curve *curve
         plot_title(d, d->groups[group]);
     else if (curve->title != NULL && !*titled)
         text_format(&d->script, " title '%s'", curve->title);
-    else if (has_key(d->figure))
+    else if (has_key(d->figure) || d->n_colours > 0)
         text_add(&d->script, " notitle");
     *titled = true;
 }
@@ -234,10 +278,11 @@ static void draw_as_described(figure_drawing *d)
     if (d->figure->prepare != NULL)
         d->figure->prepare(d);
     drawing_axes(d);
-    if (!has_key(d->figure))
+    if (!has_key(d->figure) && d->n_colours == 0)
         text_add(&d->script, "unset key\n");
     drawing_bands(d, 0);
     drawing_curves(d, 0);
+    drawing_colours(d, "lines lw 1.8");
     plot_end(d);
 }
 

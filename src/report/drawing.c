@@ -8,6 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool drawing_is_wide(const figure_drawing *d)
+{
+    return d->width > 1.2;
+}
+
 int drawing_group_style(const figure_drawing *d, size_t i)
 {
     if (!d->figure->by_group)

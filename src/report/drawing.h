@@ -12,7 +12,13 @@
 #include "report/text.h"
 #include "report/units.h"
 
-enum { DRAWING_SECTIONS = 64, DRAWING_GROUPS = 6, NO_SECTION = -1 };
+enum {
+    DRAWING_SECTIONS = 64,
+    DRAWING_GROUPS = 6,
+    NO_SECTION = -1,
+    FEW_COLOURS = 3,
+    DRAWING_LABEL = 128
+};
 
 /* Smallest and largest of numbers between -1e100 and 1e100; low > high while empty. */
 typedef struct value_span {
@@ -43,10 +49,16 @@ typedef struct figure_drawing {
     value_span x, y[FIGURE_PANELS], colour; /* and what they span */
     const char *y_label;                    /* in the place of the one described, or NULL */
     bool titled[FIGURE_CURVES];             /* the curve is in the key */
+    bool band_titled;                       /* and so is the first band */
+    double colours[FEW_COLOURS];            /* those that the key names in the place of a scale */
+    size_t n_colours;                       /* 0: there are more, or the colour says nothing */
     growing_text script;                    /* what follows the loading of the style */
     growing_text caption;                   /* plain text */
     size_t n_items;                         /* of the plot command that is being written */
 } figure_drawing;
+
+/* Whether it has panels beside each other: on the page it has no other figure beside it. */
+bool drawing_is_wide(const figure_drawing *d);
 
 /* Fills sections, script and caption; without anything to draw it leaves no script. drawing_clear
  * also after a failure. */
@@ -63,8 +75,12 @@ bool drawing_data(figure_drawing *d);
 /* Axis "x", "y" or "cb"; `label` NULL = the one described. */
 void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
                   value_span span);
-/* x, y of the first panel and, if it says something, the scale of colour beside the picture. */
+/* x, y of the first panel and, if it says something, the scale of colour beside the picture: of two
+ * or three colours alone the key names them, where drawing_colours stands in the plot command. */
 void drawing_axes(figure_drawing *d);
+void drawing_colours(figure_drawing *d, const char *with);
+/* "Angular frequency at 20 °C", or the label alone without a temperature. */
+void drawing_label_at(char label[DRAWING_LABEL], const char *words, double temperature);
 /* Of the moduli, by the words of a table for its deformation. */
 char drawing_letter(const char *deformation);
 /* All that is described of one panel, in a plot command: the bands, then the curves. */

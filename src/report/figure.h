@@ -64,6 +64,7 @@ typedef struct figure_description {
     bool by_group;             /* a curve for each text in the column `group` */
     unsigned group;
     figure_axis x, y[FIGURE_PANELS], colour;
+    bool in_depth;                      /* the page folds it, behind those that answer */
     bool of_several;                    /* one value of x alone is nothing to see */
     figure_curve curves[FIGURE_CURVES]; /* ends with CURVE_NONE */
     const char *nothing; /* said where nothing can be drawn; NULL = not worth a word */
@@ -82,5 +83,11 @@ const figure_description *figure_find(size_t i); /* NULL past the last one */
 
 /* Of each group whose curves lie on a grid. */
 void draw_modulus_map(struct figure_drawing *d);
+
+/* Shifts and the law through them. */
+void draw_shift_factors(struct figure_drawing *d);
+void caption_shift_factors(struct figure_drawing *d);
+void draw_vertical_shifts(struct figure_drawing *d);
+void caption_vertical_shifts(struct figure_drawing *d);
 
 #endif

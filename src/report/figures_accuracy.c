@@ -242,6 +242,9 @@ static void draw_error_budget(figure_drawing *d)
     plot_other(d, "NaN with boxes ls 1 title 'measured or stated'");
     plot_other(d, "NaN with boxes ls 2 title 'choice of the model'");
     plot_other(d, "NaN with boxes ls 5 title 'together, draws, arithmetic'");
+    plot_other(d, "NaN with lines ls %d dt 3 title 'floor of what is measured'",
+               style_of("together"));
+    plot_other(d, "NaN with lines ls %d dt 3 title 'floor of the model'", style_of("model"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -374,6 +377,7 @@ const figure_description figures_accuracy[] = {
          "another source does not take the number below them.",
      .draw = draw_error_budget},
     {.name = "cost",
+     .in_depth = true,
      .title = "Time and error of each stage",
      .table = &cost_schema,
      .nothing = "no stage was timed",

@@ -218,6 +218,7 @@ static void caption_modulus_rate(figure_drawing *d)
 
 const figure_description figures_indentation[] = {
     {.name = "force_displacement",
+     .in_depth = true,
      .title = "Force against displacement",
      .table = &force_displacement_schema,
      .by_group = true,
@@ -243,7 +244,7 @@ const figure_description figures_indentation[] = {
               "contact point.",
      .caption = caption_force_indentation},
     {.name = "modulus_groups",
-     .title = "Modulus in and beside the wear track",
+     .title = "Modulus of each group",
      .table = &modulus_groups_schema,
      .beside = "comparison",
      .by_group = true,
@@ -267,6 +268,7 @@ const figure_description figures_indentation[] = {
               "scale of colour for all maps.",
      .draw = draw_modulus_map},
     {.name = "modulus_depth",
+     .in_depth = true,
      .title = "Modulus against depth",
      .table = &modulus_depth_schema,
      .by_group = true,
@@ -279,6 +281,7 @@ const figure_description figures_indentation[] = {
               "all curves of a group together, with their contact point fitted anew; bars: 95 % "
               "confidence interval."},
     {.name = "modulus_rate",
+     .in_depth = true,
      .title = "Modulus against indentation rate",
      .table = &modulus_rate_schema,
      .by_group = true,

@@ -100,6 +100,7 @@ static void caption_layer(figure_drawing *d)
 
 const figure_description figures_layer[] = {
     {.name = "energy_density",
+     .in_depth = true,
      .title = "Dissipated energy with depth",
      .table = &energy_density_schema,
      .data_title = "energy density",

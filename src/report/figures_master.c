@@ -1,11 +1,9 @@
-/* Figures of isotherms and what is made of them: before and after shifting, shift factors with
- * their law, and the planes without a frequency in which superposition is seen.
+/* Figures of isotherms and what is made of them: before and after shifting,
+ * and the planes without a frequency in which superposition is seen.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "report/drawing.h"
-
-#include "base/quantity.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,10 +103,21 @@ static void plot_points(figure_drawing *d, const char *using, const char *with)
 }
 
 /* The spectrum with its interval: columns of value, low and high. */
-static void plot_band(figure_drawing *d, size_t column, const char *unit)
+static void plot_band(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
-    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 notitle",
-              column + 1, unit, column + 2, unit);
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 %s",
+              column + 1, unit, column + 2, unit, title);
+}
+
+static const char interval_title[] = "title '95 % interval'";
+
+/* The axis says to which temperature it is reduced. */
+static void reduced_axis(figure_drawing *d)
+{
+    char label[DRAWING_LABEL];
+    drawing_label_at(label, d->figure->x.label,
+                     master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
+    drawing_axis(d, "x", &d->figure->x, label, d->x);
 }
 
 static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, const char *title)
@@ -125,8 +134,8 @@ static void plot_moduli(figure_drawing *d, bool fitted, marking with)
 {
     const char letter = letter_of(d);
     if (fitted) {
-        plot_band(d, FITTED + 1, "y_unit");
-        plot_band(d, FITTED + 4, "y_unit");
+        plot_band(d, FITTED + 1, "y_unit", interval_title);
+        plot_band(d, FITTED + 4, "y_unit", "notitle");
     }
     plot_points(d, "($1*x_unit):($2*y_unit)", with.storage);
     plot_points(d, "($1*x_unit):($3*y_unit)", with.loss);
@@ -150,7 +159,10 @@ static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
     d->height = 1.6;
     define_combinations(d);
     text_add(&d->script, "set multiplot layout 2,1\n");
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    if (fitted)
+        reduced_axis(d);
+    else
+        drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
     if (!span_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
@@ -158,7 +170,7 @@ static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
     combined_axis(d, "y", &loss_ratio);
     text_add(&d->script, "unset key\nunset colorbox\n");
     if (fitted)
-        plot_band(d, FITTED + 7, "1");
+        plot_band(d, FITTED + 7, "1", "notitle");
     plot_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
     if (fitted)
         plot_spectrum(d, FITTED + 7, "1", "notitle");
@@ -224,13 +236,15 @@ static void draw_step(figure_drawing *d, bool fitted)
 {
     if (!drawing_data(d))
         return;
-    d->width = 1.15;
     drawing_axes(d);
-    if (!span_empty(&d->colour))
+    if (fitted)
+        reduced_axis(d);
+    if (!span_empty(&d->colour) && d->n_colours == 0)
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     if (fitted)
-        plot_band(d, FITTED + 1, "y_unit");
+        plot_band(d, FITTED + 1, "y_unit", interval_title);
     plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
+    drawing_colours(d, "points ls 51");
     if (fitted)
         plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
     plot_end(d);
@@ -302,167 +316,6 @@ static void draw_wicket(figure_drawing *d)
     draw_plane(d, &storage_log, &loss_ratio);
 }
 
-/* ---- shift factors --------------------------------------------------------------------------- */
-
-/* The law as it was fitted, with the offset of the reference isotherm, over the measured range
- * only; the pole is never in it. */
-static bool define_law(figure_drawing *d)
-{
-    const table_view *shifts = d->table;
-    const double c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1).value,
-                 c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2).value,
-                 energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
-                 joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value,
-                 offset = shift_factors_value(shifts, SHIFT_FACTORS_KEY_OFFSET).value,
-                 reference =
-                     shift_factors_value(shifts, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
-    const bool has_wlf = isfinite(c1) && isfinite(c2), has_energy = isfinite(energy);
-    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset))
-        return false;
-    /* K and degrees Celsius; WLF above the joint, Arrhenius below it */
-    const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
-    text_format(&d->script, "c1 = %s; c2 = %s; t_ref = %s; offset = %s\n",
-                LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
-                LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
-    text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
-                LITERAL(has_energy ? energy / (GAS_CONSTANT * M_LN10) : 0), LITERAL(at),
-                LITERAL(d->x.low - WT_ZERO_CELSIUS), LITERAL(d->x.high - WT_ZERO_CELSIUS));
-    text_add(&d->script,
-             "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
-             "wlf(t) = -c1*(t - t_ref)/(c2 + t - t_ref)\n"
-             "arrhenius(t) = slope/(t + 273.15)\n"
-             "warm(t) = c1 == 0 ? 0 : wlf(upper(t)) - wlf(upper(t_ref))\n"
-             "cold(t) = slope == 0 ? 0 : arrhenius(lower(t)) - arrhenius(lower(t_ref))\n"
-             "law(t) = t < t_low || t > t_high ? NaN : offset + warm(t) + cold(t)\n"
-             "set samples 400\n");
-    return true;
-}
-
-static size_t count_undetermined(const table_view *shift_factors)
-{
-    size_t n = 0;
-    for (size_t row = 0; row < shift_factors->n_rows; row++)
-        n += shift_factors_get(shift_factors, row, SHIFT_FACTORS_DETERMINED) == 0;
-    return n;
-}
-
-/* What the law leaves of the shifts: columns of shift, its error and the law. */
-static value_span span_residual(const figure_drawing *d, double offset)
-{
-    const wt_table *data = d->sections[d->data[0]];
-    value_span span = SPAN_EMPTY;
-    for (size_t row = 0; row < wt_table_n_rows(data); row++) {
-        const double law = wt_table_number(data, row, 4), error = wt_table_number(data, row, 2);
-        const double left = wt_table_number(data, row, 1) - offset - law;
-        span_add(&span, left - error, false);
-        span_add(&span, left + error, false);
-        span_add(&span, wt_table_number(data, row, 5) - law, false);
-        span_add(&span, wt_table_number(data, row, 6) - law, false);
-    }
-    span_add(&span, 0, false);
-    return span;
-}
-
-static void plot_residual(figure_drawing *d)
-{
-    const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
-    drawing_axis(d, "y", &d->figure->y[1], NULL, span_residual(d, offset));
-    text_add(&d->script, "unset key\nset ylabel 'Residual, log_{10} a_T' enhanced\n");
-    plot_item(d, d->data[0], "($1+x_offset):($6-$5):($7-$5) with filledcurves ls 61 notitle");
-    plot_other(d, "0 with lines ls 11 notitle");
-    plot_item(d, d->data[0],
-              "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):3 with yerrorbars ls 1 notitle");
-    plot_end(d);
-}
-
-/* The law that was fitted has an error. */
-static bool law_is_given(const table_view *shifts)
-{
-    const wt_estimate slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_LAW_SLOPE);
-    return isfinite(slope.value) && !isfinite(slope.standard_error);
-}
-
-/* Shifts with their law above, what it leaves of them below. */
-static void draw_shift_factors(figure_drawing *d)
-{
-    if (!drawing_data(d))
-        return;
-    drawing_axes(d);
-    text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
-    const bool law = define_law(d);
-    if (law) {
-        d->height = 1.6;
-        text_add(&d->script, "set multiplot layout 2,1\n");
-        plot_item(d, d->data[0],
-                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 notitle");
-        plot_other(d, "law(x) with lines ls 11 title '%s'",
-                   law_is_given(d->table) ? "given law" : "fitted law");
-    }
-    plot_item(d, d->data[0],
-              "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
-    if (count_undetermined(d->table) > 0)
-        plot_item(d, d->data[0],
-                  "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
-                  "'too little overlap'");
-    plot_end(d);
-    if (!law)
-        return;
-    plot_residual(d);
-    text_add(&d->script, "unset multiplot\n");
-}
-
-static void caption_shift_factors(figure_drawing *d)
-{
-    size_t undetermined = count_undetermined(d->table);
-    const wt_estimate c1 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C1),
-                      c2 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C2),
-                      energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
-    const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    if (isfinite(c1.value))
-        text_format(&d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(&c1),
-                    ESTIMATE(&c2),
-                    law_is_given(d->table) ? "by which the shifts were given"
-                                           : "with the offset of the reference isotherm that was "
-                                             "fitted; band: its 95 % interval");
-    if (isfinite(energy.value))
-        text_format(&d->caption, " Arrhenius%s with %s.", isfinite(c1.value) ? " in the cold" : "",
-                    ESTIMATE(&energy));
-    text_format(&d->caption, " Time-temperature superposition: %s.", verdict);
-    if (undetermined > 0)
-        text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
-                    d->table->n_rows);
-}
-
-/* ---- vertical shifts ------------------------------------------------------------------------- */
-
-static void draw_vertical_shifts(figure_drawing *d)
-{
-    const char *vertical = shift_factors_words(d->table, SHIFT_FACTORS_KEY_VERTICAL);
-    if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_data(d))
-        return;
-    drawing_axes(d);
-    text_add(&d->script, "set ylabel 'Shift factor, log_{10} b_T' enhanced\n");
-    plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title 'rubber elasticity'");
-    plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title 'material'");
-    plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title 'isotherms'");
-    plot_end(d);
-}
-
-static void caption_vertical_shifts(figure_drawing *d)
-{
-    double most = 0;
-    for (size_t row = 0; row < d->table->n_rows; row++) {
-        const double off = shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B) -
-                           shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
-        most = fmax(most, isfinite(off) ? fabs(off) : 0);
-    }
-    text_format(&d->caption,
-                " A good one is smooth, and near the line of rubber elasticity above the glass "
-                "transition; here the isotherms are off it by up to %.2g decade. A filler that "
-                "softens with temperature or a clamp that yields leads away from it.",
-                most);
-}
-
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 /* Of the planes: the data are the same. */
@@ -504,6 +357,7 @@ static void caption_vertical_shifts(figure_drawing *d)
 
 const figure_description figures_master[] = {
     {.name = "isotherms",
+     .in_depth = true,
      .title = "Isotherms before shifting",
      .table = &master_curve_schema,
      .data_title = "isotherms",
@@ -560,6 +414,7 @@ const figure_description figures_master[] = {
      .draw = draw_shift_factors,
      .caption = caption_shift_factors},
     {.name = "vertical_shifts",
+     .in_depth = true,
      .title = "Vertical shift factors",
      .table = &shift_factors_schema,
      .data_title = "vertical shift factors",
@@ -574,6 +429,7 @@ const figure_description figures_master[] = {
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},
     {.name = "van_gurp_palmen",
+     .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",
      PLANE,
      .words = "Phase angle against the size of the modulus, shifted vertically only: frequency and "
@@ -581,6 +437,7 @@ const figure_description figures_master[] = {
               "they fan out with temperature no horizontal shift can join them.",
      .draw = draw_van_gurp_palmen},
     {.name = "wicket",
+     .in_depth = true,
      .title = "Superposition: wicket plot",
      PLANE,
      .words = "tan δ against the storage modulus, shifted vertically only. In a good one all "
@@ -589,6 +446,7 @@ const figure_description figures_master[] = {
               "sample or at the limit of the instrument.",
      .draw = draw_wicket},
     {.name = "cole_cole",
+     .in_depth = true,
      .title = "Superposition: Cole-Cole plot",
      PLANE,
      .words =

@@ -50,6 +50,8 @@ static void draw_materials(figure_drawing *d)
     }
     plot_materials(d, STORAGE, true, "");
     plot_materials(d, LOSS, false, " dt (6,4)");
+    plot_other(d, "keyentry with lines ls 11 title 'storage modulus'");
+    plot_other(d, "keyentry with lines ls 11 dt (6,4) title 'loss modulus'");
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     text_add(&d->script, "unset key\n");

@@ -150,6 +150,7 @@ static void draw_directions(figure_drawing *d)
 
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
+     .in_depth = true,
      .title = "Power spectrum of the counter surface",
      .table = &roughness_schema,
      .data_title = "power spectrum",
@@ -177,11 +178,12 @@ const figure_description figures_friction[] = {
      .caption = caption_friction},
     {
         .name = "contact_area",
+        .in_depth = true,
         .title = "Real contact area against magnification",
         .table = &contact_area_schema,
         .data_title = "area_ratio",
         .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
-        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Real over nominal contact area A/A₀"}},
+        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Contact area A/A₀"}},
         .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
         .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
         .nothing = "no number to draw",
@@ -190,6 +192,7 @@ const figure_description figures_friction[] = {
     },
     {
         .name = "friction_scales",
+        .in_depth = true,
         .title = "Which length scales make the friction",
         .table = &contact_area_schema,
         .data_title = "hysteresis",

@@ -56,6 +56,7 @@ static void draw_payne(figure_drawing *d)
     plot_points(d, STORAGE, STORAGE_LAW, 51, storage);
     plot_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
     plot_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
+    drawing_colours(d, "points ls 51");
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     plot_points(d, LOSS, LOSS_LAW, 52, loss);

@@ -47,8 +47,10 @@ static void draw_relaxation_spectrum(figure_drawing *d)
     if (!drawing_data(d))
         return;
     drawing_axes(d);
-    plot_item(d, d->data[0], "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 notitle");
-    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 notitle");
+    plot_item(d, d->data[0],
+              "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 title "
+              "'limits on the safe side of 95 %%'");
+    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 title 'spectrum'");
     plot_end(d);
 }
 
@@ -88,6 +90,7 @@ static void draw_ramp(figure_drawing *d)
     plot_ramp(d, 2, 51, storage);
     plot_ramp(d, 3, 52, loss);
     plot_peaks(d, GLASS_TRANSITION_LOSS_PEAK, "peak of the loss modulus");
+    drawing_colours(d, "points ls 51");
     plot_end(d);
     text_add(&d->script, "unset mytics\n");
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
@@ -129,6 +132,7 @@ const figure_description figures_dma[] = {
      .draw = draw_dma_comparison,
      .caption = caption_dma_comparison},
     {.name = "relaxation_spectrum",
+     .in_depth = true,
      .title = "Relaxation spectrum",
      .table = &relaxation_spectrum_schema,
      .data_title = "relaxation spectrum",

@@ -4,6 +4,7 @@
  */
 #include "report/folder.h"
 
+#include "base/array.h"
 #include "base/temporary.h"
 #include "weartrack/report.h"
 
@@ -19,9 +20,10 @@
 enum { REPORT_NAME = 128 };
 
 struct report_folder {
-    char *place; /* where it goes */
-    char *made;  /* the temporary one */
-    int in_use;  /* keeps that from being swept away; -1 before it is made */
+    char *place;  /* where it goes */
+    bool is_page; /* of which only the page goes there */
+    char *made;   /* the temporary one */
+    int in_use;   /* keeps that from being swept away; -1 before it is made */
     char *plots;
 };
 
@@ -38,22 +40,39 @@ static wt_status io_error(wt_error *err, const char *what, const char *path)
 /* Name of the i-th file that a report can have, with the folder "plots"; NULL past the last one. */
 static const char *file_of_report(size_t i, char name[REPORT_NAME])
 {
-    static const char *const endings[] = {"tsv", "gp", "svg"};
-    const size_t figure = i < 2 ? 0 : (i - 2) / 3;
-    if (i >= 2 && figure >= wt_figure_count())
+    static const char *const common[] = {"index.html", "plots/style.gp", "plots/output.gp"},
+                             *const endings[] = {"tsv", "gp", "svg", "pdf", "png"};
+    enum { COMMON = COUNT_OF(common), ENDINGS = COUNT_OF(endings) };
+    if (i < COMMON)
+        return common[i];
+    const size_t figure = (i - COMMON) / ENDINGS;
+    if (figure >= wt_figure_count())
         return NULL;
-    if (i < 2)
-        return i == 0 ? "index.html" : "plots/style.gp";
     (void)snprintf(name, REPORT_NAME, "plots/%s.%s", wt_figure_get(figure).name,
-                   endings[(i - 2) % 3]);
+                   endings[(i - COMMON) % ENDINGS]);
     return name;
 }
 
-static bool has_mark(const char *folder)
+bool place_is_page(const char *place)
+{
+    static const char ending[] = ".html";
+    struct stat info;
+    const size_t length = strlen(place);
+    return length >= sizeof ending && strcmp(place + length - (sizeof ending - 1), ending) == 0 &&
+           (stat(place, &info) != 0 || !S_ISDIR(info.st_mode));
+}
+
+char *wt_report_page(const char *place)
+{
+    return place_is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
+}
+
+/* Whether weartrack wrote the page of a place. */
+static bool has_mark(const char *place)
 {
     enum { HEAD = 4096 };
     char head[HEAD + 1];
-    char *path = wt_path_join(folder, "index.html");
+    char *path = wt_report_page(place);
     FILE *file = path == NULL ? NULL : fopen(path, "rb");
     free(path);
     if (file == NULL)
@@ -68,9 +87,10 @@ static wt_status fail_not_replaceable(wt_error *err, const char *path, const cha
 {
     wt_status status = wt_fail(err, WT_E_IO, "will not be replaced: it is not a weartrack report");
     wt_error_file(err, path);
-    wt_error_expected(err, "a new name, an empty folder or an older report");
+    wt_error_expected(err, place_is_page(path) ? "a new name or an older report"
+                                               : "a new name, an empty folder or an older report");
     wt_error_found(err, "%s", found);
-    wt_error_advice(err, "name another folder, or move away what is there");
+    wt_error_advice(err, "give another name, or move away what is there");
     return status;
 }
 
@@ -97,6 +117,14 @@ static wt_status check_empty(const char *path, wt_error *err)
     return status;
 }
 
+/* Pictures of gnuplot's, not text like all else that is written: the mark of their folder tells
+ * whose they are, and none was read. */
+static bool is_bitmap_or_pdf(const char *name)
+{
+    const char *const ending = strrchr(name, '.');
+    return ending != NULL && (strcmp(ending, ".pdf") == 0 || strcmp(ending, ".png") == 0);
+}
+
 /* A folder may be used if nothing is in it or an older report, whose files may be replaced unless
  * they were read; what else is in a report stays. */
 static wt_status check_replaceable(const char *path, wt_error *err)
@@ -104,6 +132,10 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     struct stat info;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
+    if (place_is_page(path))
+        return !S_ISREG(info.st_mode) || !has_mark(path)
+                   ? fail_not_replaceable(err, path, "another file of that name")
+                   : wt_guard_write(path, err);
     if (!S_ISDIR(info.st_mode))
         return fail_not_replaceable(err, path, "a file of that name");
     if (!has_mark(path))
@@ -116,10 +148,13 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (lstat(plots, &info) == 0 && !S_ISDIR(info.st_mode))
         status = fail_not_replaceable(err, path, "plots, which is no folder");
     free(plots);
-    for (size_t i = 0; status == WT_OK && file_of_report(i, name) != NULL; i++) {
-        char *file = wt_path_join(path, file_of_report(i, name));
-        status =
-            file == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(file, err);
+    const char *own;
+    for (size_t i = 0; status == WT_OK && (own = file_of_report(i, name)) != NULL; i++) {
+        char *file = wt_path_join(path, own);
+        if (file == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        else if (!is_bitmap_or_pdf(own))
+            status = wt_guard_write(file, err);
         free(file);
     }
     return status;
@@ -168,8 +203,9 @@ static wt_status find_place(const char *path, char **place, wt_error *err)
 static wt_status make_temporary(report_folder *folder, wt_error *err)
 {
     struct stat info;
-    char *parent =
-        stat(folder->place, &info) == 0 ? strdup(folder->place) : wt_path_folder(folder->place);
+    char *parent = !folder->is_page && stat(folder->place, &info) == 0
+                       ? strdup(folder->place)
+                       : wt_path_folder(folder->place);
     if (parent == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     temporary_sweep(parent);
@@ -189,6 +225,7 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
     wt_status status = find_place(path, &folder->place, err);
+    folder->is_page = status == WT_OK && place_is_page(folder->place);
     if (status == WT_OK)
         status = check_replaceable(folder->place, err);
     if (status == WT_OK)
@@ -251,6 +288,23 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
     return status;
 }
 
+/* The page alone, in the place of an older one, whose mode it gets. */
+static wt_status move_page(const report_folder *folder, wt_error *err)
+{
+    struct stat info;
+    wt_status status = check_replaceable(folder->place, err); // again: time has passed
+    if (status != WT_OK)
+        return status;
+    char *page = wt_path_join(folder->made, "index.html");
+    if (page == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else if ((lstat(folder->place, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
+             rename(page, folder->place) != 0)
+        status = io_error(err, "cannot be written", folder->place);
+    free(page);
+    return status;
+}
+
 /* File by file into a folder that is there, the page first: it needs no other file, and says whose
  * folder it is. One run at a time. */
 static wt_status move_files(const report_folder *folder, wt_error *err)
@@ -279,7 +333,9 @@ wt_status folder_commit(report_folder *folder, wt_error *err)
 {
     struct stat info;
     wt_status status = WT_OK;
-    if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
+    if (folder->is_page)
+        status = move_page(folder, err);
+    else if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
         free(folder->made);
         folder->made = NULL;
     } else

@@ -6,6 +6,7 @@
 
 #include "base/program.h"
 
+#include <math.h>
 #include <string.h>
 
 static wt_status cannot_start(const char *program, int code, wt_error *err)
@@ -25,13 +26,13 @@ static wt_status failed(const gnuplot_call *call, const program_end *end, wt_err
     wt_status status = WT_E_TOOL;
     if (end->how == PROGRAM_SIGNALLED)
         wt_fail(err, status, "gnuplot was ended by signal %d", end->code);
-    else if (end->how == PROGRAM_TOO_LONG)
+    else if (*call->late)
         wt_fail(err, status, "gnuplot did not end within %g s", call->limit);
     else
         wt_fail(err, status, "gnuplot failed with exit status %d", end->code);
     wt_error_file(err, call->program);
     wt_error_found(err, "%s", end->words[0] != '\0' ? end->words : "no message");
-    wt_error_advice(err, end->how == PROGRAM_TOO_LONG
+    wt_error_advice(err, *call->late
                              ? "check the plot style; `weartrack report --gnuplot-time` allows more"
                              : "check the plot style; gnuplot 5.4 or later is needed");
     return status;
@@ -41,12 +42,11 @@ wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
 {
     // What changes gnuplot.
     static const char *const hidden[] = {"GNU", "COLUMNS=", NULL};
-    const char *const arguments[] = {"--default-settings", call->script, NULL};
     const program_call run = {.program = call->program,
-                              .arguments = arguments,
+                              .arguments = call->arguments,
                               .folder = call->folder,
                               .hidden = hidden,
-                              .limit = call->limit,
+                              .limit = (double)INFINITY, // go_on knows
                               .file_size = GNUPLOT_PICTURE_LIMIT,
                               .go_on = call->go_on,
                               .user = call->user};
@@ -56,7 +56,7 @@ wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
         return status;
     if (end.how == PROGRAM_NOT_STARTED)
         return cannot_start(call->program, end.code, err);
-    if (end.how == PROGRAM_CANCELLED)
+    if (end.how == PROGRAM_CANCELLED && !*call->late)
         return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     return end.how == PROGRAM_EXITED && end.code == 0 ? WT_OK : failed(call, &end, err);
 }

@@ -4,6 +4,7 @@
  */
 #include "report/page.h"
 
+#include "base/array.h"
 #include "report/files.h"
 #include "report/folder.h"
 #include "report/svg.h"
@@ -22,6 +23,8 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
               "/>\n<title>%s</title>\n<style>\n",
               title);
     text_add(out, file_of_library("page.css"));
+    if (page->font != NULL) // letters, digits, blanks and hyphens
+        text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
     text_html(out,
               "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
               "<nav aria-label=\"Contents\">\n<ul>\n",
@@ -39,26 +42,32 @@ static size_t folded_answers(page_writer *page, size_t row)
         end++;
     if (end == row)
         return end;
-    text_format(&page->out, "<details>\n<summary>%zu more</summary>\n", end - row);
+    text_format(&page->out, "<details class=\"printed\">\n<summary>%zu more</summary>\n",
+                end - row);
     for (; row < end; row++)
         text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
     text_add(&page->out, "</details>\n");
     return end;
 }
 
-/* Several answers to one question stand under it together. */
+/* Several answers to one question stand under it together; what must be kept in mind stands beside
+ * them where there is place. */
 static void page_answer(page_writer *page)
 {
     const table_view *table = &page->tables->answer;
     if (table->n_rows == 0)
         return;
     page_heading(page, "answer", "Answer");
+    text_add(&page->out, "<div class=\"answers\">\n<div>\n");
     const char *question = NULL;
+    bool beside = false;
     for (size_t row = 0; row < table->n_rows;) {
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
             bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
             text_add(&page->out, question == NULL ? "" : "</section>\n");
+            text_add(&page->out, caveat && !beside ? "</div>\n<div>\n" : "");
+            beside = beside || caveat;
             text_html(&page->out, "<section class=\"%s\">\n<h3>%s</h3>\n",
                       caveat ? "answer caveat" : "answer", next);
             question = next;
@@ -69,13 +78,16 @@ static void page_answer(page_writer *page)
         else
             row = end;
     }
-    text_add(&page->out, "</section>\n");
+    text_add(&page->out, "</section>\n</div>\n</div>\n");
 }
 
-/* One column of the page, or all of it with the type of the same size. */
-static const char *width_class(double width)
+/* A file that the page holds. */
+static void add_file(page_writer *page, const char *name, const char *ending,
+                     const growing_text *file)
 {
-    return width > 1.2 ? "wide" : width > 0 && width < 0.9 ? "narrow" : "single";
+    text_html(&page->out, "<a download=\"%s.%s\" href=\"", name, ending);
+    text_data_link(&page->out, "text/plain", text_string(file), file->length);
+    text_html(&page->out, "\">%s.%s</a>", name, ending);
 }
 
 static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t number,
@@ -83,7 +95,7 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
 {
     const figure_description *figure = drawn->drawing.figure;
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
-              figure->name, width_class(drawn->drawing.width));
+              figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
     if (!svg_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
                     figure->title)) {
         wt_status status =
@@ -92,49 +104,93 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
         return status;
     }
     text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", number);
-    text_html(&page->out,
-              "%s.</strong> %s <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">"
-              "%s.tsv</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
-              figure->title, text_string(&drawn->drawing.caption), figure->name, figure->name,
-              figure->name, figure->name);
+    text_html(&page->out, "%s.</strong> %s <span class=\"source\">Data and script: ", figure->title,
+              text_string(&drawn->drawing.caption));
+    add_file(page, figure->name, "tsv", &drawn->data);
+    text_add(&page->out, ", ");
+    add_file(page, figure->name, "gp", &drawn->script);
+    text_add(&page->out, ".</span></figcaption>\n</figure>\n");
     return WT_OK;
 }
 
-static wt_status page_figures(page_writer *page, wt_error *err)
+/* Those that answer, or those behind them; counts on. */
+static wt_status add_figures(page_writer *page, bool in_depth, size_t *number, wt_error *err)
 {
     wt_status status = WT_OK;
-    size_t number = 0, n = 0;
-    for (size_t i = 0; i < page->n_figures; i++)
-        n += page->figures[i].drawing.figure != NULL;
-    if (n == 0)
-        return WT_OK;
-    page_heading(page, "figures", "Figures");
     text_add(&page->out, "<div class=\"figures\">\n");
     for (size_t i = 0; i < page->n_figures && status == WT_OK; i++)
-        if (page->figures[i].svg.length > 0)
-            status = add_figure(page, &page->figures[i], ++number, err);
+        if (page->figures[i].svg.length > 0 &&
+            page->figures[i].drawing.figure->in_depth == in_depth)
+            status = add_figure(page, &page->figures[i], ++*number, err);
     text_add(&page->out, "</div>\n");
+    return status;
+}
+
+static void add_missing_figures(page_writer *page)
+{
     for (size_t i = 0; i < page->n_figures; i++) {
         const figure_description *figure = page->figures[i].drawing.figure;
         if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
             text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
                       figure->nothing);
     }
+}
+
+static wt_status page_figures(page_writer *page, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t number = 0, n = 0, drawn[2] = {0, 0};
+    for (size_t i = 0; i < page->n_figures; i++) {
+        const figure_description *figure = page->figures[i].drawing.figure;
+        n += figure != NULL;
+        if (figure != NULL && page->figures[i].svg.length > 0)
+            drawn[figure->in_depth]++;
+    }
+    if (n == 0)
+        return WT_OK;
+    page_heading(page, "figures", "Figures");
+    if (drawn[false] > 0)
+        status = add_figures(page, false, &number, err);
+    add_missing_figures(page);
+    if (status == WT_OK && drawn[true] > 0) {
+        if (drawn[false] > 0)
+            page_fold(page, "more-figures", "More figures", PAGE_UNPRINTED);
+        status = add_figures(page, true, &number, err);
+        if (drawn[false] > 0)
+            page_fold_end(page);
+    }
+    if (number > 0) {
+        text_add(&page->out, "<p class=\"source\">The scripts are of gnuplot, and load ");
+        growing_text output = {0};
+        text_add(&output, file_of_library("output.gnuplot"));
+        add_file(page, "style", "gp", page->style);
+        text_add(&page->out, " and ");
+        add_file(page, "output", "gp", &output);
+        text_add(&page->out, ".</p>\n");
+        text_done(&output, &page->out);
+    }
     return status;
 }
 
-/* The title of the case if the result has one; of one subcommand's tables that of the first figure,
- * or of the first table. */
+/* The title of the case if the result has one; else what was asked for last, as it holds the rest,
+ * the first figure that answers, or the first table. */
 static const char *page_title(const page_writer *page)
 {
     const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     if (title != NULL && title[0] != '\0')
         return title;
-    if (page->tables->answer.table != NULL || wt_result_n_tables(page->result) == 0)
-        return comparison_schema.title;
-    for (size_t i = 0; i < page->n_figures; i++)
-        if (page->figures[i].drawing.figure != NULL && page->figures[i].svg.length > 0)
-            return page->figures[i].drawing.figure->title;
+    const table_view *const asked[] = {&page->tables->comparison, &page->tables->layer,
+                                       &page->tables->friction};
+    for (size_t i = 0; i < COUNT_OF(asked); i++)
+        if (asked[i]->n_rows > 0)
+            return asked[i]->schema->title;
+    for (int in_depth = 0; in_depth < 2; in_depth++)
+        for (size_t i = 0; i < page->n_figures; i++)
+            if (page->figures[i].svg.length > 0 &&
+                page->figures[i].drawing.figure->in_depth == in_depth)
+                return page->figures[i].drawing.figure->title;
+    if (wt_result_n_tables(page->result) == 0)
+        return "Nothing was answered";
     const wt_table *first = wt_result_table(page->result, 0);
     title = wt_table_title(first);
     return title[0] != '\0' ? title : wt_table_name(first);
@@ -145,6 +201,7 @@ wt_status page_write(page_writer *page, wt_error *err)
     // The body first, so that the contents before it are known.
     growing_text body = {0};
     page_answer(page);
+    page_failures(page);
     page_numbers(page);
     wt_status status = page_figures(page, err);
     if (status == WT_OK) {

@@ -9,8 +9,8 @@
 
 /* A figure that this library knows, drawn or not. */
 typedef struct drawn_figure {
-    figure_drawing drawing; /* zeroed if the result does not have its table */
-    growing_text svg;       /* empty if there was nothing to draw */
+    figure_drawing drawing;         /* zeroed if the result does not have its table */
+    growing_text data, script, svg; /* of the page; empty if there was nothing to draw */
 } drawn_figure;
 
 typedef struct page_writer {
@@ -18,6 +18,8 @@ typedef struct page_writer {
     growing_text contents; /* list of the headings so far */
     const wt_result *result;
     const bound_tables *tables;
+    const growing_text *style; /* that the scripts load */
+    const char *font;          /* of the figures; NULL: that of the style */
     bool with_provenance;
     const drawn_figure *figures;
     size_t n_figures;
@@ -30,7 +32,8 @@ wt_status page_write(page_writer *page, wt_error *err) WT_NODISCARD;
 void page_numbers(page_writer *page);     /* the headline numbers */
 void page_results(page_writer *page);     /* the tables of results */
 void page_indentation(page_writer *page); /* how it was indented, curves rejected */
-void page_inputs(page_writer *page);      /* inputs, failures, notes */
+void page_failures(page_writer *page);    /* what could not be read or computed */
+void page_inputs(page_writer *page);      /* inputs, notes */
 void page_cost(page_writer *page);
 void page_record(page_writer *page); /* case file, provenance */
 
@@ -38,6 +41,11 @@ void page_record(page_writer *page); /* case file, provenance */
 
 /* A section heading with an anchor; it is listed in the contents. */
 void page_heading(page_writer *page, const char *id, const char *words);
+/* A part that is folded, with an anchor, listed in the contents, too. On paper it is either
+ * unfolded or only named. page_fold_end ends it. */
+typedef enum page_on_paper { PAGE_PRINTED, PAGE_UNPRINTED } page_on_paper;
+void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper);
+void page_fold_end(page_writer *page);
 /* An HTML table of some columns and rows; headings and units as the schema says. Without columns it
  * has all that have a label, without rows all of the table. `caption` is plain text. */
 void page_table(page_writer *page, const table_view *table, const char *caption,

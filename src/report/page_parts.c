@@ -17,13 +17,34 @@ void page_heading(page_writer *page, const char *id, const char *words)
     text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
 }
 
-static void begin_table(page_writer *page, const char *caption)
+void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper)
 {
-    // The wrapper scrolls on a narrow screen, also with the keyboard.
+    // The anchor is among what is folded: a browser that goes there unfolds it.
+    text_html(&page->out,
+              "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
+              on_paper == PAGE_PRINTED ? "printed" : "unprinted", words, id);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
+}
+
+void page_fold_end(page_writer *page)
+{
+    text_add(&page->out, "</div>\n</details>\n");
+}
+
+/* More columns than a sheet of paper has place for beside each other, in the type of the page. */
+enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* of small type, too: each row is a block */ };
+
+static void begin_table(page_writer *page, const char *caption, size_t n_columns)
+{
+    // The wrapper scrolls where a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
-              "<table>\n<caption>%s</caption>\n<thead><tr>",
-              caption, caption);
+              "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
+              caption,
+              n_columns > MOST_COLUMNS   ? "blocks"
+              : n_columns > MANY_COLUMNS ? "many"
+                                         : "few",
+              caption);
 }
 
 void page_table_end(page_writer *page)
@@ -121,11 +142,24 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
     return any;
 }
 
+/* What stands above a column, again in each cell of it: on a telephone a row is a block. */
+static void begin_cell(page_writer *page, const char *words, const char *unit, bool number)
+{
+    text_add(&page->out, number ? "<td class=\"n\"" : "<td");
+    text_html(&page->out, unit[0] != '\0' ? " data-label=\"%s (%s)\">" : " data-label=\"%s\">",
+              words, unit);
+}
+
+static const char *column_label(const shown_column *shown)
+{
+    return shown->column->label != NULL ? shown->column->label : shown->column->long_name;
+}
+
 static void number_cell(page_writer *page, const shown_column *shown, double value)
 {
     const schema_field *column = shown->column;
     double lab = lab_value(&shown->lab, value);
-    text_add(&page->out, "<td class=\"n\">");
+    begin_cell(page, column_label(shown), shown->lab.label, true);
     if (isnan(value))
         text_html(&page->out, "%s", column->missing != NULL ? column->missing : "–");
     else if (column->yes_no)
@@ -135,6 +169,23 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
     else
         text_add(&page->out, NUMBER(lab, shown->digits));
     text_add(&page->out, "</td>");
+}
+
+/* The first cell of a row names it. */
+static void table_cell(page_writer *page, const table_view *table, size_t row,
+                       const shown_column *shown, bool first)
+{
+    if (!shown->text) {
+        number_cell(page, shown, view_number(table, table->schema, row, shown->place));
+        return;
+    }
+    const char *const words = view_text(table, table->schema, row, shown->place);
+    if (first) {
+        text_html(&page->out, "<th scope=\"row\">%s</th>", words);
+        return;
+    }
+    begin_cell(page, column_label(shown), "", false);
+    text_html(&page->out, "%s</td>", words);
 }
 
 void page_table(page_writer *page, const table_view *table, const char *caption,
@@ -147,25 +198,18 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
     for (unsigned i = 0; columns == NULL && i < schema->n_columns; i++)
         if (schema->columns[i].label != NULL)
             labelled[n_columns++] = i;
-    begin_table(page, caption);
     for (size_t i = 0; i < n_columns; i++)
-        if (choose_column(&shown[n], table, columns != NULL ? columns[i] : labelled[i], rows,
-                          n_rows)) {
-            const schema_field *column = shown[n].column;
-            heading_cell(page, column->label != NULL ? column->label : column->long_name,
-                         shown[n].lab.label, !shown[n].text);
-            n++;
-        }
+        n += choose_column(&shown[n], table, columns != NULL ? columns[i] : labelled[i], rows,
+                           n_rows);
+    begin_table(page, caption, n);
+    for (size_t c = 0; c < n; c++)
+        heading_cell(page, column_label(&shown[c]), shown[c].lab.label, !shown[c].text);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n_rows; i++) {
         size_t row = row_at(rows, i);
         text_add(&page->out, "<tr>");
         for (size_t c = 0; c < n; c++)
-            if (shown[c].text) // the first cell of a row names it
-                text_html(&page->out, c == 0 ? "<th scope=\"row\">%s</th>" : "<td>%s</td>",
-                          view_text(table, schema, row, shown[c].place));
-            else
-                number_cell(page, &shown[c], view_number(table, schema, row, shown[c].place));
+            table_cell(page, table, row, &shown[c], c == 0);
         text_add(&page->out, "</tr>\n");
     }
     page_table_end(page);
@@ -180,15 +224,18 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
 
 /* ---- values with both errors ----------------------------------------------------------------- */
 
+static const char value_heading[] = "Value", statistical_heading[] = "Statistical error",
+                  numerical_heading[] = "Numerical error", remark_heading[] = "Remark";
+
 void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
 {
-    begin_table(page, caption);
+    begin_table(page, caption, remarks ? 5 : 4);
     heading_cell(page, "Quantity", "", false);
-    heading_cell(page, "Value", "", true);
-    heading_cell(page, "Statistical error", "", true);
-    heading_cell(page, "Numerical error", "", true);
+    heading_cell(page, value_heading, "", true);
+    heading_cell(page, statistical_heading, "", true);
+    heading_cell(page, numerical_heading, "", true);
     if (remarks)
-        heading_cell(page, "Remark", "", false);
+        heading_cell(page, remark_heading, "", false);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
@@ -234,20 +281,25 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
                    wt_quantity quantity, const char *interval, const char *remark)
 {
     lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td class=\"n\">", words);
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
+    begin_cell(page, value_heading, "", true);
     add_value(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
         add_unit(&page->out, lab.label);
-    text_add(&page->out, "</td><td class=\"n\">");
+    text_add(&page->out, "</td>");
+    begin_cell(page, statistical_heading, "", true);
     if (interval != NULL)
         text_html(&page->out, "%s", interval);
     else
         add_error(&page->out, estimate->standard_error, &lab);
-    text_add(&page->out, "</td><td class=\"n\">");
+    text_add(&page->out, "</td>");
+    begin_cell(page, numerical_heading, "", true);
     add_error(&page->out, estimate->numerical_error, &lab);
     text_add(&page->out, "</td>");
-    if (remark != NULL)
-        text_html(&page->out, "<td>%s</td>", remark);
+    if (remark != NULL) {
+        begin_cell(page, remark_heading, "", false);
+        text_html(&page->out, "%s</td>", remark);
+    }
     text_add(&page->out, "</tr>\n");
 }
 
@@ -301,7 +353,9 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
             page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE, NULL,
                           NULL);
         else {
-            text_html(&page->out, "<tr><th scope=\"row\">%s</th><td colspan=\"3\">", label);
+            text_html(&page->out,
+                      "<tr><th scope=\"row\">%s</th><td data-label=\"Value\" colspan=\"3\">",
+                      label);
             add_plain(page, key, wt_table_key(table->table, name));
             text_add(&page->out, "</td></tr>\n");
         }

@@ -6,18 +6,31 @@
 
 #include "base/array.h"
 
+void page_failures(page_writer *page)
+{
+    const table_view *table = &page->tables->failures;
+    if (table->n_rows > 0)
+        page_heading(page, "failures", "Failures");
+    page_whole_table(page, table, "What could not be read or computed", NULL, 0);
+}
+
+static void folded_table(page_writer *page, const char *id, const char *words,
+                         const table_view *table, const char *caption)
+{
+    if (table->n_rows == 0)
+        return;
+    page_fold(page, id, words, PAGE_PRINTED);
+    page_whole_table(page, table, caption, NULL, 0);
+    page_fold_end(page);
+}
+
 void page_inputs(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    if (t->failures.n_rows > 0)
-        page_heading(page, "failures", "Failures");
-    page_whole_table(page, &t->failures, "What could not be read or computed", NULL, 0);
-    if (t->inputs.n_rows > 0)
-        page_heading(page, "inputs", "Inputs");
-    page_whole_table(page, &t->inputs, "Files read, with their digests", NULL, 0);
-    if (t->notes.n_rows > 0)
-        page_heading(page, "notes", "Notes of reading and fitting");
-    page_whole_table(page, &t->notes, "Notes and warnings", NULL, 0);
+    folded_table(page, "inputs", "Inputs", &t->inputs, "Files read, with their digests");
+    folded_table(page, "methods", "Methods", &t->methods,
+                 "Methods, what they did here, and where they are described");
+    folded_table(page, "notes", "Notes of reading and fitting", &t->notes, "Notes and warnings");
 }
 
 void page_cost(page_writer *page)
@@ -37,12 +50,13 @@ void page_cost(page_writer *page)
         if (n[out] < STAGES)
             rows[out][n[out]++] = row;
     }
-    page_heading(page, "cost", "Cost and error by stage");
+    page_fold(page, "cost", "Cost and error by stage", PAGE_UNPRINTED);
     if (n[0] > 0)
         page_table(page, table, "Stages that ran", ran,
                    COUNT_OF(ran) - (page->with_provenance ? 0 : N_TIMES), rows[0], n[0]);
     if (n[1] > 0)
         page_table(page, table, "Stages left out", left_out, COUNT_OF(left_out), rows[1], n[1]);
+    page_fold_end(page);
 }
 
 void page_record(page_writer *page)
@@ -52,17 +66,19 @@ void page_record(page_writer *page)
     if (xml != NULL && length > 0) {
         growing_text copy = {0}; // it need not end in zero
         text_bytes(&copy, xml, length);
-        page_heading(page, "case", "Case file");
+        page_fold(page, "case", "Case file", PAGE_UNPRINTED);
         text_html(&page->out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", text_string(&copy));
+        page_fold_end(page);
         text_done(&copy, &page->out);
     }
     const wt_provenance *provenance = wt_result_provenance_const(page->result);
     if (!page->with_provenance || provenance == NULL)
         return;
     const char *command = wt_provenance_command(provenance);
-    page_heading(page, "provenance", "Provenance");
+    page_fold(page, "provenance", "Provenance", PAGE_PRINTED);
     text_html(&page->out, "<dl>\n<dt>Page written by</dt><dd>weartrack %s</dd>\n", wt_version());
     if (command[0] != '\0')
         text_html(&page->out, "<dt>Command</dt><dd>%s</dd>\n", command);
     text_add(&page->out, "</dl>\n");
+    page_fold_end(page);
 }

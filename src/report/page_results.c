@@ -94,7 +94,7 @@ void page_results(page_writer *page)
         any = shown[i]->table != NULL;
     if (!any)
         return;
-    page_heading(page, "tables", "Tables");
+    page_fold(page, "tables", "Tables", PAGE_PRINTED);
     page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
                      COUNT_OF(group_columns));
     page_whole_table(page, &t->modulus_budget, "Error of the modulus by group", NULL, 0);
@@ -156,6 +156,7 @@ void page_results(page_writer *page)
                      NULL, 0);
     page_keys(page, &t->work_precision, "What more work buys");
     page_whole_table(page, &t->work_precision, "Error against run time", NULL, 0);
+    page_fold_end(page);
 }
 
 /* ---- curves without a modulus, or with a doubtful one
@@ -192,10 +193,12 @@ void page_indentation(page_writer *page)
         const table_view *table = &page->tables->indentation[i];
         growing_text caption = {0};
         if (i == 0)
-            page_heading(page, "indentation", "Indentation record");
+            page_fold(page, "indentation", "Indentation record", PAGE_UNPRINTED);
         rejected_of(page, table);
         text_format(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
         text_done(&caption, &page->out);
     }
+    if (page->tables->n_indentation > 0)
+        page_fold_end(page);
 }

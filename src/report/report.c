@@ -5,111 +5,99 @@
 #include "weartrack/report.h"
 
 #include "base/param.h"
+#include "report/figure_files.h"
 #include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
 #include "report/page.h"
 
-#include <pthread.h>
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 wt_report_options wt_report_defaults(void)
 {
-    return (wt_report_options){
-        .style = "paper", .gnuplot = "gnuplot", .with_provenance = true, .gnuplot_time = 120};
+    return (wt_report_options){.style = "paper",
+                               .gnuplot = "gnuplot",
+                               .with_provenance = true,
+                               .gnuplot_time = 120,
+                               .width = (double)NAN};
 }
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("style", wt_report_options, style), .value = "STYLE",
      .help = "plot style: paper, screen or a file of yours, a script that gnuplot runs"},
+    {PARAM_OTHER_OF("figures", wt_report_options, figures, figure_formats_read), .value = "FORMATS",
+     .flags = PARAM_NO_CASE, .unset = "",
+     .help = "pictures for a paper in the folder, too, some of svg,pdf,png, parted by commas; "
+             "bitmaps have 600 dots in an inch"},
+    /* narrower no key fits, wider is a poster */
+    {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
+     .flags = PARAM_NO_CASE, .unset = "as the style has it",
+     .help = "width of a figure in the paper, such as 85mm, with type of 8 points (style screen: "
+             "12); with panels beside each other 170 mm at least"},
+    {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME", .flags = PARAM_NO_CASE,
+     .unset = "as the style has it", .check = figure_font_check,
+     .help = "font of the figures, such as Arial"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
     {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",
      .flags = PARAM_NO_CASE, .help = "the longest that one figure may take to draw"},
-    PARAM_THREADS(wt_report_options),
 };
 PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PARTS)
 
 /* ---- figures --------------------------------------------------------------------------------- */
 
+/* One picture to draw. */
+typedef struct picture {
+    size_t figure;
+    const char *format;
+} picture;
+
 /* One report while it is written. */
 typedef struct report {
+    wt_report_options options;
     bound_tables tables;
-    gnuplot_call gnuplot; /* but for the script */
     growing_text style;
-    bool has_style; /* in the folder */
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    wt_error *errors;      /* of each */
+    picture *pictures;     /* in the order in which they are drawn */
+    size_t n_pictures, next;
+    double since; /* when the last one was begun */
+    bool late;    /* it took too long */
     const wt_progress *progress;
-    pthread_mutex_t lock; /* for what follows, and so that progress is told by one at a time */
-    size_t step;          /* the last figure that was begun */
-    bool failed;
 } report;
 
-/* Tells that the figure of this step is next, or the page, the last one; false to stop. */
-static bool tell_progress(report *r, size_t step)
+/* Tells which figure is being drawn, or the page, the last one; false to stop. */
+static bool tell_progress(const report *r, size_t step)
 {
-    (void)pthread_mutex_lock(&r->lock);
-    r->step = step > r->step ? step : r->step;
-    const char *what = r->step < wt_figure_count() ? figure_find(r->step)->name : "page";
-    const bool more = !r->failed && (r->progress == NULL || r->progress->report == NULL ||
-                                     r->progress->report(r->progress->user, what, r->step,
-                                                         wt_figure_count() + 1));
-    (void)pthread_mutex_unlock(&r->lock);
-    return more;
+    const size_t n = wt_figure_count();
+    return r->progress == NULL || r->progress->report == NULL ||
+           r->progress->report(r->progress->user, step < n ? figure_find(step)->name : "page", step,
+                               n + 1);
 }
 
+/* A picture is there as soon as gnuplot begins it. */
+static bool is_begun(const report *r, const picture *p)
+{
+    char name[96];
+    (void)snprintf(name, sizeof name, "%s.%s", figure_find(p->figure)->name, p->format);
+    char *path = wt_path_join(folder_plots(r->folder), name);
+    const bool there = path != NULL && access(path, F_OK) == 0;
+    free(path);
+    return there;
+}
+
+/* Asked all the while that gnuplot draws. */
 static bool go_on(void *user)
 {
-    return tell_progress(user, 0);
-}
-
-static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
-{
-    wt_status status = WT_OK;
-    char name[128], *bytes = NULL;
-    size_t length = 0;
-    FILE *stream = open_memstream(&bytes, &length);
-    if (stream == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < d->n_sections && status == WT_OK; i++) {
-        if (i > 0) // gnuplot's `index` counts what two blank lines part
-            (void)fputs("\n\n", stream);
-        status = wt_stream_write(stream, d->sections[i], NULL, err);
-    }
-    if (fclose(stream) != 0 && status == WT_OK)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
-    if (status == WT_OK)
-        status = folder_write(folder, name, bytes, length, err);
-    free(bytes);
-    return status;
-}
-
-static wt_status write_script(const report_folder *folder, const figure_drawing *d, wt_error *err)
-{
-    const char *const figure = d->figure->name;
-    growing_text script = {0};
-    char name[128];
-    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
-    text_format(&script,
-                "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
-                "the axes.\n",
-                figure);
-    text_comment(&script, text_string(&d->caption));
-    text_format(&script,
-                "reset\nfigure_width = %s; figure_height = %s\nload 'style.gp'\n"
-                "set datafile separator \"\\t\"\nset output '%s.svg'\n",
-                LITERAL(d->width), LITERAL(d->height), figure);
-    text_add(&script, text_string(&d->script));
-    text_add(&script, "set output\n");
-    (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
-    wt_status status = script.failed
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : folder_write(folder, name, text_string(&script), script.length, err);
-    text_free(&script);
-    return status;
+    report *r = user;
+    for (; r->next < r->n_pictures && is_begun(r, &r->pictures[r->next]); r->next++)
+        r->since = wt_time_wall();
+    r->late = wt_time_wall() - r->since > r->options.gnuplot_time;
+    const size_t drawn = r->next > 0 ? r->next - 1 : 0;
+    return !r->late && tell_progress(r, r->pictures[drawn].figure);
 }
 
 /* What the picture of a figure is made of; nothing if there is nothing to draw. */
@@ -118,79 +106,94 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     figure_drawing *d = &r->figures[i].drawing;
     if (bound_find(&r->tables, figure_find(i)->table)->n_rows == 0)
         return WT_OK;
-    wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
+    const wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
     if (d->script.failed || d->caption.failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (d->script.length == 0)
-        return WT_OK;
-    if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, err)) != WT_OK || r->has_style)
-        return status;
-    r->has_style = true;
-    return folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
+    return d->script.length == 0 ? WT_OK
+                                 : figure_write(r->folder, &r->options, &r->figures[i], err);
 }
 
-/* The picture of one figure, from its script. */
-static wt_status draw_picture(const report *r, drawn_figure *figure, wt_error *err)
+/* What all scripts load. */
+static wt_status write_style(const report *r, wt_error *err)
 {
-    const char *const name = figure->drawing.figure->name;
-    char script[96], picture[96];
-    (void)snprintf(script, sizeof script, "%s.gp", name);
-    (void)snprintf(picture, sizeof picture, "%s.svg", name);
-    gnuplot_call call = r->gnuplot;
-    call.script = script;
-    const wt_status status = gnuplot_run(&call, err);
-    if (status != WT_OK)
-        return status;
-    char *path = wt_path_join(folder_plots(r->folder), picture);
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status read = file_read(path, GNUPLOT_PICTURE_LIMIT, &figure->svg, err);
-    free(path);
-    return read;
-}
-
-static wt_status draw_one(void *user, size_t i, unsigned worker)
-{
-    report *r = user;
-    (void)worker;
-    if (r->figures[i].drawing.script.length == 0)
-        return WT_OK;
+    const char *const output = file_of_library("output.gnuplot");
     const wt_status status =
-        tell_progress(r, i) ? draw_picture(r, &r->figures[i], &r->errors[i])
-                            : wt_fail(&r->errors[i], WT_E_CANCELLED, "the report was cancelled");
-    if (status != WT_OK) {
-        (void)pthread_mutex_lock(&r->lock);
-        r->failed = true;
-        (void)pthread_mutex_unlock(&r->lock);
-    }
+        folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
+    return status == WT_OK ? folder_write(r->folder, "plots/output.gp", output, strlen(output), err)
+                           : status;
+}
+
+/* Every figure in each format: the page's first. */
+static void list_pictures(report *r)
+{
+    const unsigned formats = r->options.figures | WT_FIGURE_SVG;
+    for (size_t k = 0; figure_format(k) != NULL; k++)
+        for (size_t i = 0; i < wt_figure_count(); i++)
+            if ((formats >> k & 1) != 0 && r->figures[i].script.length > 0)
+                r->pictures[r->n_pictures++] = (picture){i, figure_format(k)};
+}
+
+/* One gnuplot draws all: starting it takes longer than a picture. */
+static wt_status draw_pictures(report *r, wt_error *err)
+{
+    enum { EACH = 2 + 1, NAME = 96 }; // `-e FORMAT` where that changes, and the script
+    const char **arguments = calloc(EACH * r->n_pictures + 2, sizeof *arguments);
+    char(*names)[NAME] = calloc(2 * r->n_pictures, sizeof *names);
+    wt_status status = WT_E_MEMORY;
+    size_t n = 0, used = 0;
+    if (arguments != NULL && names != NULL) {
+        arguments[n++] = "--default-settings";
+        for (size_t i = 0; i < r->n_pictures; i++) {
+            const picture *p = &r->pictures[i];
+            if (i == 0 || p->format != r->pictures[i - 1].format) {
+                (void)snprintf(names[used], NAME, "figure_format = '%s'", p->format);
+                arguments[n++] = "-e";
+                arguments[n++] = names[used++];
+            }
+            (void)snprintf(names[used], NAME, "%s.gp", figure_find(p->figure)->name);
+            arguments[n++] = names[used++];
+        }
+        r->since = wt_time_wall();
+        const gnuplot_call call = {.program = r->options.gnuplot,
+                                   .folder = folder_plots(r->folder),
+                                   .arguments = arguments,
+                                   .limit = r->options.gnuplot_time,
+                                   .late = &r->late,
+                                   .go_on = go_on,
+                                   .user = r};
+        status = gnuplot_run(&call, err);
+    } else
+        wt_fail(err, status, "out of memory");
+    free(arguments);
+    free(names);
     return status;
 }
 
-/* Those that are ended because of another one say no more than that. */
-static wt_status draw_all(report *r, unsigned threads, wt_error *err)
+static wt_status draw_all(report *r, wt_error *err)
 {
-    const size_t n = wt_figure_count();
-    const wt_status status = wt_parallel_for(n, threads, draw_one, r, NULL, "figures");
-    const wt_error *first = NULL;
-    for (size_t i = 0; i < n; i++)
-        if (r->errors[i].status != WT_OK && (first == NULL || first->status == WT_E_CANCELLED))
-            first = &r->errors[i];
-    if (first == NULL)
-        return status;
-    if (err != NULL)
-        *err = *first;
-    return first->status;
+    wt_status status = WT_OK;
+    list_pictures(r);
+    if (r->n_pictures == 0)
+        return WT_OK;
+    if ((status = write_style(r, err)) == WT_OK && !tell_progress(r, r->pictures[0].figure))
+        status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
+    if (status == WT_OK)
+        status = draw_pictures(r, err);
+    for (size_t i = 0; i < wt_figure_count() && status == WT_OK; i++)
+        if (r->figures[i].script.length > 0)
+            status = figure_take(r->folder, &r->options, &r->figures[i], err);
+    return status;
 }
 
-static wt_status make_page(const report *r, const wt_result *result, bool with_provenance,
-                           wt_error *err)
+static wt_status make_page(const report *r, const wt_result *result, wt_error *err)
 {
     page_writer page = {.result = result,
                         .tables = &r->tables,
-                        .with_provenance = with_provenance,
+                        .style = &r->style,
+                        .font = r->options.font,
+                        .with_provenance = r->options.with_provenance,
                         .figures = r->figures,
                         .n_figures = wt_figure_count()};
     wt_status status = page_write(&page, err);
@@ -200,12 +203,23 @@ static wt_status make_page(const report *r, const wt_result *result, bool with_p
     return status;
 }
 
+static wt_status check_options(const char *place, const wt_report_options *options, wt_error *err)
+{
+    wt_status status = param_check(wt_report_params(), options, err);
+    if (status != WT_OK || options->figures == 0 || !place_is_page(place))
+        return status;
+    status = wt_fail(err, WT_E_ARG, "pictures for a paper need a folder");
+    wt_error_file(err, place);
+    wt_error_advice(err, "name a folder, without .html at its end");
+    return status;
+}
+
 wt_status wt_report_check(const char *folder, const wt_report_options *options, wt_error *err)
 {
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     growing_text style = {0};
     report_folder *made = NULL;
-    wt_status status = param_check(wt_report_params(), &chosen, err);
+    wt_status status = check_options(folder, &chosen, err);
     if (status == WT_OK)
         status = file_style(chosen.style, &style, err);
     if (status == WT_OK)
@@ -215,54 +229,54 @@ wt_status wt_report_check(const char *folder, const wt_report_options *options, 
     return status;
 }
 
+static void report_clear(report *r)
+{
+    folder_discard(r->folder);
+    for (size_t i = 0; r->figures != NULL && i < wt_figure_count(); i++) {
+        drawing_clear(&r->figures[i].drawing);
+        text_free(&r->figures[i].data);
+        text_free(&r->figures[i].script);
+        text_free(&r->figures[i].svg);
+    }
+    free(r->figures);
+    free(r->pictures);
+    text_free(&r->style);
+    bound_clear(&r->tables);
+}
+
 wt_status wt_report_write(const wt_result *result, const char *folder,
                           const wt_report_options *options, const wt_progress *progress,
                           wt_error *err)
 {
-    const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
-    size_t n = wt_figure_count();
-    report r = {.gnuplot = {.program = chosen.gnuplot,
-                            .limit = chosen.gnuplot_time,
-                            .go_on = go_on,
-                            .user = &r},
+    enum { FORMATS = 3 };
+    const size_t n = wt_figure_count();
+    report r = {.options = options != NULL ? *options : wt_report_defaults(),
                 .progress = progress,
-                .lock = PTHREAD_MUTEX_INITIALIZER,
                 .figures = calloc(n, sizeof *r.figures),
-                .errors = calloc(n, sizeof *r.errors)};
-    wt_status status = param_check(wt_report_params(), &chosen, err);
-    if (status == WT_OK && (r.figures == NULL || r.errors == NULL))
+                .pictures = calloc(FORMATS * n, sizeof *r.pictures)};
+    wt_status status = check_options(folder, &r.options, err);
+    if (status == WT_OK && (r.figures == NULL || r.pictures == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = bound_make(result, &r.tables, err);
     if (status == WT_OK)
-        status = file_style(chosen.style, &r.style, err);
+        status = file_style(r.options.style, &r.style, err);
     if (status == WT_OK)
         status = folder_open(folder, &r.folder, err);
-    if (status == WT_OK)
-        r.gnuplot.folder = folder_plots(r.folder);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         status = write_figure(&r, i, err);
     if (status == WT_OK)
-        status = draw_all(&r, chosen.threads, err);
+        status = draw_all(&r, err);
     if (status == WT_OK && !tell_progress(&r, n))
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
-        status = make_page(&r, result, chosen.with_provenance, err);
+        status = make_page(&r, result, err);
     if (status == WT_OK) {
         status = folder_commit(r.folder, err);
         r.folder = NULL;
         if (status == WT_OK)
             (void)tell_progress(&r, n + 1); // it is there: too late to cancel
     }
-    folder_discard(r.folder);
-    for (size_t i = 0; r.figures != NULL && i < n; i++) {
-        drawing_clear(&r.figures[i].drawing);
-        text_free(&r.figures[i].svg);
-    }
-    free(r.figures);
-    free(r.errors);
-    (void)pthread_mutex_destroy(&r.lock);
-    text_free(&r.style);
-    bound_clear(&r.tables);
+    report_clear(&r);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "report/svg.h"
 
 #include "base/array.h"
+#include "base/number.h"
 
 #include <string.h>
 
@@ -22,6 +23,44 @@ static size_t up_to(const char *s, size_t n, const char *end)
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
+/* Width and height of the picture in units of its own; false if it does not say them. */
+static bool canvas_size(const char *svg, size_t length, double size[2])
+{
+    static const char box[] = "viewBox=\"0 0 ";
+    const char *s = memmem(svg, length, box, sizeof box - 1);
+    const char *const end = svg + length;
+    if (s == NULL)
+        return false;
+    s += sizeof box - 1;
+    for (int i = 0; i < 2; i++) {
+        const char *number = s;
+        while (s < end && *s != ' ' && *s != '"')
+            s++;
+        if (!number_read(number, (size_t)(s - number), &size[i]) || !(size[i] > 0 && size[i] < 1e5))
+            return false;
+        s += s < end;
+    }
+    return true;
+}
+
+void svg_sized(growing_text *out, const char *svg, size_t length, double unit)
+{
+    double size[2];
+    const char *begin = memmem(svg, length, "<svg", 4);
+    if (begin == NULL || !canvas_size(svg, length, size)) {
+        text_bytes(out, svg, length);
+        return;
+    }
+    begin += 4;
+    text_bytes(out, svg, (size_t)(begin - svg));
+    text_format(out, " width=\"%.2fmm\" height=\"%.2fmm\"", unit * size[0], unit * size[1]);
+    text_bytes(out, begin, (size_t)(svg + length - begin));
+}
+
+/* The type of the built-in style, 15 units, is as tall as 14 of the 16 pixels of the text of a
+ * page: the same in every picture, and two of the usual width stand beside each other. */
+static const double rem_per_unit = 14.0 / 15 / 16;
+
 bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
                 const char *label)
 {
@@ -30,8 +69,11 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
         return false;
-    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
     const char *const end = svg + length;
+    double size[2];
+    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
+    if (canvas_size(begin, (size_t)(end - begin), size))
+        text_format(page, " style=\"max-width:%.1frem\"", rem_per_unit * size[0]);
     bool in_tag = true;
     for (const char *s = begin + 4; s < end;) {
         const size_t left = (size_t)(end - s);

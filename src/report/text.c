@@ -140,6 +140,25 @@ void text_html(growing_text *text, const char *markup, ...)
     va_end(arguments);
 }
 
+void text_data_link(growing_text *text, const char *media, const char *bytes, size_t length)
+{
+    static const char digits[] = "0123456789ABCDEF",
+                      plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                "-._~:/,;=+*()!$@?";
+    text_format(text, "data:%s;charset=utf-8,", media);
+    for (const char *s = bytes; s < bytes + length;) {
+        const char *first = s;
+        while (s < bytes + length && memchr(plain, *s, sizeof plain - 1) != NULL)
+            s++;
+        text_bytes(text, first, (size_t)(s - first));
+        if (s == bytes + length)
+            break;
+        const unsigned char c = (unsigned char)*s++;
+        const char code[] = {'%', digits[c >> 4], digits[c & 15]};
+        text_bytes(text, code, sizeof code);
+    }
+}
+
 /* What gnuplot may take for more than itself: quotes, escapes, commands, macros. Two single quotes
  * in a row are no way to write one: gnuplot 5.4 fails on them at either end of a string. */
 #define SPECIAL "'\"\\`@"

@@ -29,6 +29,8 @@ void text_vformat(growing_text *text, const char *format, va_list arguments) WT_
 /* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
  * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */
 void text_html(growing_text *text, const char *markup, ...) WT_PRINTF(2, 3);
+/* A link that holds what it leads to: "data:", type of media, the bytes. For a quoted attribute. */
+void text_data_link(growing_text *text, const char *media, const char *bytes, size_t length);
 /* A gnuplot string that means this text, whatever it holds; control characters become blanks, what
  * is not UTF-8 or not allowed in XML becomes U+FFFD. */
 void text_quoted(growing_text *text, const char *string);

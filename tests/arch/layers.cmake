@@ -86,7 +86,7 @@ set(third_party
   "^seccomp\\.h" base
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
-  "^zlib\\.h" data+read
+  "^zlib\\.h" data+read+report
   "^(zip|libdeflate)\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read

@@ -111,9 +111,7 @@ int main(int argc, char **argv)
     fprintf(file, "#!/bin/sh\ntrap '' TERM INT HUP\necho $$ >'%s/pid'\nexec sleep 100\n", argv[3]);
     if (fclose(file) != 0 || chmod(fake, 0755) != 0)
         return 2;
-    /* One picture at a time: the number in the file is that of the only gnuplot. */
-    char *const report[] = {argv[1],     "report", "case.h5",   "-o", "report",
-                            "--threads", "1",      "--gnuplot", fake, NULL};
+    char *const report[] = {argv[1], "report", "case.h5", "-o", "report", "--gnuplot", fake, NULL};
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL, SIGINT};
     bool good = true; /* the last one removes what the one before it has left */
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)

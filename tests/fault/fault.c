@@ -532,8 +532,10 @@ int main(int argc, char **argv)
     FILE *out = fopen(plot, "w");
     if (out == NULL)
         give_up(plot);
-    fputs("#!/bin/sh\necho '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>' >\"${2%.gp}.svg\"\n",
-          out);
+    fputs(
+        "#!/bin/sh\nfor f; do case $f in *.gp) "
+        "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>' >\"${f%.gp}.svg\";; esac; done\n",
+        out);
     if (fclose(out) != 0 || chmod(plot, 0700) != 0)
         give_up(plot);
     write_long();

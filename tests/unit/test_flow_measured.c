@@ -73,6 +73,7 @@ static void test_measured(void **state)
                                          "what_if",
                                          "answer",
                                          "inputs",
+                                         "methods",
                                          "notes",
                                          "failures",
                                          "cost"};

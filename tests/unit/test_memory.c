@@ -353,7 +353,6 @@ static wt_status pass_store(FILE **out, wt_error *err)
 static wt_status write_report(FILE **out, wt_error *err)
 {
     wt_report_options options = wt_report_defaults();
-    options.threads = 1; /* allocations are counted */
     wt_result *result = NULL;
     char path[128];
     wt_status status = make_result(&result, err);
@@ -417,8 +416,10 @@ static int set_up(void **state)
     fclose(out);
     snprintf(program, sizeof program, "%s/plot", folder);
     out = fopen(program, "w");
-    fputs("#!/bin/sh\necho '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>' >\"${2%.gp}.svg\"\n",
-          out);
+    fputs(
+        "#!/bin/sh\nfor f; do case $f in *.gp) "
+        "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>' >\"${f%.gp}.svg\";; esac; done\n",
+        out);
     fclose(out);
     if (chmod(program, 0700) != 0)
         return -1;

@@ -186,7 +186,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"shift_factors", "title 'too little overlap'", "temperature determined log_a"},
         {"shift_factors", "$2-offset-$5",
          "temperature determined log_a law_log_a log_a_standard_error"},
-        {"shift_factors", "($6-$5)", "temperature law_log_a_low law_log_a law_log_a_high"},
+        {"shift_factors", "-$5):($7-$5)", "temperature law_log_a_low law_log_a law_log_a_high"},
         {"vertical_shifts", "title 'isotherms'", "temperature log_b log_b_standard_error"},
         {"vertical_shifts", "title 'material'", "temperature log_b_material"},
         {"vertical_shifts", "title 'rubber elasticity'", "temperature log_b_physical"},
@@ -215,7 +215,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"payne", "title 'a tenth lost'", "strain_tenth storage_start"},
         {"payne", "title 'half lost'", "strain_half storage_start"},
         {"power_spectrum", "lines ls 21", "wavenumber density"},
-        {"friction", "ls 71 notitle", "velocity friction friction_standard_error"},
+        {"friction", "ls 71 title", "velocity friction friction_standard_error"},
         {"friction", "ls 72 notitle", "velocity hysteresis hysteresis_standard_error"},
         {"friction", "ls 74 notitle",
          "velocity friction_with_layer friction_with_layer_standard_error"},
@@ -247,7 +247,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"flash_friction", "title 'of a contact that stays hot'", "velocity hot_hysteresis"},
         {"directions", "title 'both'", "velocity hysteresis"},
         {"energy_density", "lines ls 21", "depth energy_density"},
-        {"layer", "ls 71 notitle", "time thickness thickness_standard_error"},
+        {"layer", "ls 71 title", "time thickness thickness_standard_error"},
         {"layer", "title 'thickness'", "time thickness"},
         {"layer", "title 'formation'", "time formation_rate"},
         {"layer", "title 'wear'", "time wear_rate"},
@@ -480,6 +480,10 @@ static void test_label_with_subscripts(void **state)
     NEED_REPORT();
     char *script = read_plot("out", "shift_factors", "gp");
     assert_non_null(strstr(script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n"));
+    // The law is not drawn over the first isotherm, of -30 degC, which does not determine it.
+    const char *low = strstr(script, "; t_low = ");
+    assert_non_null(low);
+    assert_near_abs(strtod(low + strlen("; t_low = "), NULL), -20, 0.1);
     free(script);
 }
 

@@ -148,12 +148,13 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 {
     (void)state;
     static const char svg[] =
-        "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\">\n<title>Gnuplot</title>"
+        "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 600 1\">\n<title>Gnuplot</title>"
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
         "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
     growing_text text = {0};
     assert_true(svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
-    assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" viewBox=\"0 0 1 1\">\n"
+    assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
+                       "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
                        "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/>"
                        "<text> id='a' url(#c)</text></g></svg>");
     assert_false(svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
@@ -161,6 +162,16 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 }
 
 /* ---- axes ------------------------------------------------------------------------------------ */
+
+static void test_data_links(void **state)
+{
+    (void)state;
+    growing_text text = {0};
+    text_data_link(&text, "text/plain", "a\tb\n\"%\0µ", 9);
+    assert_text(&text, "data:text/plain;charset=utf-8,a%09b%0A%22%25%00%C2%B5");
+    text_data_link(&text, "text/plain", "", 0);
+    assert_text(&text, "data:text/plain;charset=utf-8,");
+}
 
 /* gnuplot puts the label of an axis beside those of its tics, and off the paper if they are wide.
  */
@@ -240,6 +251,7 @@ int main(void)
         cmocka_unit_test(test_escaping),
         cmocka_unit_test(test_lab_units),
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
+        cmocka_unit_test(test_data_links),
         cmocka_unit_test(test_wide_labels_have_a_margin),
         cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),
     };

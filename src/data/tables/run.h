@@ -31,6 +31,13 @@
     X(NOTES_COUNT, IN(entry, count), "how often", NUMBER, LABEL("Times"))
 #define NOTES_KEYS(X)
 
+#define METHODS_COLUMNS(X)                                                                         \
+    X(METHODS_METHOD, AS(method), "method", TEXT, LABEL("Method"))                                 \
+    X(METHODS_TEXT, AS(text), "what it did, for a section on methods", TEXT, LABEL("Here"))        \
+    X(METHODS_REFERENCE, AS(reference), "where it is described", TEXT, LABEL("Reference"))         \
+    X(METHODS_DOI, AS(doi), "digital object identifier of that", TEXT, LABEL("DOI"))
+#define METHODS_KEYS(X)
+
 #define FAILURES_COLUMNS(X)                                                                        \
     X(FAILURES_FILE, AS(file), "file or stage that failed", TEXT, LABEL("File"))                   \
     X(FAILURES_MESSAGE, AS(message), "what went wrong, where, and what to do", TEXT,               \

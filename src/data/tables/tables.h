@@ -52,6 +52,7 @@
     X(answer, ANSWER, "answer", "The answer", "run")                                               \
     X(inputs, INPUTS, "inputs", "Files that were read", "run")                                     \
     X(notes, NOTES, "notes", "Notes and warnings", "run")                                          \
+    X(methods, METHODS, "methods", "Methods and where they are described", "run")                  \
     X(failures, FAILURES, "failures", "What could not be used", "run")                             \
     X(cost, COST, "cost", "Stages, their time and their numerical error", "run")                   \
     X(plan, PLAN, "plan", "Stages of this case", "run")                                            \

@@ -35,8 +35,8 @@ void flow_things_list(flow_things things, char *text, size_t size)
 
 bool flow_things_of_table(const char *table, flow_things *things)
 {
-    static const table_schema *const always[] = {&answer_schema, &inputs_schema, &notes_schema,
-                                                 &failures_schema, &cost_schema};
+    static const table_schema *const always[] = {&answer_schema, &inputs_schema,   &methods_schema,
+                                                 &notes_schema,  &failures_schema, &cost_schema};
     *things = 0;
     for (size_t i = 0; i < COUNT_OF(always); i++)
         if (strcmp(table, always[i]->name) == 0)

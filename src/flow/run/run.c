@@ -224,8 +224,8 @@ static void warn_of_copies(const conduct *d)
 
 static wt_status finish_result(conduct *d, wt_error *err)
 {
-    wt_table *answer = NULL, *inputs = NULL, *notes = NULL, *cost = NULL;
-    wt_table **const last[] = {&answer, &inputs, &notes, &d->failures, &cost};
+    wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
+    wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
@@ -240,6 +240,8 @@ static wt_status finish_result(conduct *d, wt_error *err)
         wt_result_remarks(d->result, d->run.job.log);
     if (status == WT_OK)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
+    if (status == WT_OK)
+        status = wt_methods_table(d->result, &methods, err);
     if (status == WT_OK)
         status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
     if (status == WT_OK)

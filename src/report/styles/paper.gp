@@ -1,8 +1,12 @@
 # weartrack plot style "paper": for a page of text.
-# Each script sets figure_width and figure_height (in panels of this style) and loads this file.
-# Terminal and sizes are set here; everything else of a figure is in its script.
+# Each script sets figure_width and figure_height, in panels of this style, and loads this file; of a
+# figure of a given width it sets panel_width, too. Sizes are in units of 8/15 point.
 set encoding utf8
-set terminal svg size 620*figure_width,430*figure_height dynamic enhanced font 'Helvetica,15' background '#ffffff'
+if (!exists("panel_width")) panel_width = 620
+if (!exists("figure_font")) figure_font = 'Helvetica'
+panel_height = 430./620*panel_width
+figure_type = 15
+set terminal svg size int(panel_width*figure_width+0.5),int(panel_height*figure_height+0.5) dynamic enhanced font figure_font.sprintf(',%g', figure_type) background '#ffffff'
 
 set border 3 lw 1.1 lc rgb '#333333'
 set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'

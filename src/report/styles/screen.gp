@@ -1,8 +1,12 @@
 # weartrack plot style "screen": larger type and stronger lines, for slides and a beamer.
-# Each script sets figure_width and figure_height (in panels of this style) and loads this file.
-# Terminal and sizes are set here; everything else of a figure is in its script.
+# Each script sets figure_width and figure_height, in panels of this style, and loads this file; of a
+# figure of a given width it sets panel_width, too. Sizes are in units of 8/15 point.
 set encoding utf8
-set terminal svg size 760*figure_width,540*figure_height dynamic enhanced font 'Helvetica,22' background '#ffffff'
+if (!exists("panel_width")) panel_width = 760
+if (!exists("figure_font")) figure_font = 'Helvetica'
+panel_height = 540./760*panel_width
+figure_type = 22
+set terminal svg size int(panel_width*figure_width+0.5),int(panel_height*figure_height+0.5) dynamic enhanced font figure_font.sprintf(',%g', figure_type) background '#ffffff'
 
 set border 3 lw 1.54 lc rgb '#333333'
 set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'

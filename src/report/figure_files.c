@@ -1,0 +1,202 @@
+/* The files of a figure.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/figure_files.h"
+
+#include "report/files.h"
+#include "report/gnuplot.h"
+#include "report/svg.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/* A picture's unit of 8/15 point [m], as output.gnuplot has it. */
+static const double unit_length = 8.0 / 15 * 0.0254 / 72;
+/* Dots in a metre of a bitmap, 600 in an inch. */
+static const double dots_per_metre = 600 / 0.0254;
+/* Figures with panels beside each other are as wide as the text of a sheet, or wider if asked for
+ * [m]. */
+static const double text_width = 0.170;
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+const char *figure_format(size_t i)
+{
+    static const char *const endings[] = {"svg", "pdf", "png"};
+    return i < sizeof endings / sizeof *endings ? endings[i] : NULL;
+}
+
+wt_status figure_formats_read(const char *text, void *member, wt_error *err)
+{
+    unsigned formats = 0;
+    for (const char *word = text;; word++) {
+        const size_t length = strcspn(word, ",");
+        size_t i = 0;
+        while (figure_format(i) != NULL &&
+               (strlen(figure_format(i)) != length || strncmp(word, figure_format(i), length) != 0))
+            i++;
+        if (figure_format(i) == NULL)
+            return wt_fail(err, WT_E_ARG, "'%.*s' is none of svg, pdf, png", (int)length, word);
+        formats |= 1U << i;
+        word += length;
+        if (*word == '\0')
+            break;
+    }
+    *(unsigned *)member = formats;
+    return WT_OK;
+}
+
+wt_status figure_font_check(const void *member, wt_error *err)
+{
+    const char *const name = *(const char *const *)member;
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 -";
+    if (name == NULL || (name[0] != '\0' && strspn(name, plain) == strlen(name)))
+        return WT_OK;
+    wt_status status = wt_fail(err, WT_E_ARG, "no name of a font");
+    wt_error_expected(err, "letters, digits, blanks and hyphens, such as Arial or Liberation Sans");
+    wt_error_found(err, "\"%s\"", name);
+    return status;
+}
+
+/* ---- before it is drawn ---------------------------------------------------------------------- */
+
+static wt_status write_data(const report_folder *folder, drawn_figure *figure, wt_error *err)
+{
+    const figure_drawing *const d = &figure->drawing;
+    wt_status status = WT_OK;
+    char name[128], *bytes = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&bytes, &length);
+    if (stream == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < d->n_sections && status == WT_OK; i++) {
+        if (i > 0) // gnuplot's `index` counts what two blank lines part
+            (void)fputs("\n\n", stream);
+        status = wt_stream_write(stream, d->sections[i], NULL, err);
+    }
+    if (fclose(stream) != 0 && status == WT_OK)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
+    if (status == WT_OK)
+        status = folder_write(folder, name, bytes, length, err);
+    if (status == WT_OK)
+        text_bytes(&figure->data, bytes, length);
+    free(bytes);
+    return status;
+}
+
+/* What the style and what is drawn on need to know. */
+static void add_sizes(growing_text *script, const figure_drawing *d,
+                      const wt_report_options *options)
+{
+    text_format(script, "figure_name = '%s'; figure_width = %s; figure_height = %s\n",
+                d->figure->name, LITERAL(d->width), LITERAL(d->height));
+    if (!isnan(options->width)) {
+        const double width = drawing_is_wide(d) ? fmax(options->width, text_width) : options->width;
+        text_format(script, "panel_width = %s # so that all are %s mm wide\n",
+                    LITERAL(width / unit_length / d->width), LITERAL(1e3 * width));
+    }
+    if (options->font != NULL)
+        text_format(script, "figure_font = '%s'\n", options->font);
+}
+
+static wt_status write_script(const report_folder *folder, const wt_report_options *options,
+                              drawn_figure *drawn, wt_error *err)
+{
+    const figure_drawing *const d = &drawn->drawing;
+    const char *const figure = d->figure->name;
+    growing_text *const script = &drawn->script;
+    char name[128];
+    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
+    text_format(script,
+                "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
+                "the axes.\n",
+                figure);
+    text_comment(script, text_string(&d->caption));
+    text_add(script, "reset\n");
+    add_sizes(script, d, options);
+    text_add(script, "load 'style.gp'\nload 'output.gp'\nset datafile separator \"\\t\"\n");
+    text_add(script, text_string(&d->script));
+    text_add(script, "set output\n");
+    (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
+    return script->failed || drawn->data.failed
+               ? wt_fail(err, WT_E_MEMORY, "out of memory")
+               : folder_write(folder, name, text_string(script), script->length, err);
+}
+
+wt_status figure_write(const report_folder *folder, const wt_report_options *options,
+                       drawn_figure *figure, wt_error *err)
+{
+    const wt_status status = write_data(folder, figure, err);
+    return status == WT_OK ? write_script(folder, options, figure, err) : status;
+}
+
+/* ---- behind that ----------------------------------------------------------------------------- */
+
+/* Appends "plots/NAME.ENDING", whose name is left in `name`. */
+static wt_status read_picture(const report_folder *folder, const drawn_figure *figure,
+                              const char *ending, char name[128], growing_text *picture,
+                              wt_error *err)
+{
+    (void)snprintf(name, 128, "plots/%s.%s", figure->drawing.figure->name, ending);
+    char *path = wt_path_join(folder_plots(folder), wt_path_base(name));
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status = file_read(path, GNUPLOT_PICTURE_LIMIT, picture, err);
+    free(path);
+    return status;
+}
+
+static void put_word(unsigned char *at, uint32_t word)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (unsigned char)(word >> (24 - 8 * i));
+}
+
+/* A bitmap says how many dots it has in a metre (PNG 1.2, chunk pHYs), or a page puts it in by the
+ * resolution of a screen. */
+static wt_status size_bitmap(const report_folder *folder, const drawn_figure *figure, wt_error *err)
+{
+    enum { HEAD = 8 + 25, WORDS = 8 + 9, CHUNK = WORDS + 4 }; // signature and IHDR; type and data
+    unsigned char chunk[CHUNK] = "\0\0\0\x09pHYs";
+    growing_text picture = {0}, sized = {0};
+    char name[128];
+    put_word(chunk + 8, (uint32_t)lrint(dots_per_metre));
+    put_word(chunk + 12, (uint32_t)lrint(dots_per_metre));
+    chunk[16] = 1; // the unit is the metre
+    put_word(chunk + WORDS, (uint32_t)crc32(crc32(0, NULL, 0), chunk + 4, WORDS - 4));
+    wt_status status = read_picture(folder, figure, "png", name, &picture, err);
+    if (status == WT_OK && picture.length < HEAD)
+        status = wt_fail(err, WT_E_TOOL, "the picture of figure %s is not PNG",
+                         figure->drawing.figure->name);
+    if (status == WT_OK) {
+        text_bytes(&sized, picture.bytes, HEAD);
+        text_bytes(&sized, (const char *)chunk, CHUNK);
+        text_bytes(&sized, picture.bytes + HEAD, picture.length - HEAD);
+        status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                              : folder_write(folder, name, sized.bytes, sized.length, err);
+    }
+    text_free(&picture);
+    text_free(&sized);
+    return status;
+}
+
+wt_status figure_take(const report_folder *folder, const wt_report_options *options,
+                      drawn_figure *figure, wt_error *err)
+{
+    char name[128];
+    wt_status status = read_picture(folder, figure, "svg", name, &figure->svg, err);
+    if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
+        growing_text sized = {0};
+        svg_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
+        status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                              : folder_write(folder, name, text_string(&sized), sized.length, err);
+        text_free(&sized);
+    }
+    if (status == WT_OK && (options->figures & WT_FIGURE_PNG) != 0)
+        status = size_bitmap(folder, figure, err);
+    return status;
+}

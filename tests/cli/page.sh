@@ -1,0 +1,105 @@
+#!/bin/sh
+# The page of a report in a real browser: at three widths and on paper nothing is cut off, no link is
+# dead, and it reads the same as HTML and as XML. Usage: page.sh WEARTRACK FIXTURES WORK
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+weartrack=$1 fixtures=$2 work=$3
+for browser in chromium chromium-browser google-chrome; do
+  ! command -v "$browser" >/dev/null || break
+done
+command -v "$browser" >/dev/null && command -v gnuplot >/dev/null || { echo "no chromium or no gnuplot: not tried"; exit 77; }
+rm -rf "$work"; mkdir -p "$work"; cd "$work"
+fail() { echo "$*"; exit 1; }
+browse() { # nothing of the user's, nothing from the network
+  timeout 120 "$browser" --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+    --disable-component-update --disable-sync --user-data-dir="$work/profile" --allow-file-access-from-files "$@" 2>browser.log
+}
+
+"$weartrack" run -q "$fixtures/case/case.xml" -o case.h5 --report case.html >/dev/null
+"$weartrack" master -q "$fixtures/case/dma.txt" -o dma.h5
+"$weartrack" report -q dma.h5 -o dma.html
+"$weartrack" record -q "$fixtures/record/steps.csv" -o record.h5 >/dev/null 2>&1 || [ $? -eq 3 ]
+"$weartrack" report -q record.h5 -o record.html
+"$weartrack" run -q "$fixtures/texture/case.xml" -o texture.h5 --report texture.html >/dev/null
+
+# What the browser finds is written into the document that it prints. A page stands in a frame of each
+# width, as no window is as narrow as a telephone; on paper is what `@media print` says, everywhere, in
+# the 180 mm between the margins of A4.
+cat > judge.js <<'JUDGE'
+const widths = {telephone: 390, tablet: 768, desk: 1400, paper: 680};
+const lines = [];
+const say = (...words) => lines.push(words.join(' '));
+function judge(name, width, frame) {
+  const page = frame.contentDocument, root = page.documentElement, beyond = [];
+  for (const fold of page.querySelectorAll('details')) fold.open = true;
+  say(name, 'overflow', Math.max(0, root.scrollWidth - width));
+  for (const box of page.querySelectorAll('.scroll'))
+    if (box.scrollWidth > box.clientWidth + 1)
+      beyond.push(box.getAttribute('aria-label') + ':' + box.scrollWidth + '>' + box.clientWidth);
+  say(name, 'tables_cut', beyond.length, beyond.join('; ').slice(0, 400));
+  const sizes = [...page.querySelectorAll('.card svg')].map(s => 15 * s.getScreenCTM().a);
+  say(name, 'type', Math.min(...sizes).toFixed(1), 'to', Math.max(...sizes).toFixed(1));
+  const first = page.querySelector('.answer p');
+  say(name, 'answer_begins', first ? Math.round(first.getBoundingClientRect().top) : -1);
+}
+function judge_links(page, text) {
+  let dead = [];
+  for (const link of page.querySelectorAll('a[href], link[href], [src], use')) {
+    const to = link.getAttribute('href') ?? link.getAttribute('xlink:href') ?? link.getAttribute('src');
+    if (to.startsWith('#') ? !page.getElementById(to.slice(1)) : !(to.startsWith('data:') && link.getAttribute('download')))
+      dead.push(to.slice(0, 80));
+  }
+  say('links', page.querySelectorAll('a[href]').length, 'dead', dead.length, dead.slice(0, 5).join(' '));
+  const as_xml = new DOMParser().parseFromString(text, 'application/xhtml+xml');
+  const tags = d => [...d.querySelectorAll('*')].map(e => e.localName).join(' ');
+  say('xml', as_xml.querySelector('parsererror') ? 'broken' : 'whole', 'same', tags(as_xml) === tags(page));
+  const ids = [...page.querySelectorAll('[id]')].map(e => e.id);
+  say('ids', ids.length, 'twice', ids.length - new Set(ids).size);
+}
+function frame_of(text, width) {
+  return new Promise(done => {
+    const frame = document.createElement('iframe');
+    frame.style = 'border:0;height:900px;width:' + width + 'px';
+    frame.onload = () => done(frame);
+    frame.srcdoc = text;
+    document.body.append(frame);
+  });
+}
+async function all(text) {
+  for (const [name, width] of Object.entries(widths)) {
+    let shown = text;
+    if (name === 'paper') shown = text.replace('@media print', '@media all').replaceAll('@media screen and', '@media not all and');
+    const frame = await frame_of(shown, width);
+    if (name === 'desk') judge_links(frame.contentDocument, text);
+    judge(name, width, frame);
+    frame.remove();
+  }
+  const out = document.createElement('pre');
+  out.id = 'judgement';
+  out.textContent = lines.map(l => 'JUDGED ' + l).join('\n') + '\nJUDGED end\n';
+  document.body.append(out);
+}
+JUDGE
+
+for name in case dma texture record; do
+  { echo '<!DOCTYPE html><meta charset="utf-8"><body><script>'; cat judge.js
+    printf 'all(new TextDecoder().decode(Uint8Array.from(atob("'; base64 -w0 "$name.html"; echo '"), c => c.charCodeAt(0))));</script>'
+  } > judge.html
+  browse --virtual-time-budget=60000 --dump-dom "file://$work/judge.html" | grep -o 'JUDGED .*' > "$name.judged" || true
+  grep -q 'JUDGED end' "$name.judged" || fail "$name: the browser did not come to an end: $(cat browser.log)"
+  for width in telephone tablet desk paper; do
+    grep -q "JUDGED $width overflow 0\$" "$name.judged" || fail "$name: wider than the $width: $(grep "$width" "$name.judged")"
+  done
+  for width in telephone desk paper; do # a tablet may have to push
+    grep -q "JUDGED $width tables_cut 0" "$name.judged" || fail "$name: columns cut: $(grep "$width tables" "$name.judged")"
+  done
+  if [ $name = case ] || [ $name = texture ]; then # the answer begins on the first screen
+    for width in telephone desk; do
+      begin=$(sed -n "s/.*JUDGED $width answer_begins //p" "$name.judged")
+      [ "$begin" -ge 0 ] && [ "$begin" -lt 300 ] || fail "$name: the answer begins at $begin of the $width"
+    done
+  fi
+  grep -q 'JUDGED links [1-9][0-9]* dead 0' "$name.judged" || fail "$name: $(grep links "$name.judged")"
+  grep -q 'JUDGED xml whole same true' "$name.judged" || fail "$name: not the same as HTML and as XML: $(grep xml "$name.judged")"
+  grep -q 'JUDGED ids [1-9][0-9]* twice 0' "$name.judged" || fail "$name: $(grep ids "$name.judged")"
+done
