@@ -804,13 +804,19 @@ typedef struct wt_self_affine {
     bool found;
     bool rolls_off; /* else roll_off is the first wavenumber, without an error */
     wt_interval c0, roll_off, hurst;
-    double covariance[3][3]; /* of ln c0, ln roll_off, hurst */
+    double covariance[3][3]; /* of ln c0, ln roll_off, hurst; */
+    double place_error;      /* that of ln c0 holds the square of this, from place to place */
+    double freedom;          /* of the covariance without it, which intervals hold */
     double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
     size_t n;      /* bins */
 } wt_self_affine;
 /* Weighted least squares in ln C over the reliable bins. WT_E_MEMORY. */
 WT_API wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
                                     wt_error *err) WT_NODISCARD;
+/* C of the law at a wavenumber, NaN if it was not found; and the standard error of its logarithm by
+ * the covariance: half an interval of 95 % over 1.96, with what places add or without. */
+WT_API double wt_self_affine_density(const wt_self_affine *law, double wavenumber);
+WT_API double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bool places);
 
 /* The wavenumber at which the rms slope of the roughness from its q0 on reaches `slope`; NaN if it
  * does not. */

@@ -693,6 +693,7 @@ typedef struct wt_surface {
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
+    double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
     double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
 } wt_surface;

@@ -15,6 +15,10 @@
                         SI(POWER_SPECTRUM_2D), "C(q)", SHOWS(density))                             \
     X(POWER_SPECTRUM_MODES_ERROR, AS(modes_error),                                                 \
       "standard error of ln C by the scatter of its modes, each row by itself", NUMBER, SPARSE)    \
+    X(POWER_SPECTRUM_LAW_ERROR, AS(law_error),                                                     \
+      "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
+      "together",                                                                                  \
+      NUMBER, SPARSE)                                                                              \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \

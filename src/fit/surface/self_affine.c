@@ -152,6 +152,8 @@ static void fill_law(law_fit *f, double r, const wt_surface_spectrum *s, double 
     double place = s->place_error > 0 ? s->place_error : 0;
     place *= place > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
     to->covariance[LN_C0][LN_C0] += place * place;
+    to->place_error = place;
+    to->freedom = freedom;
     value_span *const c = &spans.of[LN_C0];
     *c = (value_span){f->c - hypot(f->c - c->low, t * place),
                       f->c + hypot(c->high - f->c, t * place)};
@@ -194,6 +196,28 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
     }
     free(f.x);
     return WT_OK;
+}
+
+/* ---- what the law gives ---------------------------------------------------------------------- */
+
+double wt_self_affine_density(const wt_self_affine *law, double wavenumber)
+{
+    const double x = fmax(1, wavenumber / law->roll_off.value);
+    return law->found ? law->c0.value * pow(x, -2 * (1 + law->hurst.value)) : (double)NAN;
+}
+
+double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bool places)
+{
+    const double x = log(wavenumber / law->roll_off.value), power = 2 * (1 + law->hurst.value);
+    const double slope[CONSTANTS] = {
+        [LN_C0] = 1, [LN_ROLL_OFF] = x > 0 ? power : 0, [HURST] = x > 0 ? -2 * x : 0};
+    double variance = places ? 0 : -law->place_error * law->place_error;
+    if (!law->found)
+        return (double)NAN;
+    for (size_t a = 0; a < CONSTANTS; a++)
+        for (size_t b = 0; b < CONSTANTS; b++)
+            variance += slope[a] * law->covariance[a][b] * slope[b];
+    return students_t_quantile(law->freedom) / NORMAL_95 * sqrt(fmax(0, variance));
 }
 
 /* ---- where the slope ends -------------------------------------------------------------------- */

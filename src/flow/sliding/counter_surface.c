@@ -19,6 +19,7 @@ void wt_surface_clear(wt_surface *surface)
         return;
     wt_power_spectrum_clear(&surface->spectrum);
     free(surface->modes_error);
+    free(surface->law_error);
     *surface = (wt_surface){0};
 }
 
@@ -92,6 +93,20 @@ static double positive_key(const wt_table *table, size_t key)
                : 0;
 }
 
+/* The errors in a column, 0 where it has none; a table without it has none. */
+static double *column_errors(const wt_table *table, power_spectrum_column which, size_t n)
+{
+    const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
+    const bool known =
+        column >= 0 && wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    double *errors = malloc((n + 1) * sizeof *errors);
+    for (size_t i = 0; errors != NULL && i < n; i++) {
+        const double error = known ? wt_table_number(table, i, (size_t)column) : 0;
+        errors[i] = error > 0 && isfinite(error) ? error : 0;
+    }
+    return errors;
+}
+
 /* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
  * were read. */
 static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
@@ -104,13 +119,10 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
              wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
     if (!*taken)
         return WT_OK;
-    surface->modes_error = malloc(s->n * sizeof *surface->modes_error);
-    if (surface->modes_error == NULL)
+    surface->modes_error = column_errors(table, POWER_SPECTRUM_MODES_ERROR, s->n);
+    surface->law_error = column_errors(table, POWER_SPECTRUM_LAW_ERROR, s->n);
+    if (surface->modes_error == NULL || surface->law_error == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < s->n; i++) {
-        const double error = wt_table_number(table, i, (size_t)column);
-        surface->modes_error[i] = error > 0 && isfinite(error) ? error : 0;
-    }
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
         place.value > 0 && isfinite(place.value))
@@ -340,10 +352,12 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    /* each point has a draw of its own, behind all others, and the law that of one more point */
+    const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     for (size_t i = 0; i < s->n; i++) {
-        /* each point has a draw of its own, behind all others */
         const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
-        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z);
+        drawn.spectrum.density[i] =
+            s->density[i] * exp(surface->modes_error[i] * z + surface->law_error[i] * law);
     }
     const wt_status status = wt_surface_roughness(&drawn, factor, roughness, err);
     free(drawn.spectrum.density);

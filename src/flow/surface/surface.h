@@ -38,8 +38,6 @@ typedef struct surface_whole {
 /* Of the reliable bins, to the end that the job asks for. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
-/* C of the law at a wavenumber; NaN if there is none. */
-double surface_law_density(const wt_self_affine *law, double q);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

@@ -21,7 +21,7 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, self_affine, modes, scans; const char *source;)
+          double modes_error, law_error, self_affine, modes, scans; const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
@@ -54,6 +54,12 @@ static double place_error_of(const wt_surface_spectrum *s)
 
 /* ---- the spectrum ---------------------------------------------------------------------------- */
 
+static wt_interval of_law(const wt_self_affine *law, double q)
+{
+    const double c = wt_self_affine_density(law, q), error = wt_self_affine_log_error(law, q, true);
+    return (wt_interval){c, c * error, c * exp(-NORMAL_95 * error), c * exp(NORMAL_95 * error)};
+}
+
 static void add_rows(table_writer *t, const surface_whole *w)
 {
     const double nan = (double)NAN;
@@ -63,9 +69,13 @@ static void add_rows(table_writer *t, const surface_whole *w)
                    bin = !law && !cut;
         const double c = k->density[i], q = k->wavenumber[i];
         const wt_interval none = {c, nan, nan, nan};
-        TABLE_ADD(power_spectrum, t, q, bin ? wt_surface_density(&w->spectrum, i) : none,
+        TABLE_ADD(power_spectrum, t, q,
+                  bin   ? wt_surface_density(&w->spectrum, i)
+                  : law ? of_law(&w->law, q)
+                        : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  surface_law_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? wt_self_affine_log_error(&w->law, q, false) : nan,
+                  wt_self_affine_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
@@ -170,6 +180,15 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
     return table_end(&t, table);
 }
 
+static const char *included(const surface_whole *w, bool places)
+{
+    if (w->knots.n > w->knots.n_measured)
+        return places
+                   ? "modes of each bin, constants of the law beyond, scatter from place to place"
+                   : "modes of each bin, constants of the law beyond";
+    return places ? "modes of each bin, scatter from place to place" : "modes of each bin";
+}
+
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
@@ -201,8 +220,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
         .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
         .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
         .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-        .directions = directions,
-        .includes = places ? "modes of each bin, scatter from place to place" : "modes of each bin",
+        .directions = directions, .includes = included(w, places),
         .lacks = places ? "calibration of the scanner, noise of the instrument"
                         : "places of the surface, calibration of the scanner, noise of the "
                           "instrument",
