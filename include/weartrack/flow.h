@@ -235,12 +235,14 @@ typedef struct wt_topography_job {
     double end;        /* last wavenumber [rad/m]; NaN = that of the reliable range */
     double end_slope;  /* rms slope at which it ends instead; NaN = none */
     bool scans;        /* makes the table scan_spectra, too */
+    bool heights;      /* and the tables height_map and height_profile */
 } wt_topography_job;
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);
 typedef struct wt_topography_tables {
     wt_table *power_spectrum, *angular_spectrum, *surfaces; /* angular_spectrum: NULL of profiles */
-    wt_table *scan_spectra;                                 /* NULL unless asked for */
+    wt_table *scan_spectra, *height_map, *height_profile;   /* NULL unless asked for; height_map
+                                                               NULL of profiles, too */
 } wt_topography_tables;
 WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,

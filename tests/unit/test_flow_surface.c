@@ -181,6 +181,44 @@ static void test_ends(void **state)
     clear(&m);
 }
 
+/* Heights less their form, every so many points of four maps together; the line of a map is the one
+ * in its middle, and a profile has no map. */
+static void test_heights(void **state)
+{
+    (void)state;
+    enum { SIDE = 112 }; /* of three scans in a picture of 256 points: every point */
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, all, COUNT_OF(all));
+    assert_null(m.tables.height_map);
+    assert_null(m.tables.height_profile);
+    clear(&m);
+    m.job.heights = true;
+    make(&m, all, COUNT_OF(all));
+    const wt_table *map = m.tables.height_map, *line = m.tables.height_profile,
+                   *scans = m.tables.surfaces;
+    assert_int_equal(wt_table_n_rows(map), COUNT_OF(all) * SIDE * SIDE);
+    assert_int_equal(wt_table_n_rows(line), COUNT_OF(all) * SIDE);
+    double square = 0, mean = 0;
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+        const double height = cell(map, i, "height");
+        assert_near(cell(map, i, "scan"), 1, 0);
+        square += height * height;
+        mean += height;
+    }
+    assert_near(sqrt(square) / SIDE, cell(scans, 0, "rms_height"), 1e-6);
+    assert_near_abs(mean / SIDE / SIDE, 0, 1e-6 * cell(scans, 0, "rms_height"));
+    const size_t second = (size_t)SIDE * SIDE + SIDE / 2 * SIDE;
+    for (size_t i = 0; i < SIDE; i++) {
+        assert_near(cell(line, SIDE + i, "height"), cell(map, second + i, "height"), 0);
+        assert_near(cell(map, second + i, "x"), (double)i * cell(scans, 1, "step_x"), 1e-12);
+    }
+    clear(&m);
+    make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
+    assert_null(m.tables.height_map);
+    assert_int_equal(wt_table_n_rows(m.tables.height_profile), 8 * 250);
+    clear(&m);
+}
+
 /* A made surface with x and y in each other's place, as a Gwyddion simple field. */
 static void write_turned(const char *path, const made_surface *made)
 {
@@ -450,13 +488,10 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_alone),
-        cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_map_as_roughness),
+        cmocka_unit_test(test_whole),         cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_heights),       cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_alone),         cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_failures),      cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),
     };
     return cmocka_run_group_tests(tests, begin, end);

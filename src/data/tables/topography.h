@@ -83,6 +83,24 @@
     X(ANGULAR_SPECTRUM_KEY_CHANCE, AS(chance), NUMBER)                                             \
     X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(chance_fourth), NUMBER)
 
+/* Heights less their form, thinned for a figure; scans are counted from 1 in the order of the table
+ * surfaces. */
+#define HEIGHT_MAP_COLUMNS(X)                                                                      \
+    X(HEIGHT_MAP_SCAN, AS(scan), "row of the table surfaces", NUMBER)                              \
+    X(HEIGHT_MAP_X, AS(x), "place along x, from the first point", SI(LENGTH))                      \
+    X(HEIGHT_MAP_Y, AS(y), "place along y, likewise", SI(LENGTH))                                  \
+    X(HEIGHT_MAP_HEIGHT, AS(height), "height less the form of the scan; missing: not a number",    \
+      SI(LENGTH), SPARSE)
+#define HEIGHT_MAP_KEYS(X)
+
+/* Likewise, along a line: of a map the one in its middle. */
+#define HEIGHT_PROFILE_COLUMNS(X)                                                                  \
+    X(HEIGHT_PROFILE_SCAN, AS(scan), "row of the table surfaces", NUMBER)                          \
+    X(HEIGHT_PROFILE_X, AS(x), "place along x, from the first point", SI(LENGTH))                  \
+    X(HEIGHT_PROFILE_HEIGHT, AS(height),                                                           \
+      "height less the form of the scan; missing: not a number", SI(LENGTH), SPARSE)
+#define HEIGHT_PROFILE_KEYS(X)
+
 /* A scan in each row. Slopes are by forward differences of neighbours. */
 #define SURFACES_COLUMNS(X)                                                                        \
     X(SURFACES_FILE, "file", "file of the scan", TEXT, SHOWS(name), LABEL("File"))                 \

@@ -202,7 +202,7 @@ static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_er
 wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
                                wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL, NULL};
+    wt_topography_tables made = {.power_spectrum = NULL};
     wt_status status = wt_topography_make(job, work, &made, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};

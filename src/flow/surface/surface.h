@@ -5,6 +5,17 @@
 
 #include "flow/work/inputs.h"
 
+/* Heights less their form, thinned: a map (none of a profile), and a line of it. */
+typedef struct surface_view {
+    size_t nx, ny, n_line;
+    double dx, dy, line_step; /* [m] */
+    double *z, *line;         /* [ny * nx], [n_line] */
+} surface_view;
+void surface_view_clear(surface_view *view);
+/* So that the maps of n_scans together are one picture. */
+wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size_t n_scans,
+                            surface_view *to, wt_error *err) WT_NODISCARD;
+
 /* One height map or profile; heights are let go once its spectrum is known. */
 typedef struct surface_scan {
     const char *name; /* of the file; borrowed */
@@ -14,7 +25,12 @@ typedef struct surface_scan {
     double missing_share;
     wt_surface_spectrum spectrum;
     wt_surface_anisotropy directions;
+    surface_view view; /* if heights are asked for */
 } surface_scan;
+wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **table,
+                            wt_error *err) WT_NODISCARD;
+wt_status surface_view_profiles(const surface_scan *scans, size_t n, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
 
 /* The knots of the spectrum that is told: those that were measured, and beyond them the law. */
 typedef struct surface_knots {

@@ -267,14 +267,16 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     wt_table_free(tables->angular_spectrum);
     wt_table_free(tables->surfaces);
     wt_table_free(tables->scan_spectra);
-    *tables = (wt_topography_tables){NULL, NULL, NULL, NULL};
+    wt_table_free(tables->height_map);
+    wt_table_free(tables->height_profile);
+    *tables = (wt_topography_tables){.power_spectrum = NULL};
 }
 
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_whole *whole,
                               wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL, NULL};
+    wt_topography_tables made = {.power_spectrum = NULL};
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = make_angular(whole, &made.angular_spectrum, err);
@@ -282,6 +284,10 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
         status = make_surfaces(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)
         status = make_scans(scans, n, &made.scan_spectra, err);
+    if (status == WT_OK && job->heights)
+        status = surface_view_profiles(scans, n, &made.height_profile, err);
+    if (status == WT_OK && job->heights && !isnan(whole->directions.amplitude))
+        status = surface_view_maps(scans, n, &made.height_map, err);
     if (status == WT_OK)
         *tables = made;
     else
