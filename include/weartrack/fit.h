@@ -756,7 +756,8 @@ typedef struct wt_surface_spectrum {
     double from, to;     /* the reliable range [rad/m] */
     const char *ends_by; /* "points" or "tip"; static */
     /* Of several scans: standard deviation of ln C from place to place, the same at all
-     * wavenumbers, and the standard error that it gives the mean; NaN: not known. */
+     * wavenumbers, and the standard error that it gives the mean: of each bin by its scans, and the
+     * mean of these squared over the bins; NaN: not known. */
     double place_scatter, place_error;
     double place_freedom; /* of it */
 } wt_surface_spectrum;
