@@ -781,6 +781,9 @@ WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size
  * the profiles are too few: bins that are not known to a factor of two are left out. */
 WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
                                    wt_error *err) WT_NODISCARD;
+/* C [n] at the wavenumbers of C1, without errors. WT_E_RANGE where it is not above 0, too. */
+WT_API wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n,
+                                       double *c, wt_error *err) WT_NODISCARD;
 /* What lies behind a bin of a spectrum, with the scatter from place to place as far as it is known.
  * Its standard error, and those of c0 and roll_off below, are of the logarithm, times the value. */
 WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);

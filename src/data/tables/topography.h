@@ -66,6 +66,7 @@
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
     X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
       LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
+    X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention))                        \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
 
 /* A direction in each row, half a turn of them: the other half is the same. */

@@ -161,6 +161,29 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
     return status;
 }
 
+/* C of the surface of the spectrum of a profile. */
+static wt_status take_profile(const char *name, const wt_job *work, wt_power_spectrum *spectrum,
+                              wt_error *err)
+{
+    double *c = malloc((spectrum->n + 1) * sizeof *c);
+    if (c == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status =
+        wt_surface_of_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
+    if (status != WT_OK) {
+        free(c);
+        wt_error_file(err, name);
+        return status;
+    }
+    free(spectrum->density);
+    spectrum->density = c;
+    spectrum->kind = WT_SPECTRUM_2D;
+    wt_parselog_add(work->log, WT_WARNING, name, NULL,
+                    "the spectrum is that of a line (m^3): friction is for a surface that is the "
+                    "same in all directions");
+    return WT_OK;
+}
+
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
 {
     wt_input *input = NULL;
@@ -170,11 +193,8 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
         status =
             wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
     wt_input_close(input);
-    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
-        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
-        wt_error_file(err, file->name);
-        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
-    }
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D)
+        status = take_profile(file->name, work, &surface->spectrum, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     return status == WT_OK ? read_errors(file, work, surface, err) : status;

@@ -27,7 +27,8 @@ TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hu
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
            anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
-           const char *directions, *includes, *lacks, *option, *anisotropy_option; size_t n_scans;)
+           const char *directions, *includes, *lacks, *option, *anisotropy_option, *convention;
+           size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
 TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, chance_fourth;)
@@ -224,7 +225,9 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
         .lacks = places ? "calibration of the scanner, noise of the instrument"
                         : "places of the surface, calibration of the scanner, noise of the "
                           "instrument",
-        .option = option, .anisotropy_option = anisotropy, .n_scans = n_scans);
+        .option = option, .anisotropy_option = anisotropy,
+        .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+        .n_scans = n_scans);
     return table_end(&t, table);
 }
 
