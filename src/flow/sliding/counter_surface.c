@@ -376,8 +376,8 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     for (size_t i = 0; i < s->n; i++) {
         const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
-        drawn.spectrum.density[i] =
-            s->density[i] * exp(surface->modes_error[i] * z + surface->law_error[i] * law);
+        const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
+        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
     }
     const wt_status status = wt_surface_roughness(&drawn, factor, roughness, err);
     free(drawn.spectrum.density);
