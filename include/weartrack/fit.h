@@ -760,6 +760,8 @@ typedef struct wt_surface_spectrum {
      * mean of these squared over the bins; NaN: not known. */
     double place_scatter, place_error;
     double place_freedom; /* of it */
+    size_t n_places;      /* scans; 0: of one, or not kept */
+    double *place_weight; /* [n_places] for each bin: the part of a scan in its ln C */
 } wt_surface_spectrum;
 WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
 
@@ -808,9 +810,9 @@ typedef struct wt_self_affine {
     bool found;
     bool rolls_off; /* else roll_off is the first wavenumber, without an error */
     wt_interval c0, roll_off, hurst;
-    double covariance[3][3]; /* of ln c0, ln roll_off, hurst; */
-    double place_error;      /* that of ln c0 holds the square of this, from place to place */
-    double freedom;          /* of the covariance without it, which intervals hold */
+    double covariance[3][3];       /* of ln c0, ln roll_off, hurst, with the next */
+    double place_covariance[3][3]; /* what places make of it */
+    double freedom;                /* of the covariance without that, which intervals hold */
     double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
     size_t n;      /* bins */
 } wt_self_affine;

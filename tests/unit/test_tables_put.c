@@ -213,6 +213,7 @@ static void test_cases(void **state)
     run_case_of(CASE "case.xml", true, wt_run_defaults().tolerance, "", "");
     run_case_of(CASE "case.xml", false, 1e-16, "<temperature>30degC", /* which nothing reaches */
                 "<temperatures>20degC,40degC</temperatures><temperature>30degC");
+    run_case("<end>2e6rad/m", "<end>2e7rad/m"); /* beyond what the maps resolve */
     run_case_of(CASE "stated-road.xml", false, wt_run_defaults().tolerance, "", "");
     run_case("<temperature>23degC", "<temperature>90degC");
     run_case("<temperature>23degC", "<track-temperature>24degC</track-temperature>"

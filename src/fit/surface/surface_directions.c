@@ -45,21 +45,17 @@ wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum,
     const double second = hypot(s.cosine, s.sine) / s.n,
                  fourth = hypot(s.cosine_fourth, s.sine_fourth) / s.n;
     const double amplitude = order == 2 ? second : fourth, square = amplitude * amplitude;
-    /* What the directions make modes differ by is no scatter: the mean square of a mode over its
-     * mean squared is (1 + scatter^2) (1 + a^2/2 + b^2/2). */
+    /* What the directions make modes differ by is no scatter of the amplitude: the mean square of a
+     * mode over its mean squared is (1 + scatter^2) (1 + a^2/2 + b^2/2). */
     const double all = s.square / s.n, turned = 1 + (second * second + fourth * fourth) / 2;
     const double own = fmax(0, (all + 1) / turned - 1) / all;
-    /* Scatter that goes with C(phi): the means over phi of (1 + a cos)^2 (cos - a/2)^2 and of
-     * (1 + a cos)^2 sin^2, over those of a = 0. */
-    const double along = 1 - 3 * square / 4 + square * square / 4, across = 1 + square / 4;
-    const double scatter = sqrt(s.variance * own) / s.n;
+    const double scatter = sqrt(s.variance) / s.n;
     return (wt_surface_anisotropy){
         .amplitude = amplitude,
         .direction =
             (order == 2 ? atan2(s.sine, s.cosine) : atan2(s.sine_fourth, s.cosine_fourth)) / turns,
-        .amplitude_error = scatter * sqrt(fmax(0, along)),
-        .direction_error =
-            fmin(unknown_direction(turns), scatter * sqrt(across) / (turns * amplitude)),
+        .amplitude_error = scatter * sqrt(own),
+        .direction_error = fmin(unknown_direction(turns), scatter / (turns * amplitude)),
         .chance = exp(-square * s.n * s.n / (2 * s.variance))};
 }
 

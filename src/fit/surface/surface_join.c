@@ -216,6 +216,19 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     return true;
 }
 
+/* The parts of the scans in the bin. */
+static void weigh_places(const joining *j, int index, double *weight)
+{
+    double n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        weight[i] = b != NULL ? (double)b->n : 0;
+        n += weight[i];
+    }
+    for (size_t i = 0; i < j->n; i++)
+        weight[i] /= n;
+}
+
 static void find_span(joining *j, wt_surface_spectrum *to)
 {
     j->first = INT_MAX;
@@ -251,20 +264,24 @@ wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
         return WT_E_EMPTY;
     }
     made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
+    made.place_weight = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof(double));
     j.offset = calloc(3 * n, sizeof *j.offset);
     j.group = calloc(n, sizeof *j.group);
     wt_status status = WT_OK;
-    if (made.bins == NULL || j.offset == NULL || j.group == NULL)
+    if (made.bins == NULL || made.place_weight == NULL || j.offset == NULL || j.group == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     if (status == WT_OK) {
         j.weight = j.offset + n;
         find_places(&j, &made, j.offset + 2 * n);
+        made.n_places = n;
         for (int index = j.first; index <= j.last; index++)
-            made.n += join_bin(&j, index, &made.bins[made.n]) ? 1 : 0;
+            if (join_bin(&j, index, &made.bins[made.n]))
+                weigh_places(&j, index, made.place_weight + made.n++ * n);
         find_place_error(&made);
         *joined = made;
     } else {
         free(made.bins);
+        free(made.place_weight);
     }
     free(j.offset);
     free(j.group);

@@ -54,6 +54,11 @@ typedef struct surface_whole {
 /* Of the reliable bins, to the end that the job asks for. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
+/* Standard error of ln C of the law beyond what all of the spectrum has by its places. */
+double surface_law_error(const surface_whole *w, double wavenumber);
+/* What the places give all of the spectrum; with few of them it is hardly known itself: half an
+ * interval of 95 %, over 1.96. NaN: not known. */
+double surface_place_error(const wt_surface_spectrum *s);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

@@ -118,7 +118,7 @@ static wt_status move_knots(surface_whole *w, size_t from, size_t to, number_of 
         was[i - from] = k->density[i];
         k->density[i] *=
             exp(i < k->n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
-                                  : wt_self_affine_log_error(&w->law, k->wavenumber[i], false));
+                                  : surface_law_error(w, k->wavenumber[i]));
     }
     const wt_status status = find_number(k, number, moved, err);
     for (size_t i = from; i < to; i++)

@@ -46,11 +46,18 @@ static wt_estimate of_interval(wt_interval i, bool known)
     return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
 }
 
-/* With few places it is hardly known itself: half an interval of 95 %, over 1.96. */
-static double place_error_of(const wt_surface_spectrum *s)
+double surface_place_error(const wt_surface_spectrum *s)
 {
     return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
                               : s->place_error;
+}
+
+double surface_law_error(const surface_whole *w, double wavenumber)
+{
+    const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
+                 all = wt_self_affine_log_error(&w->law, wavenumber, true),
+                 places = surface_place_error(&w->spectrum), common = places > 0 ? places : 0;
+    return sqrt(fmax(alone * alone, all * all - common * common));
 }
 
 /* ---- the spectrum ---------------------------------------------------------------------------- */
@@ -75,8 +82,8 @@ static void add_rows(table_writer *t, const surface_whole *w)
                   : law ? of_law(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  law ? wt_self_affine_log_error(&w->law, q, false) : nan,
-                  wt_self_affine_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
+                  bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
@@ -203,31 +210,32 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     print_directions(w, directions, sizeof directions);
     print_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
-    TABLE_SET(
-        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
-        .hurst = of_interval(w->law.hurst, w->law.found),
-        .c0 = of_interval(w->law.c0, w->law.found),
-        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
-        .reliable_from = number(s->bins[0].wavenumber, 0),
-        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
-        .steep = number(w->steep, 0),
-        .steep_by = isnan(w->steep)   ? "not reached"
-                    : w->steep_by_law ? "law"
-                                      : "measured",
-        .extrapolated_share =
-            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
-        .place_scatter = number(s->place_scatter, 0), .place_error = number(place_error_of(s), 0),
-        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
-        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
-        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
-        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-        .directions = directions, .includes = included(w, places),
-        .lacks = places ? "calibration of the scanner, noise of the instrument"
-                        : "places of the surface, calibration of the scanner, noise of the "
-                          "instrument",
-        .option = option, .anisotropy_option = anisotropy,
-        .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
-        .n_scans = n_scans);
+    TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+              .hurst = of_interval(w->law.hurst, w->law.found),
+              .c0 = of_interval(w->law.c0, w->law.found),
+              .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found),
+              .law = law, .reliable_from = number(s->bins[0].wavenumber, 0),
+              .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+              .steep = number(w->steep, 0),
+              .steep_by = isnan(w->steep)   ? "not reached"
+                          : w->steep_by_law ? "law"
+                                            : "measured",
+              .extrapolated_share =
+                  number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+              .place_scatter = number(s->place_scatter, 0),
+              .place_error = number(surface_place_error(s), 0),
+              .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
+              .anisotropy_direction =
+                  number(w->directions.direction, w->directions.direction_error),
+              .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
+              .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
+              .directions = directions, .includes = included(w, places),
+              .lacks = places ? "calibration of the scanner, noise of the instrument"
+                              : "places of the surface, calibration of the scanner, noise of the "
+                                "instrument",
+              .option = option, .anisotropy_option = anisotropy,
+              .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+              .n_scans = n_scans);
     return table_end(&t, table);
 }
 
