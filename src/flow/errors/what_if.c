@@ -179,7 +179,7 @@ static double value_conductivity(const setting *s)
 /* With the heat capacity as it is, which rubbers differ in by little. */
 static bool move_conductivity(const setting *used, size_t i, setting *s)
 {
-    static const double factor[] = {0.5, 2};
+    static const double factor[] = {0.5, 2}; /* from a rubber alone to one with much filler */
     if (i >= COUNT_OF(factor))
         return false;
     s->sliding.flash.diffusivity = factor[i] * used->sliding.flash.diffusivity;
@@ -193,7 +193,7 @@ static double value_contact_size(const setting *s)
 
 static bool move_contact_size(const setting *used, size_t i, setting *s)
 {
-    static const double factor[] = {0.5, 2};
+    static const double factor[] = {0.5, 2}; /* of an order of magnitude */
     if (i >= COUNT_OF(factor))
         return false;
     s->sliding.flash.contact_size = factor[i] * used->sliding.flash.contact_size;
