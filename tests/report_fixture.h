@@ -329,10 +329,13 @@ static inline void fixture_surface(void)
     job.sets = &set;
     job.n_sets = 1;
     job.end = 1e7;
+    job.heights = true;
     fixture_check(wt_topography_make(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.power_spectrum, NULL));
     fixture_check(wt_result_add(fixture_case, tables.angular_spectrum, NULL));
-    wt_table_free(tables.surfaces); /* of which no figure is made */
+    fixture_check(wt_result_add(fixture_case, tables.surfaces, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.height_map, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.height_profile, NULL));
     wt_formats_free(formats);
 }
 
@@ -493,7 +496,7 @@ static inline const wt_result *fixture_produced(void)
     if (fixture_case == NULL) {
         wt_case *read = NULL;
         size_t failed = 0;
-        fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL));
+        fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/stated-road.xml", &read, NULL));
         fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
         fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
         fixture_accuracy(read);

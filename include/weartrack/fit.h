@@ -772,9 +772,12 @@ typedef struct wt_surface_spectrum {
     double from, to;     /* the reliable range [rad/m] */
     const char *ends_by; /* "points" or "tip"; static */
     /* Of several scans: standard deviation of ln C from place to place, the same at all
-     * wavenumbers, and the standard error that it gives the mean; NaN: not known. */
+     * wavenumbers, and the standard error that it gives the mean: of each bin by its scans, and the
+     * mean of these squared over the bins; NaN: not known. */
     double place_scatter, place_error;
     double place_freedom; /* of it */
+    size_t n_places;      /* scans; 0: of one, or not kept */
+    double *place_weight; /* [n_places] for each bin: the part of a scan in its ln C */
 } wt_surface_spectrum;
 WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
 
@@ -796,6 +799,9 @@ WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size
  * the profiles are too few: bins that are not known to a factor of two are left out. */
 WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
                                    wt_error *err) WT_NODISCARD;
+/* C [n] at the wavenumbers of C1, without errors. WT_E_RANGE where it is not above 0, too. */
+WT_API wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n,
+                                       double *c, wt_error *err) WT_NODISCARD;
 /* What lies behind a bin of a spectrum, with the scatter from place to place as far as it is known.
  * Its standard error, and those of c0 and roll_off below, are of the logarithm, times the value. */
 WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
@@ -820,13 +826,19 @@ typedef struct wt_self_affine {
     bool found;
     bool rolls_off; /* else roll_off is the first wavenumber, without an error */
     wt_interval c0, roll_off, hurst;
-    double covariance[3][3]; /* of ln c0, ln roll_off, hurst */
+    double covariance[3][3];       /* of ln c0, ln roll_off, hurst, with the next */
+    double place_covariance[3][3]; /* what places make of it */
+    double freedom;                /* of the covariance without that, which intervals hold */
     double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
     size_t n;      /* bins */
 } wt_self_affine;
 /* Weighted least squares in ln C over the reliable bins. WT_E_MEMORY. */
 WT_API wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
                                     wt_error *err) WT_NODISCARD;
+/* C of the law at a wavenumber, NaN if it was not found; and the standard error of its logarithm by
+ * the covariance: half an interval of 95 % over 1.96, with what places add or without. */
+WT_API double wt_self_affine_density(const wt_self_affine *law, double wavenumber);
+WT_API double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bool places);
 
 /* The wavenumber at which the rms slope of the roughness from its q0 on reaches `slope`; NaN if it
  * does not. */

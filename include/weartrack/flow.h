@@ -239,12 +239,14 @@ typedef struct wt_topography_job {
     double end;        /* last wavenumber [rad/m]; NaN = that of the reliable range */
     double end_slope;  /* rms slope at which it ends instead; NaN = none */
     bool scans;        /* makes the table scan_spectra, too */
+    bool heights;      /* and the tables height_map and height_profile */
 } wt_topography_job;
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);
 typedef struct wt_topography_tables {
     wt_table *power_spectrum, *angular_spectrum, *surfaces; /* angular_spectrum: NULL of profiles */
-    wt_table *scan_spectra;                                 /* NULL unless asked for */
+    wt_table *scan_spectra, *height_map, *height_profile;   /* NULL unless asked for; height_map
+                                                               NULL of profiles, too */
 } wt_topography_tables;
 WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,
@@ -721,6 +723,7 @@ typedef struct wt_surface {
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
+    double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
     double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
 } wt_surface;

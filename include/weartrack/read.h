@@ -105,6 +105,12 @@ typedef enum wt_sample_by {
     WT_SAMPLE_BY_FILE  /* each file is of one, which is called as the file is */
 } wt_sample_by;
 
+/* What the densities of a power spectrum are; q is 2 pi / wavelength in each. */
+typedef enum wt_spectrum_convention {
+    WT_CONVENTION_WEARTRACK,          /* h_rms^2 = 2 pi int q C dq = 2 int_0^inf C1 dq */
+    WT_CONVENTION_CONTACT_ENGINEERING /* (2 pi)^2 C of an area, 2 pi C1 of a profile */
+} wt_spectrum_convention;
+
 /* Nothing that is not asked for is decoded. */
 typedef struct wt_read_options {
     const char *format;   /* id that overrules detection, or NULL */
@@ -128,6 +134,7 @@ typedef struct wt_read_options {
     const char *sample; /* of DMA sweeps of several samples: its name; "all" = they are of one
                            material, whatever they are called; NULL = none is chosen */
     wt_sample_by sample_by;
+    wt_spectrum_convention spectrum_convention;
     const char *temperature_in_name; /* pattern of the names of files that say no temperature: a "#"
                                         stands where it does, in degrees Celsius, a "*" for
                                         anything; NULL = none */

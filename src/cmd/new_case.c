@@ -12,7 +12,7 @@
 /* What is not known stands in the case as these words, which no quantity and no tip is. */
 #define FILL_IN "FILL IN"
 
-typedef enum place { BULK, TRACK, DMA, ROUGHNESS, UNUSED } place;
+typedef enum place { BULK, TRACK, DMA, ROUGHNESS, MAPS, UNUSED } place;
 
 typedef struct entry {
     char *path, *in_case; /* as given, and as it holds from the folder of the case */
@@ -170,7 +170,43 @@ static place place_of(const found_file *found)
     return found->kind == WT_KIND_SWEEP      ? DMA
            : found->kind == WT_KIND_SPECTRUM ? ROUGHNESS
            : found->kind == WT_KIND_FORCE    ? BULK
+           : found->kind == WT_KIND_IMAGE    ? MAPS
                                              : UNUSED;
+}
+
+static size_t count_entries(const new_case *c, place where)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->n; i++)
+        n += c->entries[i].place == where;
+    return n;
+}
+
+/* Height maps are of the counter surface, unless a name says that they are of a spot or there is a
+ * spectrum of it. */
+static void guess_maps(new_case *c)
+{
+    static const char *const surface[] = {"road",     "counter",   "asphalt", "concrete",
+                                          "pavement", "substrate", "disc",    NULL};
+    const bool spectrum = count_entries(c, ROUGHNESS) > 0;
+    size_t n_guessed = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        entry *e = &c->entries[i], of_spot = {.path = e->path};
+        if (e->place != MAPS)
+            continue;
+        const char *slash = strrchr(e->path, '/'), *name = slash != NULL ? slash + 1 : e->path;
+        const bool said = find_word(name, strlen(name), surface) != NULL;
+        find_group(&of_spot, strlen(e->path));
+        if (spectrum || (!said && of_spot.word != NULL))
+            e->place = UNUSED;
+        else
+            n_guessed += said ? 0 : 1;
+    }
+    if (n_guessed > 0)
+        wt_parselog_add(c->s->log, WT_WARNING, NULL, NULL,
+                        "%zu height map%s in <roughness> by a guess: take out what is no map of "
+                        "the counter surface, as images of spots",
+                        n_guessed, n_guessed == 1 ? " stands" : "s stand");
 }
 
 /* Whether its name can stand in a case, where it must be read back as it is. */
@@ -281,14 +317,6 @@ static wt_status add_argument(new_case *c, const char *pattern)
     return say_and_go_on(c, status);
 }
 
-static size_t count_entries(const new_case *c, place where)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < c->n; i++)
-        n += c->entries[i].place == where;
-    return n;
-}
-
 /* ---- writing --------------------------------------------------------------------------------- */
 
 /* Why a file of force curves stands where it stands. */
@@ -374,6 +402,11 @@ static void put_roughness(FILE *out, const new_case *c)
                     "    </spectrum>\n  </roughness>\n");
         return;
     }
+    if (put_section(out, c, MAPS,
+                    "\n  <roughness>\n    <!-- Maps and profiles of the counter surface, of "
+                    "several places at best; no images of spots. -->\n",
+                    "files", "  </roughness>\n"))
+        return;
     fputs("\n  <!-- Counter surface; for friction:\n  <roughness>\n    <self-affine>\n"
           "      <q0>" FILL_IN ", such as 2e3rad/m</q0>\n"
           "      <q1>" FILL_IN ", such as 2e6rad/m</q1>\n"
@@ -463,7 +496,8 @@ int cmd_new_case(int argc, char **argv)
         .what =
             "Writes a commented case file (weartrack-case(5)) for the files (folders, with the "
             "folders in them, and patterns): force curves as bulk or track, by the names of their "
-            "folders; DMA sweeps; a power spectrum. What no file says stands there as " FILL_IN ".",
+            "folders; DMA sweeps; a power spectrum or height maps of the counter surface. What no "
+            "file says stands there as " FILL_IN ".",
         .common = "output formats files-from",
         .notes =
             "Exit status 3 if a file was not understood, 1 if none was; the case names it in a "
@@ -482,6 +516,7 @@ int cmd_new_case(int argc, char **argv)
         made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
     if (made == WT_OK) {
         guess_groups(&c);
+        guess_maps(&c);
         if (s.status == CMD_PARTLY && count_entries(&c, UNUSED) == c.n)
             s.status = CMD_FAILED;
         made = write_case(&c);

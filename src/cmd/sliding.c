@@ -49,7 +49,7 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->parts[CMD_READ] = (cmd_part){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
-        "strain sample sample-by",
+        "strain sample sample-by spectrum-convention",
         0};
     s->parts[CMD_OWN] = own;
 }

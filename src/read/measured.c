@@ -5,6 +5,9 @@
 #include "read/formats.h"
 #include "read/images.h"
 
+#include <math.h>
+#include <string.h>
+
 wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, wt_sweep *sweep, wt_error *err)
 {
@@ -13,6 +16,28 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
     if (status == WT_OK)
         status = r.reader->read_sweep(r.reader, r.content, &r.options, log, sweep, err);
     return read_end(input, status, err);
+}
+
+/* Densities of another convention become those of this program. */
+static wt_status take_convention(const reading *r, const char *name, wt_parselog *log,
+                                 wt_power_spectrum *spectrum, wt_error *err)
+{
+    if (r->options.spectrum_convention == WT_CONVENTION_WEARTRACK)
+        return WT_OK;
+    if (strncmp(r->reader->info.id, "weartrack-", strlen("weartrack-")) == 0) {
+        wt_fail(err, WT_E_ARG, "the spectrum is one of this program");
+        wt_error_advice(err, "leave spectrum-convention out: it is for files of other programs");
+        return WT_E_ARG;
+    }
+    const bool area = spectrum->kind == WT_SPECTRUM_2D;
+    const double factor = area ? 4 * M_PI * M_PI : 2 * M_PI;
+    for (size_t i = 0; i < spectrum->n; i++)
+        spectrum->density[i] /= factor;
+    wt_parselog_add(log, WT_NOTE, name, NULL,
+                    "densities of contact.engineering are divided by %s = %.5g: here the mean "
+                    "square height is %s",
+                    area ? "(2 pi)^2" : "2 pi", factor, area ? "2 pi int q C dq" : "2 int C1 dq");
+    return WT_OK;
 }
 
 wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
@@ -24,6 +49,8 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
     wt_status status = read_start(formats, input, options, WT_KIND_SPECTRUM, &r, err);
     if (status == WT_OK)
         status = r.reader->read_spectrum(r.reader, r.content, &r.options, log, &made, err);
+    if (status == WT_OK)
+        status = take_convention(&r, wt_input_name(input), log, &made, err);
     status = read_end(input, status, err);
     if (status == WT_OK)
         *spectrum = made;

@@ -68,6 +68,11 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("height-unit", wt_read_options, height_unit), .value = "UNIT", .unset = "",
      .help = "unit of the values of height maps whose files do not give it as a length, such as nm",
      .check = check_length_unit},
+    {PARAM_CHOICE_OF("spectrum-convention", wt_read_options, spectrum_convention,
+                     "weartrack|contact-engineering"),
+     .help =
+         "what the densities of a power spectrum are: of contact.engineering (SurfaceTopography) "
+         "they are divided by (2 pi)^2 of an area, 2 pi of a profile"},
     {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
      .help = "read the files as this format (see weartrack formats list)"},
     {PARAM_TEXT_OF("sheet", wt_read_options, sheet), .value = "NAME", .unset = "",

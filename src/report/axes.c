@@ -74,6 +74,16 @@ static double tidy_step(double width)
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
+/* The same of degrees, which are read by parts of a turn. */
+static double tidy_angle(double width)
+{
+    return width > 270   ? 90
+           : width > 135 ? 45
+           : width > 90  ? 30
+           : width > 45  ? 15
+                         : tidy_step(width);
+}
+
 /* Labels of tics this wide leave the margin of the styles room for that of the axis. */
 enum { WIDE = 7, BESIDE = 5 };
 
@@ -102,7 +112,8 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
         low -= half;
         high += half;
     }
-    double step = tidy_step(high - low), margin = 0.04 * (high - low);
+    double step = column->quantity == WT_Q_ANGLE ? tidy_angle(high - low) : tidy_step(high - low),
+           margin = 0.04 * (high - low);
     // A zero that ends the data ends the axis: nothing is drawn beyond it.
     low = low == 0 ? 0 : low - margin;
     high = high == 0 ? 0 : high + margin;

@@ -16,7 +16,7 @@ campaign() { # OPTIONS
 runs() { grep -c '^rule run:' said || true; }
 cp -R "$fixtures/case" cases
 chmod -R u+w cases
-rm -f cases/measured-road.xml
+rm -f cases/stated-road.xml
 mv cases/case.xml cases/one.xml
 sed 's/<temperature>30degC/<temperature>40degC/' cases/one.xml >cases/two.xml
 sed 's/bulk-4.jpk/absent.jpk/' cases/one.xml >cases/part.xml # answered in part

@@ -14,6 +14,11 @@
 #define TRUTH_TEMPERATURE 296.15
 #define TRUTH_RATIO 0.64
 
+/* The road: C0 [m^4] up to a roll-off [rad/m], and the law above it. */
+#define TRUTH_ROAD_C0 2e-17
+#define TRUTH_ROLL_OFF 4e3
+#define TRUTH_HURST 0.8
+
 wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS]);
 /* Vertical shift b(T): the measured moduli times b are those at the reference. */
 double truth_vertical(double temperature);
@@ -35,5 +40,6 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
  * case; another one has the same truth and other errors of measurement. */
 int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant);
 int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant, double ratio);
+int generate_road(const char *folder, uint64_t variant);
 
 #endif

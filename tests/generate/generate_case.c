@@ -1,5 +1,6 @@
 /* Writes the data files of the bundled case and the truth behind them:
  *   generate_case FOLDER CASE.xml [VARIANT [RATIO]]
+ * CASE.xml has the conditions, and the road by its law.
  * The same bytes every time; variants, for counting how often a stated interval holds the truth,
  * differ in their errors of measurement, ratios in how soft the track is. SPDX-License-Identifier:
  * GPL-3.0-or-later */
@@ -79,6 +80,9 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     wt_status status = wt_case_read(case_path, &c, &err);
     if (status == WT_OK)
         status = flow_case_surface(c, &job, &surface, &err);
+    if (status == WT_OK && !(surface.self_affine && surface.c0.value == TRUTH_ROAD_C0 &&
+                             surface.qr == TRUTH_ROLL_OFF && surface.hurst == TRUTH_HURST))
+        status = wt_fail(&err, WT_E_ARG, "the case has another road than the maps");
     if (status != WT_OK)
         goto done;
     wt_sliding sliding = flow_case_sliding(c, rubber, &surface);
@@ -96,6 +100,8 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     fprintf(out, "modulus_ratio %.6g\n", ratio);
     fprintf(out, "reference_temperature %.6g\n", TRUTH_REFERENCE);
     fprintf(out, "wlf_c1 %.6g\nwlf_c2 %.6g\n", TRUTH_C1, TRUTH_C2);
+    fprintf(out, "road_c0 %.6g\nroad_roll_off %.6g\nroad_hurst %.6g\n", TRUTH_ROAD_C0,
+            TRUTH_ROLL_OFF, TRUTH_HURST);
     fprintf(out, "hysteresis %.6g\n", key(friction.friction, "hysteresis_at_reference"));
     fprintf(out, "area_ratio %.6g\n", key(friction.friction, "area_ratio_at_reference"));
     fprintf(out, "friction %.6g\n", key(friction.friction, "friction_at_reference"));
@@ -136,6 +142,7 @@ int main(int argc, char **argv)
     rubber.vertical_log_b = log_b;
     return generate_dma(&rubber, argv[1], variant) != 0 ||
                    generate_curves(&rubber, argv[1], variant, ratio) != 0 ||
+                   generate_road(argv[1], variant) != 0 ||
                    write_truth(&rubber, argv[1], argv[2], ratio) != 0
                ? EXIT_FAILURE
                : EXIT_SUCCESS;

@@ -141,6 +141,7 @@ static const struct {
     {NULL, "height-unit", "for images without a unit: unit_read_images"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
     {NULL, "sample", "for sweeps of several samples: cli_samples"},
+    {NULL, "spectrum-convention", "for spectra of other programs: cli_psd"},
     {NULL, "sample-by", "for sweeps of several samples: cli_samples"},
     {NULL, "strain", "for isotherms of several amplitudes: tests/cli/payne.txt"},
     {NULL, "deformation", "for moduli whose names leave it open: tests/formats"},

@@ -37,6 +37,9 @@ typedef enum quantity {
     Q_HURST,
     Q_ROLL_OFF,
     Q_C0,
+    Q_BEYOND,     /* C(q) by the law, at the end that was asked for */
+    Q_ANISOTROPY, /* amplitude of order 2 */
+    Q_TEXTURE,    /* its direction */
     Q_STEADY,     /* friction coefficient behind a running-in */
     Q_RUNNING_IN, /* cycles before it */
     Q_DRIFT,

@@ -38,8 +38,9 @@ typedef struct made_surface {
     uint64_t seed;
     int modes; /* up to here, in all directions */
     double c0, roll_off, hurst;
-    double stretch;   /* C(phi) = C (1 + stretch cos 2 phi) */
+    double stretch;   /* C(phi) = C (1 + stretch cos 2 (phi - texture)) */
     bool exponential; /* squared amplitudes scatter, as those of a random surface do */
+    double texture;   /* [rad] */
 } made_surface;
 
 static inline double made_density(const made_surface *s, double q)
@@ -52,7 +53,8 @@ static inline double complex made_amplitude(const made_surface *s, int mx, int m
     const double step = 2 * M_PI / s->length, q = step * sqrt((double)(mx * mx + my * my));
     const uint64_t i = (uint64_t)((mx + 32768) * 65536L + my + 32768);
     const double phase = 2 * M_PI * made_uniform(s->seed, i);
-    const double c2 = (double)(mx * mx - my * my) / (double)(mx * mx + my * my);
+    const double c2 = s->texture == 0 ? (double)(mx * mx - my * my) / (double)(mx * mx + my * my)
+                                      : cos(2 * (atan2((double)my, (double)mx) - s->texture));
     double square = 4 * made_density(s, q) * step * step * (1 + s->stretch * c2);
     if (s->exponential)
         square *= -log1p(-made_uniform(s->seed + 1, i));

@@ -25,13 +25,16 @@ extern const place place_layered_friction;              /* at the reference velo
 
 extern const place place_density; /* of a surface, a row for each bin */
 extern const place place_hurst, place_roll_off, place_c0;
+extern const place place_anisotropy, place_texture;
 
 extern const place place_steady, place_running_in, place_drift; /* of a record, a row for a step */
 extern const place place_wear_rate;                             /* a row for each way to tell it */
 
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */
-#define PLACE_CURVE "verdict"               /* in `place_modulus.table`, of a curve: */
+#define PLACE_SOURCE "source"               /* likewise: where a row is from */
+#define PLACE_BY_LAW "law"
+#define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
 #define PLACE_ACCEPTED "accepted"
 #define PLACE_DOUBTFUL "doubtful"
 #define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */

@@ -36,6 +36,8 @@ static made_surface surface_of(const surface_scene *s, random_source *random, do
                           .c0 = c0,
                           .roll_off = roll_off,
                           .hurst = hurst,
+                          .stretch = s->stretch,
+                          .texture = s->texture,
                           .exponential = true};
 }
 
@@ -60,7 +62,7 @@ static int write_scan(const surface_scene *s, const made_surface *surface, rando
                              nx, ny, step * (double)nx, step * (double)ny);
     for (int i = head; i == head || i % 4 != 0; i++)
         (void)fputc(0, out);
-    for (size_t j = 0; j < ny; j++)
+    for (size_t j = ny; j-- > 0;) /* the top line first */
         for (size_t i = 0; i < nx; i++) {
             const double x = (double)i / (double)nx - 0.5, y = (double)j / (double)ny - 0.5;
             const double height = z[(j + 7) * surface->n + i + 3] + form * (3 * x * x + x - 2 * y);
@@ -80,10 +82,15 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
     const int n = found != NULL ? stream_rows(found, place_density.table) : 0;
     if (n < 1)
         trial_broke(t, "no spectrum of a surface");
-    for (int i = 0; i < n; i++)
-        trial_add(t, Q_DENSITY,
+    for (int i = 0; i < n; i++) {
+        const bool by_law =
+            stream_is(found, place_density.table, PLACE_SOURCE, i, PLACE_BY_LAW) != 0;
+        if (by_law && i + 1 < n)
+            continue; /* all rows of the law are off together: the last says what they are */
+        trial_add(t, by_law ? Q_BEYOND : Q_DENSITY,
                   made_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
                   place_row(found, &place_density, i));
+    }
     if (n > 0) {
         trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
         /* profiles tell too few bins for a roll-off */
@@ -92,6 +99,10 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
             trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
         }
     }
+    if (n > 0 && s->stretch > 0) {
+        trial_add(t, Q_ANISOTROPY, s->stretch, place_key(found, &place_anisotropy));
+        trial_add(t, Q_TEXTURE, s->texture, place_key(found, &place_texture));
+    }
     stream_free(found);
 }
 
@@ -99,7 +110,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
 {
     const surface_scene *s = &surface_scenes[scene];
     const char *made = trial_file(t, "spectrum.tsv");
-    const char *arguments[MOST_SCANS + 5] = {"psd", "-o", made, "--no-provenance"};
+    const char *arguments[MOST_SCANS + 7] = {"psd", "-o", made, "--no-provenance"};
     const int wide = s->profiles > 0 ? s->profiles
                      : s->places > 0 ? s->places
                                      : 1,
@@ -116,6 +127,12 @@ static void observe(int scene, const void *prepared, random_source *random, tria
             trial_broke(t, "the scan cannot be written");
             return;
         }
+    }
+    char end[32];
+    snprintf(end, sizeof end, "%grad/m", s->end);
+    if (s->end > 0) {
+        arguments[4 + all] = "--end";
+        arguments[5 + all] = end;
     }
     if (trial_run(t, arguments))
         read_spectrum(made, s, &truth, t);

@@ -16,6 +16,9 @@ typedef struct surface_scene {
     double scatter;  /* of ln C from place to place */
     double missing;  /* share of the heights, anywhere */
     double form;     /* of a bowl and a tilt under it, rms of the surface */
+    double end;      /* of the spectrum, by its law [rad/m]; 0: that of the reliable range */
+    double stretch;  /* of order 2, amplitude */
+    double texture;  /* and its direction [rad] */
 } surface_scene;
 
 extern const surface_scene surface_scenes[];

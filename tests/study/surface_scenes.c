@@ -13,5 +13,16 @@ const surface_scene surface_scenes[] = {
     {NAMED("S7", "one scan, H 0.4"), STATED, .hurst = 0.4},
     {NAMED("S8", "one scan, 5 % of it missing"), .missing = 0.05},
     {NAMED("S9", "ten profiles"), STATED, .profiles = 10},
+    {NAMED("S10", "one scan, a decade beyond it"), STATED, .end = 1.6e7},
+    {NAMED("S11", "two places and two near by, beyond them"), STATED, .places = 2, .near_by = 2,
+     .end = 1.6e8},
+    {NAMED("S12", "six places that scatter, beyond them"), STATED, .places = 6, .scatter = 0.3,
+     .end = 1.6e7},
+    {NAMED("S15", "four places and four near by that scatter"), STATED, .places = 4, .near_by = 4,
+     .scatter = 0.3},
+    {NAMED("S13", "texture of 0.4 at 35 deg"), STATED, .stretch = 0.4, .texture = 0.6},
+    {NAMED("S14", "texture of 0.8 along x, two places"), STATED, .places = 2, .stretch = 0.8},
+    {NAMED("S16", "texture of 0.4 at 35 deg, six places"), STATED, .places = 6, .stretch = 0.4,
+     .texture = 0.6},
 };
 const int n_surface_scenes = sizeof surface_scenes / sizeof surface_scenes[0];

@@ -172,6 +172,35 @@ static void test_thickness(void **state)
     assert_near(relative, sensitivity * sqrt(2) * 0.1, 0.25);
 }
 
+/* The maps give back the law that they were made by. */
+static void test_surface(void **state)
+{
+    (void)state;
+    const wt_table *spectrum = wt_result_find(result, "power_spectrum"),
+                   *scans = wt_result_find(result, "surfaces");
+    size_t held = 0, n = 0;
+    assert_non_null(spectrum);
+    assert_int_equal(wt_table_n_rows(scans), 4);
+    for (size_t i = 0; i < wt_table_n_rows(spectrum); i++) {
+        if (strcmp(text_cell(spectrum, i, "source"), "measured") != 0)
+            continue;
+        const double q = number_cell(spectrum, i, "wavenumber") / truth("road_roll_off");
+        const double c = truth("road_c0") * (q > 1 ? pow(q, -2 * (1 + truth("road_hurst"))) : 1);
+        held += number_cell(spectrum, i, "density_low") < c &&
+                c < number_cell(spectrum, i, "density_high");
+        n++;
+        assert_near_abs(log(number_cell(spectrum, i, "density") / c), 0,
+                        4 * number_cell(spectrum, i, "modes_error"));
+    }
+    assert_true(n > 20 && (double)held > 0.85 * (double)n);
+    check("power_spectrum", "hurst", "road_hurst", 0.02);
+    /* what the surface is not known by is in the error of friction: nothing is extrapolated */
+    const char *includes =
+        wt_table_key(wt_result_find(result, "friction"), "standard_error_includes");
+    assert_non_null(strstr(includes, "scatter of the spectrum"));
+    assert_true(number_cell(spectrum, wt_table_n_rows(spectrum) - 1, "wavenumber") >= 2e6);
+}
+
 /* Every question has an answer that is not "not asked". */
 static void test_answer(void **state)
 {
@@ -179,7 +208,7 @@ static void test_answer(void **state)
     const wt_table *answer = wt_result_find(result, "answer");
     assert_non_null(answer);
     assert_true(wt_table_n_rows(answer) >= 8);
-    bool dma = false, lever = false;
+    bool dma = false, lever = false, surface = false;
     for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
         const char *text = text_cell(answer, i, "answer");
         print_message("%-10s %s\n", text_cell(answer, i, "kind"), text);
@@ -187,11 +216,12 @@ static void test_answer(void **state)
         assert_null(strstr(text, "nan"));
         assert_null(strstr(text, "not known"));
         assert_null(strstr(text, "not of the spectrum"));
+        surface = surface || strstr(text, "Measured, 4 scans: rms height");
         dma = dma || strstr(text, "of which the spring constant leaves 5 % uncertain");
         lever =
             lever || strstr(text, "Track and bulk are taken to be indented with one cantilever");
     }
-    assert_true(dma && lever);
+    assert_true(dma && lever && surface);
 }
 
 /* The case with one thing changed; says whether an answer holds the words. */
@@ -232,15 +262,11 @@ static void test_answer_of_other_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_failed),
-        cmocka_unit_test(test_ratio),
-        cmocka_unit_test(test_material),
-        cmocka_unit_test(test_spectrum),
-        cmocka_unit_test(test_against_dma),
-        cmocka_unit_test(test_friction),
-        cmocka_unit_test(test_thickness),
-        cmocka_unit_test(test_answer),
-        cmocka_unit_test(test_answer_of_other_cases),
+        cmocka_unit_test(test_nothing_failed), cmocka_unit_test(test_ratio),
+        cmocka_unit_test(test_material),       cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_against_dma),    cmocka_unit_test(test_friction),
+        cmocka_unit_test(test_thickness),      cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_answer),         cmocka_unit_test(test_answer_of_other_cases),
     };
     return cmocka_run_group_tests_name("case truth", tests, run_case, free_result);
 }

@@ -30,9 +30,9 @@ static int make_all(void **state)
 {
     (void)state;
     const double roll_off = 8.3 * 2 * M_PI / length;
-    p = make_surface(&(made_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false});
-    a = cut(&(made_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false}, 37, 61);
-    b = cut(&(made_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false}, 100, 20);
+    p = make_surface(&(made_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false, 0});
+    a = cut(&(made_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 37, 61);
+    b = cut(&(made_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 100, 20);
     return 0;
 }
 
@@ -362,7 +362,7 @@ static void test_scatter(void **state)
     const double roll_off = 8.3 * 2 * M_PI / length;
     size_t within = 0, all = 0;
     for (uint64_t seed = 1; seed <= 6; seed++) {
-        const made_surface truth = {512, 512e-6, 100 * seed, 250, 3e-23, roll_off, 0.8, 0, true};
+        const made_surface truth = {512, 512e-6, 100 * seed, 250, 3e-23, roll_off, 0.8, 0, true, 0};
         double *z = cut(&truth, 37, 61);
         const wt_height_map map = map_of(z);
         const wt_surface_options options = wt_surface_options_defaults();
@@ -395,7 +395,7 @@ static void test_leak(void **state)
     static const double most[] = {0.2, 0.1};
     double sum[COUNT_OF(windows)][BINS] = {{0}};
     for (uint64_t seed = 1; seed <= SURFACES; seed++) {
-        const made_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false};
+        const made_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false, 0};
         double *z = make_surface(&made), *part = malloc((size_t)CUT * CUT * sizeof *part);
         assert_non_null(part);
         for (size_t j = 0; j < CUT; j++)
@@ -427,8 +427,8 @@ static void test_leak(void **state)
 static void test_directions(void **state)
 {
     (void)state;
-    const made_surface truth = {512, 512e-6, 5,   250, 3e-23, 8.3 * 2 * M_PI / length,
-                                0.8, 0.3,    true};
+    const made_surface truth = {512, 512e-6, 5,    250, 3e-23, 8.3 * 2 * M_PI / length,
+                                0.8, 0.3,    true, 0};
     double *z = cut(&truth, 37, 61);
     const wt_height_map map = map_of(z);
     const wt_surface_options options = wt_surface_options_defaults();
@@ -541,7 +541,7 @@ static void test_places(void **state)
     const double factor[PLACES] = {0.5, 0.8, 1, 1.3, 2.1};
     wt_surface_spectrum s[PLACES] = {{.n = 0}}, joined = {.n = 0};
     const wt_surface_spectrum *all[PLACES];
-    const made_surface one = {256, length, 9, 120, 3e-23, 8.3 * 2 * M_PI / length, 0.8, 0, true};
+    const made_surface one = {256, length, 9, 120, 3e-23, 8.3 * 2 * M_PI / length, 0.8, 0, true, 0};
     for (size_t i = 0; i < PLACES; i++) {
         made_surface here = one;
         here.seed += 10 * i;

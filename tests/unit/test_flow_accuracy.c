@@ -238,6 +238,47 @@ static void test_one_source_at_a_time(void **state)
     wt_table_free(table);
 }
 
+/* Of a measured surface its scatter and its law are one source, and in no other. What one per cent
+ * of each does is there if it is asked for. */
+static void test_measured_surface(void **state)
+{
+    (void)state;
+    static const char number[] = "friction coefficient";
+    double q[] = {1e3, 4e3, 1e6, 4e6}, c[] = {1e-16, 5e-17, 1e-24, 1e-26},
+           modes[] = {0.5, 0.3, 0.1, 0}, law[] = {0, 0, 0, 0.3};
+    wt_table *table = NULL;
+    set_up();
+    surface = (wt_surface){.q0 = 1e3, .q1 = 4e6, .c0 = {1, 0, 0, "1"}};
+    surface.spectrum = (wt_power_spectrum){.n = 4, .wavenumber = q, .density = c};
+    surface.modes_error = modes;
+    surface.law_error = law;
+    sliding.shear_stress.standard_error = 0;
+    wt_surface without = surface;
+    without.modes_error = without.law_error = NULL;
+    wt_sliding pressure = sliding, roughness = sliding;
+    pressure.surface = &without;
+    roughness.pressure.standard_error = 0;
+    sliding.sensitivities = true;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
+    assert_near(relative(table, number, "pressure"), alone(&pressure), 1e-12);
+    assert_near(relative(table, number, "roughness"), alone(&roughness), 1e-12);
+    assert_null(strstr(wt_table_key(table, "lacks"), "roughness"));
+    wt_friction_tables f = {0};
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &f, NULL), WT_OK);
+    size_t n = 0;
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, "kind"), "one per cent") == 0) {
+            n++;
+            if (strcmp(text_cell(table, i, "source"), "1 % of the largest wavenumber q1") == 0)
+                assert_near(number_cell(table, i, "relative_error"),
+                            0.01 * fabs(key_estimate(f.friction, "sensitivity_to_cutoff").value),
+                            1e-9);
+        }
+    assert_int_equal(n, 4);
+    wt_friction_tables_clear(&f);
+    wt_table_free(table);
+}
+
 /* With times every row of the budget has its own, those of the choices of the model too, and all
  * else is the same. */
 static void test_seconds(void **state)
@@ -515,14 +556,23 @@ static void test_scatter_of_a_group(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stated_errors),        cmocka_unit_test(test_angles_of_the_textbook),
-        cmocka_unit_test(test_what_is_estimated),    cmocka_unit_test(test_spectrum),
-        cmocka_unit_test(test_no_such_part),         cmocka_unit_test(test_seeds),
-        cmocka_unit_test(test_one_source_at_a_time), cmocka_unit_test(test_seconds),
-        cmocka_unit_test(test_nothing_stated),       cmocka_unit_test(test_exact_ratio),
-        cmocka_unit_test(test_calibration),          cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_verdicts_of_shares),   cmocka_unit_test(test_nothing_to_cover),
-        cmocka_unit_test(test_isotherms_again),      cmocka_unit_test(test_scatter_of_a_group),
+        cmocka_unit_test(test_stated_errors),
+        cmocka_unit_test(test_angles_of_the_textbook),
+        cmocka_unit_test(test_what_is_estimated),
+        cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_no_such_part),
+        cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_one_source_at_a_time),
+        cmocka_unit_test(test_measured_surface),
+        cmocka_unit_test(test_seconds),
+        cmocka_unit_test(test_nothing_stated),
+        cmocka_unit_test(test_exact_ratio),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_verdicts_of_shares),
+        cmocka_unit_test(test_nothing_to_cover),
+        cmocka_unit_test(test_isotherms_again),
+        cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -408,6 +408,7 @@ static void check_files(const char *asks, const ran *r)
     size_t n = check_kind(asks, "bulk-*", bulk, bulk && shown(r, FLOW_CURVE_BULK));
     n += check_kind(asks, "track-*", track, track && shown(r, FLOW_CURVE_TRACK));
     n += check_kind(asks, "dma.txt", runs(r, FLOW_PRONY) || runs(r, FLOW_RAMP), false);
+    n += check_kind(asks, "road-*", runs(r, FLOW_SURFACE), false);
     size_t inputs = 0;
     for (size_t i = 0; i < n_seen; i++)
         inputs += strncmp(seen[i].path, CASE, strlen(CASE)) == 0 && seen[i].bytes > 0;
@@ -429,6 +430,7 @@ static void check_some(const char *asks, work which, bool needed)
                  needed ? "some are needed" : "none are needed");
 }
 
+enum { LINES_OF_MAPS = 2 * (192 + 224) };
 enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121, TIMES_SHOWN = 61 };
 
 static void check_curves(const char *asks, const ran *r)
@@ -437,13 +439,15 @@ static void check_curves(const char *asks, const ran *r)
     const size_t channels = 4, fitted = CURVES_OF_A_FILE * FILES_OF_A_GROUP;
     const size_t groups = (size_t)runs(r, FLOW_INDENTATION_BULK) + runs(r, FLOW_INDENTATION_TRACK);
     const bool again = shown(r, FLOW_CURVE_BULK) || shown(r, FLOW_CURVE_TRACK);
+    /* each line of a height map is decoded as a channel is */
+    const size_t lines = runs(r, FLOW_SURFACE) ? LINES_OF_MAPS : (size_t)0;
     if (!again) {
         check(asks, CURVES, groups * fitted);
-        check(asks, CHANNELS, channels * groups * fitted);
+        check(asks, CHANNELS, channels * groups * fitted + lines);
     } else { /* the representative one, and those before it in its file */
         check(asks, CURVES, groups * (fitted + 1));
-        assert_true(count[CHANNELS] > channels * groups * fitted &&
-                    count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE));
+        assert_true(count[CHANNELS] > channels * groups * fitted + lines &&
+                    count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE) + lines);
     }
     /* once more in each trial; and with the error of the lever stated at most 8 of them,
      * here every eighth, with four sources moved down and up */

@@ -14,7 +14,7 @@
 
 #define SURFACE WT_SOURCE_DIR "/fixtures/surface/"
 /* As tests/generate/generate_surface.c has them. */
-static const made_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true};
+static const made_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 
 static wt_formats *formats;
 
@@ -156,7 +156,18 @@ static void test_ends(void **state)
     assert_string_equal(wt_table_key(t, "steep_by"), "law");
     assert_true(key(t, "extrapolated_share") > 0.3);
     assert_true(said(&m, "beyond the reliable range"));
-    assert_true(isnan(cell(t, last, "density_low")));
+    /* the law is known the less the further it goes, and the slope with it */
+    const double truth = made_density(&behind, cell(t, last, "wavenumber"));
+    assert_near_abs(log(cell(t, last, "density") / truth), 0, 3 * cell(t, last, "law_error"));
+    assert_near(cell(t, last, "density_standard_error") / cell(t, last, "density"),
+                log(cell(t, last, "density_high") / cell(t, last, "density")) / 1.96, 1e-3);
+    size_t first = last;
+    while (strcmp(cell_text(t, first - 1, "source"), "law") == 0)
+        first--;
+    assert_true(first < last);
+    assert_true(cell(t, last, "law_error") > 1.5 * cell(t, first, "law_error"));
+    assert_true(isnan(cell(t, first - 1, "law_error")) && isnan(cell(t, first, "modes_error")));
+    assert_true(key_estimate(t, "rms_slope").standard_error > 0.02);
     clear(&m);
 
     m.job.end = 1e7;
@@ -167,6 +178,44 @@ static void test_ends(void **state)
     m.job.end_slope = (double)NAN;
     make(&m, all, COUNT_OF(all));
     assert_int_equal(m.status, WT_E_RANGE);
+    clear(&m);
+}
+
+/* Heights less their form, every so many points of four maps together; the line of a map is the one
+ * in its middle, and a profile has no map. */
+static void test_heights(void **state)
+{
+    (void)state;
+    enum { SIDE = 112 }; /* of three scans in a picture of 256 points: every point */
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, all, COUNT_OF(all));
+    assert_null(m.tables.height_map);
+    assert_null(m.tables.height_profile);
+    clear(&m);
+    m.job.heights = true;
+    make(&m, all, COUNT_OF(all));
+    const wt_table *map = m.tables.height_map, *line = m.tables.height_profile,
+                   *scans = m.tables.surfaces;
+    assert_int_equal(wt_table_n_rows(map), COUNT_OF(all) * SIDE * SIDE);
+    assert_int_equal(wt_table_n_rows(line), COUNT_OF(all) * SIDE);
+    double square = 0, mean = 0;
+    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+        const double height = cell(map, i, "height");
+        assert_near(cell(map, i, "scan"), 1, 0);
+        square += height * height;
+        mean += height;
+    }
+    assert_near(sqrt(square) / SIDE, cell(scans, 0, "rms_height"), 1e-6);
+    assert_near_abs(mean / SIDE / SIDE, 0, 1e-6 * cell(scans, 0, "rms_height"));
+    const size_t second = (size_t)SIDE * SIDE + SIDE / 2 * SIDE;
+    for (size_t i = 0; i < SIDE; i++) {
+        assert_near(cell(line, SIDE + i, "height"), cell(map, second + i, "height"), 0);
+        assert_near(cell(map, second + i, "x"), (double)i * cell(scans, 1, "step_x"), 1e-12);
+    }
+    clear(&m);
+    make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
+    assert_null(m.tables.height_map);
+    assert_int_equal(wt_table_n_rows(m.tables.height_profile), 8 * 250);
     clear(&m);
 }
 
@@ -393,31 +442,40 @@ static friction_of_case run_case(const char *roughness)
     return got;
 }
 
-/* From a measured map to friction with the error of the surface: the law behind the map lies within
- * what the map adds to the error. */
-static void test_map_in_a_case(void **state)
+/* What the map adds to the error of friction: the law behind it, over the same waves, lies within
+ * three times that. */
+static double error_of_surface(const friction_of_case *map)
 {
-    (void)state;
     char law[256];
-    const friction_of_case map = run_case("<files>" SURFACE "road.gsf</files>");
     /* the first wave of a scan is shorter than that of the roll-off */
     snprintf(law, sizeof law,
              "<self-affine><q0>%.17grad/m</q0><q1>%.17grad/m</q1><hurst>0.8</hurst>"
              "<c0>%.17gm^4</c0></self-affine>",
-             map.first, map.last, 2e-17 * pow(map.first / 4e3, -2 * (1 + 0.8)));
+             map->first, map->last, 2e-17 * pow(map->first / 4e3, -2 * (1 + 0.8)));
     const friction_of_case exact = run_case(law);
-    const double of_surface = sqrt(map.friction.standard_error * map.friction.standard_error -
-                                   exact.friction.standard_error * exact.friction.standard_error);
+    const double error = sqrt(map->friction.standard_error * map->friction.standard_error -
+                              exact.friction.standard_error * exact.friction.standard_error);
+    assert_near_abs(map->friction.value, exact.friction.value, 3 * error);
+    assert_null(strstr(exact.answer, "Measured, 1 scan"));
+    return error;
+}
+
+/* From a measured map to friction with the error of the surface. */
+static void test_map_in_a_case(void **state)
+{
+    (void)state;
+    const friction_of_case map = run_case("<files>" SURFACE "road.gsf</files>");
+    const double of_surface = error_of_surface(&map);
     assert_true(of_surface > 0.01 * map.friction.value);
     assert_true(of_surface < 0.1 * map.friction.value);
-    assert_near_abs(map.friction.value, exact.friction.value, 3 * of_surface);
     assert_non_null(strstr(map.answer, "Measured, 1 scan: rms height"));
-    assert_null(strstr(exact.answer, "Measured, 1 scan"));
     const friction_of_case cut = run_case("<end>3e4rad/m</end><files>" SURFACE "road.gsf</files>");
     assert_near(cut.last, 3e4, 1e-9);
     const friction_of_case beyond =
         run_case("<end>1e6rad/m</end><files>" SURFACE "road.gsf</files>");
     assert_near(beyond.last, 1e6, 1e-9);
+    /* a decade and a half beyond the map the exponent of the law is what is least known */
+    assert_true(error_of_surface(&beyond) > 3 * of_surface);
 }
 
 /* What is no height map, or has none, fails; the others go on. */
@@ -448,6 +506,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_whole),
         cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_heights),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_alone),
         cmocka_unit_test(test_numerical_errors),

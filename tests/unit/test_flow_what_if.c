@@ -106,6 +106,39 @@ static void test_single_runs(void **state)
     wt_table_free(table);
 }
 
+static void heat_up(void)
+{
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF, .wlf = {293.15, 8.86, 101.6}};
+    sliding.flash.on = true;
+}
+
+/* With flash temperature: without it, and with other constants of heat. */
+static void test_heat(void **state)
+{
+    (void)state;
+    set_up();
+    assert_false(sliding.flash.on);
+    wt_table *cold = what_if(true, true);
+    assert_true(find_row(cold, "flash temperature", NULL) == SIZE_MAX);
+    assert_true(find_row(cold, "heat conductivity of the rubber", NULL) == SIZE_MAX);
+    heat_up();
+    wt_table *table = what_if(true, true);
+    assert_int_equal(wt_table_n_rows(table), wt_table_n_rows(cold) + 5);
+    assert_string_equal(text_cell(table, find_row(table, "flash temperature", NULL), "used"),
+                        "counted");
+    heat_up();
+    sliding.flash.on = false;
+    check_row(table, "flash temperature", "not counted");
+    heat_up();
+    sliding.flash.diffusivity *= 2;
+    check_row(table, "heat conductivity of the rubber", "0.44 W/(m K)");
+    heat_up();
+    sliding.flash.contact_size *= 0.5;
+    check_row(table, "size of a macroscopic contact", "0.0005 m");
+    wt_table_free(cold);
+    wt_table_free(table);
+}
+
 /* Each choice from its other side. */
 static void test_what_is_used_is_not_tried(void **state)
 {
@@ -241,6 +274,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_runs),
+        cmocka_unit_test(test_heat),
         cmocka_unit_test(test_what_is_used_is_not_tried),
         cmocka_unit_test(test_what_does_not_apply),
         cmocka_unit_test(test_limits),

@@ -400,6 +400,7 @@ typedef struct measured_file {
     bool steps;     /* its size is known */
     bool converted; /* by the program Gwyddion, where it is */
     bool mirrored;  /* each line begins with its last point */
+    bool ends;      /* points lie from end to end of the range, which others divide by them */
     const char *units[2];
     double dx, dy; /* for the spectrum where the file has no size; 0 */
 } measured_file;
@@ -416,10 +417,9 @@ static const measured_file measured_files[] = {
     {"test_1.opd", "/data/topography/test_1.opd", false, true, .converted = true},
     {"sdf-1.sdf", "/data/topography/sdf-1.sdf", true, true, .converted = true},
     {"top-1.top", "/data/topography/top-1.top", false, true, .converted = true, .mirrored = true},
-    /* Ours go from the middle of the first pixel to that of the last. */
-    {"data/afm/nanosurf/circles.nid", "/data/afm/nanosurf/circles.nid", false, false,
+    {"data/afm/nanosurf/circles.nid", "/data/afm/nanosurf/circles.nid", false, false, .ends = true,
      .dx = 1.953125e-7, .dy = 1.953125e-7},
-    {"data/afm/nanosurf/image.nid", "/data/afm/nanosurf/image.nid", false, false,
+    {"data/afm/nanosurf/image.nid", "/data/afm/nanosurf/image.nid", false, false, .ends = true,
      .dx = 2.89347265625e-8, .dy = 2.89347265625e-8},
     {"opdx-3.opdx", "/data/topography/opdx-3.opdx", false, true, .converted = true},
     {"matrix-4.txt", "/data/topography/matrix-4.txt", true, true, .dx = 0},
@@ -493,6 +493,13 @@ static void compare_scalars(const measured_file *file, char *const cells[FIELDS]
     if (file->steps) {
         assert_near(map.dx, atof(cells[4]), 1e-9);
         assert_near(h.slope_x, atof(cells[17]), 1e-8);
+    }
+    if (file->ends) {
+        const double wider = (double)nx / (double)(nx - 1);
+        assert_near(map.dx, wider * atof(cells[4]), 1e-9);
+        assert_near(map.dy, wider * atof(cells[5]), 1e-9);
+        assert_near(wider * h.slope_x, atof(cells[17]), 1e-8);
+        assert_near(wider * h.slope_y, atof(cells[18]), 1e-8);
     }
     if (file->steps && !profile) {
         assert_near(map.dy, atof(cells[5]), 1e-9);

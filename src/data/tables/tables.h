@@ -112,6 +112,9 @@
     X(angular_spectrum, ANGULAR_SPECTRUM, "angular_spectrum",                                      \
       "Angular spectrum of a measured surface", "psd")                                             \
     X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \
+    X(height_map, HEIGHT_MAP, "height_map", "Heights of a surface", "psd")                         \
+    X(height_profile, HEIGHT_PROFILE, "height_profile", "Heights along a line of a surface",       \
+      "psd")                                                                                       \
     X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \

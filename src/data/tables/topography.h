@@ -15,6 +15,10 @@
                         SI(POWER_SPECTRUM_2D), "C(q)", SHOWS(density))                             \
     X(POWER_SPECTRUM_MODES_ERROR, AS(modes_error),                                                 \
       "standard error of ln C by the scatter of its modes, each row by itself", NUMBER, SPARSE)    \
+    X(POWER_SPECTRUM_LAW_ERROR, AS(law_error),                                                     \
+      "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
+      "together",                                                                                  \
+      NUMBER, SPARSE)                                                                              \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \
@@ -62,6 +66,7 @@
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
     X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
       LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
+    X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention))                        \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
 
 /* A direction in each row, half a turn of them: the other half is the same. */
@@ -78,6 +83,24 @@
 #define ANGULAR_SPECTRUM_KEYS(X)                                                                   \
     X(ANGULAR_SPECTRUM_KEY_CHANCE, AS(chance), NUMBER)                                             \
     X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(chance_fourth), NUMBER)
+
+/* Heights less their form, thinned for a figure; scans are counted from 1 in the order of the table
+ * surfaces. */
+#define HEIGHT_MAP_COLUMNS(X)                                                                      \
+    X(HEIGHT_MAP_SCAN, AS(scan), "row of the table surfaces", NUMBER)                              \
+    X(HEIGHT_MAP_X, AS(x), "place along x, from the first point", SI(LENGTH))                      \
+    X(HEIGHT_MAP_Y, AS(y), "place along y, likewise", SI(LENGTH))                                  \
+    X(HEIGHT_MAP_HEIGHT, AS(height), "height less the form of the scan; missing: not a number",    \
+      SI(LENGTH), SPARSE)
+#define HEIGHT_MAP_KEYS(X)
+
+/* Likewise, along a line: of a map the one in its middle. */
+#define HEIGHT_PROFILE_COLUMNS(X)                                                                  \
+    X(HEIGHT_PROFILE_SCAN, AS(scan), "row of the table surfaces", NUMBER)                          \
+    X(HEIGHT_PROFILE_X, AS(x), "place along x, from the first point", SI(LENGTH))                  \
+    X(HEIGHT_PROFILE_HEIGHT, AS(height),                                                           \
+      "height less the form of the scan; missing: not a number", SI(LENGTH), SPARSE)
+#define HEIGHT_PROFILE_KEYS(X)
 
 /* A scan in each row. Slopes are by forward differences of neighbours. */
 #define SURFACES_COLUMNS(X)                                                                        \

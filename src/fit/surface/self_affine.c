@@ -19,6 +19,7 @@ enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 typedef struct law_fit {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
     size_t n;
+    double *places;                    /* [n * n_places] parts of the scans in each y, or NULL */
     double c, power;                   /* of the last roll-off that was tried: ln C0, -2 (1 + H), */
     double c_variance, power_variance; /* and theirs for that roll-off */
 } law_fit;
@@ -143,38 +144,88 @@ static wt_interval of_span(double value, value_span span, bool logarithm)
     return (wt_interval){exp(value), exp(value) * half, exp(span.low), exp(span.high)};
 }
 
+/* What the places make of ln c0 and of the power: each scan is off by an error of its own, the same
+ * in all its bins, so that scans of two sizes tilt the law. The fit is linear in y at its
+ * roll-off. */
+static void find_place_covariance(const law_fit *f, double r, const wt_surface_spectrum *s,
+                                  double to[CONSTANTS][CONSTANTS])
+{
+    const double t = s->place_scatter > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
+    const double scatter = s->place_scatter > 0 ? t * s->place_scatter : 0;
+    double sum = 0, sx = 0, sxx = 0;
+    if (f->places == NULL) {
+        const double error = s->place_error > 0 ? t * s->place_error : 0;
+        to[LN_C0][LN_C0] = error * error;
+        return;
+    }
+    for (size_t k = 0; k < f->n; k++) {
+        const double x = fmax(0, f->x[k] - r);
+        sum += f->weight[k];
+        sx += f->weight[k] * x;
+        sxx += f->weight[k] * x * x;
+    }
+    const double d = sum * sxx - sx * sx;
+    for (size_t i = 0; i < s->n_places; i++) {
+        double y = 0, xy = 0;
+        for (size_t k = 0; k < f->n; k++) {
+            const double part = f->weight[k] * f->places[k * s->n_places + i];
+            y += part;
+            xy += part * fmax(0, f->x[k] - r);
+        }
+        const double power = scatter * (sum * xy - sx * y) / d,
+                     c = scatter * (sxx * y - sx * xy) / d, hurst = -power / 2;
+        to[LN_C0][LN_C0] += c * c;
+        to[LN_C0][HURST] += c * hurst;
+        to[HURST][LN_C0] += c * hurst;
+        to[HURST][HURST] += hurst * hurst;
+    }
+}
+
+static value_span with_places(value_span span, double value, double error)
+{
+    return (value_span){value - hypot(value - span.low, error),
+                        value + hypot(span.high - value, error)};
+}
+
 static void fill_law(law_fit *f, double r, const wt_surface_spectrum *s, double freedom,
                      wt_self_affine *to)
 {
     gsl_quiet();
     const double t = students_t_quantile(freedom);
     law_spans spans = find_spans(f, r, to->rolls_off, t, fmax(1, to->misfit));
-    double place = s->place_error > 0 ? s->place_error : 0;
-    place *= place > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
-    to->covariance[LN_C0][LN_C0] += place * place;
-    value_span *const c = &spans.of[LN_C0];
-    *c = (value_span){f->c - hypot(f->c - c->low, t * place),
-                      f->c + hypot(c->high - f->c, t * place)};
+    const double hurst = -f->power / 2 - 1;
+    find_place_covariance(f, r, s, to->place_covariance);
+    for (size_t a = 0; a < CONSTANTS; a++)
+        for (size_t b = 0; b < CONSTANTS; b++)
+            to->covariance[a][b] += to->place_covariance[a][b];
+    to->freedom = freedom;
+    value_span *const c = &spans.of[LN_C0], *const h = &spans.of[HURST];
+    *c = with_places(*c, f->c, t * sqrt(to->place_covariance[LN_C0][LN_C0]));
+    *h = with_places(*h, hurst, t * sqrt(to->place_covariance[HURST][HURST]));
     to->c0 = of_span(f->c, *c, true);
     to->roll_off = of_span(r, spans.of[LN_ROLL_OFF], true);
-    to->hurst = of_span(-f->power / 2 - 1, spans.of[HURST], false);
+    to->hurst = of_span(hurst, *h, false);
 }
 
 wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
                              wt_error *err)
 {
     *law = (wt_self_affine){.found = false};
-    law_fit f = {.x = malloc(3 * (spectrum->n + 1) * sizeof *f.x)};
+    law_fit f = {.x = malloc((3 + spectrum->n_places) * (spectrum->n + 1) * sizeof *f.x)};
     if (f.x == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
+    f.places = spectrum->n_places > 0 ? f.weight + spectrum->n : NULL;
     for (size_t k = 0; k < spectrum->n; k++) {
         const wt_spectrum_bin *b = &spectrum->bins[k];
         if (!b->reliable)
             continue;
         f.x[f.n] = log(b->wavenumber);
         f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
+        for (size_t i = 0; i < spectrum->n_places; i++)
+            f.places[f.n * spectrum->n_places + i] =
+                spectrum->place_weight[k * spectrum->n_places + i];
         f.weight[f.n++] = 1 / surface_log_variance(b->shared_freedom);
     }
     if (f.n > CONSTANTS + 1) {
@@ -194,6 +245,29 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
     }
     free(f.x);
     return WT_OK;
+}
+
+/* ---- what the law gives ---------------------------------------------------------------------- */
+
+double wt_self_affine_density(const wt_self_affine *law, double wavenumber)
+{
+    const double x = fmax(1, wavenumber / law->roll_off.value);
+    return law->found ? law->c0.value * pow(x, -2 * (1 + law->hurst.value)) : (double)NAN;
+}
+
+double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bool places)
+{
+    const double x = log(wavenumber / law->roll_off.value), power = 2 * (1 + law->hurst.value);
+    const double slope[CONSTANTS] = {
+        [LN_C0] = 1, [LN_ROLL_OFF] = x > 0 ? power : 0, [HURST] = x > 0 ? -2 * x : 0};
+    double variance = 0;
+    if (!law->found)
+        return (double)NAN;
+    for (size_t a = 0; a < CONSTANTS; a++)
+        for (size_t b = 0; b < CONSTANTS; b++)
+            variance += slope[a] * slope[b] *
+                        (law->covariance[a][b] - (places ? 0 : law->place_covariance[a][b]));
+    return students_t_quantile(law->freedom) / NORMAL_95 * sqrt(fmax(0, variance));
 }
 
 /* ---- where the slope ends -------------------------------------------------------------------- */

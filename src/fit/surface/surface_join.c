@@ -16,6 +16,7 @@ typedef struct joining {
     int first, last;
     double *offset; /* [n] ln C of a scan above the mean of them */
     double *weight; /* [n] of that */
+    size_t *group;  /* [n] the first scan that it is tied to by bins that scans share */
 } joining;
 
 static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
@@ -83,6 +84,46 @@ static double refine_offsets(joining *j, double *sum)
     return change;
 }
 
+/* Scans of sizes that share no bin tell nothing of each other. */
+static void find_groups(joining *j)
+{
+    bool changed = true;
+    for (size_t i = 0; i < j->n; i++)
+        j->group[i] = i;
+    while (changed) {
+        changed = false;
+        for (int index = j->first; index <= j->last; index++) {
+            size_t least = j->n;
+            for (size_t i = 0; i < j->n; i++)
+                if (bin_with(j->spectra[i], index) != NULL && j->group[i] < least)
+                    least = j->group[i];
+            for (size_t i = 0; i < j->n; i++)
+                if (bin_with(j->spectra[i], index) != NULL && j->group[i] > least) {
+                    j->group[i] = least;
+                    changed = true;
+                }
+        }
+    }
+}
+
+/* Adds the squares of the offsets of one group about their mean and what the scatter of the modes
+ * gives them; how many they are. */
+static size_t add_group(const joining *j, size_t group, double *squares, double *noise)
+{
+    double sum = 0, square = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < j->n; i++)
+        if (j->group[i] == group && j->weight[i] > 0) {
+            sum += j->offset[i];
+            square += j->offset[i] * j->offset[i];
+            *noise += 1 / j->weight[i];
+            n++;
+        }
+    if (n > 0)
+        *squares += fmax(0, square - sum * sum / (double)n);
+    return n;
+}
+
 /* Of the scans that share bins with others: the variance of their offsets less what the scatter of
  * the modes gives them. */
 static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
@@ -90,21 +131,29 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
     enum { STEPS = 200 };        /* each shrinks the change, of two scans at once */
     const double settled = 1e-6; /* of ln C, far below its scatter */
     double squares = 0, noise = 0;
-    size_t n = 0;
+    size_t n = 0, groups = 0;
     for (int step = 0; step < STEPS && refine_offsets(j, scratch) > settled; step++)
         ;
-    for (size_t i = 0; i < j->n; i++)
-        if (j->weight[i] > 0) {
-            squares += j->offset[i] * j->offset[i];
-            noise += 1 / j->weight[i];
-            n++;
-        }
+    find_groups(j);
+    for (size_t i = 0; i < j->n; i++) {
+        const size_t members = j->group[i] == i ? add_group(j, i, &squares, &noise) : 0;
+        n += members;
+        groups += members > 0 ? 1 : 0;
+    }
     to->place_scatter = to->place_error = to->place_freedom = (double)NAN;
-    if (n < 2)
+    if (n == groups)
         return;
-    to->place_scatter = sqrt(fmax(0, squares / (double)(n - 1) - noise / (double)n));
-    to->place_error = to->place_scatter / sqrt((double)n);
-    to->place_freedom = (double)(n - 1);
+    to->place_freedom = (double)(n - groups);
+    to->place_scatter = sqrt(fmax(0, squares / to->place_freedom - noise / (double)n));
+}
+
+/* What the places give the mean: a bin that one size alone tells has the places of that only. */
+static void find_place_error(wt_surface_spectrum *to)
+{
+    double sum = 0;
+    for (size_t k = 0; k < to->n; k++)
+        sum += 1 / (double)to->bins[k].scans;
+    to->place_error = to->place_scatter * sqrt(sum / (double)to->n);
 }
 
 /* ---- bins ------------------------------------------------------------------------------------ */
@@ -167,6 +216,19 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     return true;
 }
 
+/* The parts of the scans in the bin. */
+static void weigh_places(const joining *j, int index, double *weight)
+{
+    double n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        weight[i] = b != NULL ? (double)b->n : 0;
+        n += weight[i];
+    }
+    for (size_t i = 0; i < j->n; i++)
+        weight[i] /= n;
+}
+
 static void find_span(joining *j, wt_surface_spectrum *to)
 {
     j->first = INT_MAX;
@@ -202,20 +264,27 @@ wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
         return WT_E_EMPTY;
     }
     made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
+    made.place_weight = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof(double));
     j.offset = calloc(3 * n, sizeof *j.offset);
+    j.group = calloc(n, sizeof *j.group);
     wt_status status = WT_OK;
-    if (made.bins == NULL || j.offset == NULL)
+    if (made.bins == NULL || made.place_weight == NULL || j.offset == NULL || j.group == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     if (status == WT_OK) {
         j.weight = j.offset + n;
         find_places(&j, &made, j.offset + 2 * n);
+        made.n_places = n;
         for (int index = j.first; index <= j.last; index++)
-            made.n += join_bin(&j, index, &made.bins[made.n]) ? 1 : 0;
+            if (join_bin(&j, index, &made.bins[made.n]))
+                weigh_places(&j, index, made.place_weight + made.n++ * n);
+        find_place_error(&made);
         *joined = made;
     } else {
         free(made.bins);
+        free(made.place_weight);
     }
     free(j.offset);
+    free(j.group);
     return status;
 }
 
@@ -224,8 +293,8 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place =
-            spectrum->place_error * students_t_quantile(spectrum->place_freedom) / NORMAL_95;
+        const double place = spectrum->place_scatter / sqrt((double)b->scans) *
+                             students_t_quantile(spectrum->place_freedom) / NORMAL_95;
         freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
     }
     return surface_interval(b->density, freedom);

@@ -28,6 +28,40 @@ static double variance_at(const wt_surface_spectrum *p, const double *q, double 
     return sum;
 }
 
+static wt_status fail_flat(wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
+    wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
+    wt_error_advice(err,
+                    "noise makes it flat: measure with less, or end the range at longer waves, "
+                    "by more points-per-wave");
+    return WT_E_RANGE;
+}
+
+wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n, double *c,
+                                wt_error *err)
+{
+    if (wavenumber == NULL || c1 == NULL || c == NULL || n < 2)
+        return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    if (rule == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    wt_status status = WT_OK;
+    if (isnan(surface_invert(wavenumber, c1, n, true, wavenumber[0], rule)))
+        status = fail_flat(err);
+    for (size_t k = 0; status == WT_OK && k < n; k++) {
+        c[k] = surface_invert(wavenumber, c1, n, true, wavenumber[k], rule);
+        if (c[k] > 0)
+            continue;
+        status = wt_fail(err, WT_E_RANGE,
+                         "the spectrum of the profile rises too steeply for that "
+                         "of a surface that is the same in all directions");
+        wt_error_found(err, "no density above 0 at %g rad/m", wavenumber[k]);
+    }
+    gsl_integration_glfixed_table_free(rule);
+    return status;
+}
+
 wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
                             wt_error *err)
 {
@@ -36,7 +70,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     wt_surface_spectrum made = *profile;
     double *q = malloc(2 * profile->n * sizeof *q);
     made.kind = WT_SPECTRUM_2D;
-    made.n = 0;
+    made.n = made.n_places = 0;
+    made.place_weight = NULL; /* each bin of C is of many of C1 */
     made.bins = malloc(profile->n * sizeof *made.bins);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
     wt_status status = q != NULL && made.bins != NULL && rule != NULL
@@ -47,12 +82,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
         q[k] = profile->bins[k].wavenumber;
         c1[k] = profile->bins[k].density;
     }
-    if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule))) {
-        status = wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
-        wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
-        wt_error_advice(err, "noise makes it flat: measure with less, or end the range "
-                             "at longer waves, by more points-per-wave");
-    }
+    if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule)))
+        status = fail_flat(err);
     for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
         const double c = surface_invert(q, c1, profile->n, true, q[k], rule);
         const double variance = c > 0 ? variance_at(profile, q, c1, k, c, rule) : (double)INFINITY;

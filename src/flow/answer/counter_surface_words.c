@@ -17,7 +17,8 @@ static void tell_beyond(telling *t, const answer_story *story)
         tell(
             t,
             " %s of the hysteresis is of waves shorter than %s, which were not resolved and follow "
-            "the self-affine law of the others, without an error.",
+            "the self-affine law of the others: errors hold the scatter of its constants, but not "
+            "that the surface may leave it.",
             words_of_share(share).text, words_of(2 * M_PI / end, "m").text);
 }
 

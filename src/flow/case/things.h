@@ -76,6 +76,8 @@
     X(POWER_SPECTRUM, "power_spectrum", &power_spectrum_schema, "")                                \
     X(ANGULAR_SPECTRUM, "angular_spectrum", &angular_spectrum_schema, "")                          \
     X(SURFACES, "surfaces", &surfaces_schema, "")                                                  \
+    X(HEIGHT_MAP, "height_map", &height_map_schema, "")                                            \
+    X(HEIGHT_PROFILE, "height_profile", &height_profile_schema, "")                                \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \

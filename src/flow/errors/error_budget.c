@@ -53,11 +53,22 @@ static void hold_rubber(setting *s)
 OF_ESTIMATE(pressure, sliding.pressure)
 OF_ESTIMATE(temperature, sliding.temperature)
 OF_ESTIMATE(shear, sliding.shear_stress)
-OF_ESTIMATE(roughness, surface.c0)
 OF_ESTIMATE(wear, layer.specific_wear_rate)
 OF_ESTIMATE(energy, layer.critical_energy)
 OF_ESTIMATE(observed, layer.observed_thickness)
 OF_ESTIMATE(thickness, known.thickness)
+
+/* As stated, or of a measured surface what its places, its modes and its law scatter by. */
+static bool stated_roughness(const setting *s)
+{
+    return s->surface.c0.standard_error > 0 || s->surface.modes_error != NULL;
+}
+
+static void hold_roughness(setting *s)
+{
+    s->surface.c0.standard_error = 0;
+    s->surface.modes_error = s->surface.law_error = NULL;
+}
 
 /* What the spots tell, and what is known beside them: parts of one variance. */
 static bool stated_ratio(const setting *s)
@@ -173,19 +184,21 @@ typedef struct budget {
     setting setting;
     wt_job work; /* of one setting */
     outcome values, all, of[SOURCES];
+    bool sensitivities; /* are asked for */
+    double by[SENSITIVITIES];
     char lacks[256];
 } budget;
 
-static wt_status compute_outcome(const budget *b, const setting *as, size_t replicates, outcome *o,
+/* `s` keeps what it is computed by. */
+static wt_status compute_outcome(const budget *b, setting *s, size_t replicates, outcome *o,
                                  wt_error *err)
 {
-    setting s = *as;
     wt_job work = b->work;
     work.replicates = replicates;
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         o->number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     const double start = cost_clock(work.cost);
-    const wt_status status = setting_compute(&s, &work, o->number, err);
+    const wt_status status = setting_compute(s, &work, o->number, err);
     o->seconds = cost_clock(work.cost) - start;
     o->computed = status == WT_OK;
     return status;
@@ -193,9 +206,13 @@ static wt_status compute_outcome(const budget *b, const setting *as, size_t repl
 
 static wt_status compute_all(budget *b, wt_error *err)
 {
-    wt_status status = compute_outcome(b, &b->setting, 0, &b->values, err);
+    setting whole = b->setting;
+    whole.sliding.sensitivities = b->sensitivities;
+    wt_status status = compute_outcome(b, &whole, 0, &b->values, err);
+    memcpy(b->by, whole.by, sizeof b->by);
+    whole = b->setting;
     if (status == WT_OK)
-        status = compute_outcome(b, &b->setting, b->work.replicates, &b->all, err);
+        status = compute_outcome(b, &whole, b->work.replicates, &b->all, err);
     for (size_t i = 0; i < SOURCES && status == WT_OK; i++) {
         setting alone = b->setting;
         if (!sources[i].applies(&b->setting))
@@ -315,6 +332,18 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
     }
 }
 
+/* Of what no error is stated, too: it says how well that must be known. */
+static void put_sensitivities(const budget *b, table_writer *t)
+{
+    const double value = b->values.number[SETTING_HYSTERESIS].value;
+    for (size_t i = 0; i < SENSITIVITIES && b->sensitivities; i++)
+        if (isfinite(b->by[i]))
+            put_number_row(b, SETTING_HYSTERESIS,
+                           (row){setting_sensitivities[i], "one per cent", "",
+                                 0.01 * fabs(b->by[i] * value), (double)NAN, (double)NAN},
+                           t);
+}
+
 static void put_advice(const budget *b, setting_number k, const verdict *v, table_writer *t)
 {
     char text[640];
@@ -368,6 +397,8 @@ static void put_number(const budget *b, setting_number k, const table_view *what
                          b->values.seconds},
                    t);
     put_model(b, k, what_if, &v, t);
+    if (k == SETTING_HYSTERESIS)
+        put_sensitivities(b, t);
     put_advice(b, k, &v, t);
 }
 
@@ -418,7 +449,7 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no error budget to make");
-    budget b = {.work = *work};
+    budget b = {.work = *work, .sensitivities = sliding != NULL && sliding->sensitivities};
     table_view moved = {0};
     b.work.left_out = WT_EXTRAS;
     b.work.drawn = NULL; /* of another material */

@@ -13,6 +13,13 @@ const char *const setting_words[SETTING_NUMBERS] = {
     [SETTING_THICKNESS] = "layer thickness",
     [SETTING_WITH_LAYER] = "friction coefficient with layer"};
 
+const char *const setting_sensitivities[SENSITIVITIES] = {
+    "1 % of the modulus", "1 % of the power spectrum", "1 % of the pressure",
+    "1 % of the largest wavenumber q1"};
+static const friction_key sensitivity_keys[SENSITIVITIES] = {
+    FRICTION_KEY_BY_MODULUS, FRICTION_KEY_BY_DENSITY, FRICTION_KEY_BY_PRESSURE,
+    FRICTION_KEY_BY_CUTOFF};
+
 wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
                        const wt_layer_known *known, const wt_job *work, setting *s, wt_error *err)
 {
@@ -32,6 +39,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
                    .has_known = known != NULL,
                    .vertical = sliding->rubber->fit.vertical};
     s->sliding.n_velocity = 1;
+    s->sliding.sensitivities = false;
     s->sliding.reference_velocity = s->velocity;
     s->surface.q0 = law->q0;
     s->surface.q1 = law->q1;
@@ -75,6 +83,8 @@ static wt_status compute_friction(setting *s, const wt_layer_known *known, const
         number[SETTING_WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER);
         const char *statement = friction_words(&view, FRICTION_KEY_MATERIAL_STATEMENT);
         snprintf(s->statement, sizeof s->statement, "%s", statement != NULL ? statement : "");
+        for (size_t k = 0; k < SENSITIVITIES; k++)
+            s->by[k] = friction_value(&view, sensitivity_keys[k]).value;
         s->extrapolated_share = friction_get(&view, 0, FRICTION_EXTRAPOLATED_SHARE);
     }
     wt_friction_tables_clear(&tables);

@@ -5,6 +5,10 @@
 
 #include "weartrack/flow.h"
 
+/* What the hysteresis changes by with one of these, as d ln mu / d ln. */
+enum { SENSITIVITIES = 4 };
+extern const char *const setting_sensitivities[SENSITIVITIES];
+
 typedef struct setting {
     wt_sliding sliding; /* of the velocity, rubber and surface below */
     double velocity;
@@ -21,6 +25,7 @@ typedef struct setting {
      * comes from outside its frequencies (NaN: not asked for) */
     char statement[512];
     double extrapolated_share;
+    double by[SENSITIVITIES]; /* if sliding.sensitivities; see setting_sensitivities */
 } setting;
 
 /* What comes of it, at the reference velocity. */

@@ -154,6 +154,52 @@ static bool move_strain(const setting *used, size_t i, setting *s)
     return true;
 }
 
+static bool has_flash(const setting *s)
+{
+    return s->sliding.flash.on;
+}
+
+static void name_flash(const setting *s, char text[WORDS])
+{
+    snprintf(text, WORDS, "%s", s->sliding.flash.on ? "counted" : "not counted");
+}
+
+static bool move_flash(const setting *used, size_t i, setting *s)
+{
+    (void)used;
+    s->sliding.flash.on = false;
+    return i == 0;
+}
+
+static double value_conductivity(const setting *s)
+{
+    return s->sliding.flash.diffusivity * s->sliding.flash.heat_capacity;
+}
+
+/* With the heat capacity as it is, which rubbers differ in by little. */
+static bool move_conductivity(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.5, 2}; /* from a rubber alone to one with much filler */
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->sliding.flash.diffusivity = factor[i] * used->sliding.flash.diffusivity;
+    return true;
+}
+
+static double value_contact_size(const setting *s)
+{
+    return s->sliding.flash.contact_size;
+}
+
+static bool move_contact_size(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.5, 2}; /* of an order of magnitude */
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->sliding.flash.contact_size = factor[i] * used->sliding.flash.contact_size;
+    return true;
+}
+
 /* Else it is not what the surface feels. */
 static bool has_poisson(const setting *s)
 {
@@ -271,6 +317,17 @@ static const choice choices[] = {
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
      NULL, has_strain, value_strain, NULL, move_strain},
+    {"flash temperature", NULL,
+     "counted or not: it is not validated against measured friction here, and the heat of shearing "
+     "the contact is not in it",
+     NULL, has_flash, NULL, name_flash, move_flash},
+    {"heat conductivity of the rubber", "W/(m K)",
+     "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
+     "measured",
+     NULL, has_flash, value_conductivity, NULL, move_conductivity},
+    {"size of a macroscopic contact", "m",
+     "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
+     value_contact_size, NULL, move_contact_size},
     {"Poisson ratio", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,

@@ -98,11 +98,11 @@ static void set_direction(const wt_case *c, wt_rubber *rubber)
     rubber->transverse = c->transverse;
 }
 
-static wt_status take_measured(const wt_case *c, const wt_job *work, wt_surface *surface,
-                               wt_topography_tables *tables, wt_error *err)
+static wt_status take_measured(const wt_topography_job *job, const wt_job *work,
+                               wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
     wt_surface measured = {0};
-    wt_status status = flow_surface_measure(&c->topography, work, &measured, tables, err);
+    wt_status status = flow_surface_measure(job, work, &measured, tables, err);
     if (status == WT_OK)
         status = flow_surface_check(&measured, err);
     if (status == WT_OK)
@@ -121,7 +121,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
     }
     wt_surface opened = {0};
     if (c->height_maps.n > 0)
-        return take_measured(c, work, surface, NULL, err);
+        return take_measured(&c->topography, work, surface, NULL, err);
     const wt_file_set *set = &c->spectrum.sets[0];
     char *path = wt_path_join(set->folder, set->patterns[0]);
     if (path == NULL)
@@ -395,13 +395,18 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
 
 wt_status flow_step_topography(flow_run *run, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL, NULL};
-    wt_status status = take_measured(run->c, &run->job, &run->surface, &made, err);
+    const flow_things heights = FLOW_BIT(FLOW_HEIGHT_MAP) | FLOW_BIT(FLOW_HEIGHT_PROFILE);
+    wt_topography_tables made = {.power_spectrum = NULL};
+    wt_topography_job job = run->c->topography;
+    job.heights = (run->plan.required & heights) != 0;
+    wt_status status = take_measured(&job, &run->job, &run->surface, &made, err);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
     run->table[FLOW_ANGULAR_SPECTRUM] = made.angular_spectrum;
     run->table[FLOW_SURFACES] = made.surfaces;
+    run->table[FLOW_HEIGHT_MAP] = made.height_map;
+    run->table[FLOW_HEIGHT_PROFILE] = made.height_profile;
     return status;
 }
 

@@ -19,6 +19,7 @@ void wt_surface_clear(wt_surface *surface)
         return;
     wt_power_spectrum_clear(&surface->spectrum);
     free(surface->modes_error);
+    free(surface->law_error);
     *surface = (wt_surface){0};
 }
 
@@ -92,6 +93,20 @@ static double positive_key(const wt_table *table, size_t key)
                : 0;
 }
 
+/* The errors in a column, 0 where it has none; a table without it has none. */
+static double *column_errors(const wt_table *table, power_spectrum_column which, size_t n)
+{
+    const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
+    const bool known =
+        column >= 0 && wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    double *errors = malloc((n + 1) * sizeof *errors);
+    for (size_t i = 0; errors != NULL && i < n; i++) {
+        const double error = known ? wt_table_number(table, i, (size_t)column) : 0;
+        errors[i] = error > 0 && isfinite(error) ? error : 0;
+    }
+    return errors;
+}
+
 /* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
  * were read. */
 static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
@@ -104,13 +119,10 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
              wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
     if (!*taken)
         return WT_OK;
-    surface->modes_error = malloc(s->n * sizeof *surface->modes_error);
-    if (surface->modes_error == NULL)
+    surface->modes_error = column_errors(table, POWER_SPECTRUM_MODES_ERROR, s->n);
+    surface->law_error = column_errors(table, POWER_SPECTRUM_LAW_ERROR, s->n);
+    if (surface->modes_error == NULL || surface->law_error == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < s->n; i++) {
-        const double error = wt_table_number(table, i, (size_t)column);
-        surface->modes_error[i] = error > 0 && isfinite(error) ? error : 0;
-    }
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
         place.value > 0 && isfinite(place.value))
@@ -149,6 +161,29 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
     return status;
 }
 
+/* C of the surface of the spectrum of a profile. */
+static wt_status take_profile(const char *name, const wt_job *work, wt_power_spectrum *spectrum,
+                              wt_error *err)
+{
+    double *c = malloc((spectrum->n + 1) * sizeof *c);
+    if (c == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status =
+        wt_surface_of_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
+    if (status != WT_OK) {
+        free(c);
+        wt_error_file(err, name);
+        return status;
+    }
+    free(spectrum->density);
+    spectrum->density = c;
+    spectrum->kind = WT_SPECTRUM_2D;
+    wt_parselog_add(work->log, WT_WARNING, name, NULL,
+                    "the spectrum is that of a line (m^3): friction is for a surface that is the "
+                    "same in all directions");
+    return WT_OK;
+}
+
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
 {
     wt_input *input = NULL;
@@ -158,11 +193,8 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
         status =
             wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
     wt_input_close(input);
-    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
-        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
-        wt_error_file(err, file->name);
-        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
-    }
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D)
+        status = take_profile(file->name, work, &surface->spectrum, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     return status == WT_OK ? read_errors(file, work, surface, err) : status;
@@ -190,7 +222,7 @@ static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_er
 wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
                                wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL, NULL};
+    wt_topography_tables made = {.power_spectrum = NULL};
     wt_status status = wt_topography_make(job, work, &made, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
@@ -340,10 +372,12 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    /* each point has a draw of its own, behind all others, and the law that of one more point */
+    const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     for (size_t i = 0; i < s->n; i++) {
-        /* each point has a draw of its own, behind all others */
         const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
-        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z);
+        const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
+        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
     }
     const wt_status status = wt_surface_roughness(&drawn, factor, roughness, err);
     free(drawn.spectrum.density);

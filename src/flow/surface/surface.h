@@ -5,6 +5,17 @@
 
 #include "flow/work/inputs.h"
 
+/* Heights less their form, thinned: a map (none of a profile), and a line of it. */
+typedef struct surface_view {
+    size_t nx, ny, n_line;
+    double dx, dy, line_step; /* [m] */
+    double *z, *line;         /* [ny * nx], [n_line] */
+} surface_view;
+void surface_view_clear(surface_view *view);
+/* So that the maps of n_scans together are one picture. */
+wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size_t n_scans,
+                            surface_view *to, wt_error *err) WT_NODISCARD;
+
 /* One height map or profile; heights are let go once its spectrum is known. */
 typedef struct surface_scan {
     const char *name; /* of the file; borrowed */
@@ -14,7 +25,12 @@ typedef struct surface_scan {
     double missing_share;
     wt_surface_spectrum spectrum;
     wt_surface_anisotropy directions;
+    surface_view view; /* if heights are asked for */
 } surface_scan;
+wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **table,
+                            wt_error *err) WT_NODISCARD;
+wt_status surface_view_profiles(const surface_scan *scans, size_t n, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
 
 /* The knots of the spectrum that is told: those that were measured, and beyond them the law. */
 typedef struct surface_knots {
@@ -38,8 +54,11 @@ typedef struct surface_whole {
 /* Of the reliable bins, to the end that the job asks for. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
-/* C of the law at a wavenumber; NaN if there is none. */
-double surface_law_density(const wt_self_affine *law, double q);
+/* Standard error of ln C of the law beyond what all of the spectrum has by its places. */
+double surface_law_error(const surface_whole *w, double wavenumber);
+/* What the places give all of the spectrum; with few of them it is hardly known itself: half an
+ * interval of 95 %, over 1.96. NaN: not known. */
+double surface_place_error(const wt_surface_spectrum *s);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

@@ -23,14 +23,6 @@ void surface_knots_clear(surface_knots *knots)
     *knots = (surface_knots){.n = 0};
 }
 
-double surface_law_density(const wt_self_affine *law, double q)
-{
-    const double x = fmax(1, q / law->roll_off.value);
-    if (!law->found)
-        return (double)NAN;
-    return law->c0.value * pow(x, -2 * (1 + law->hurst.value));
-}
-
 static double between(const wt_spectrum_bin *a, const wt_spectrum_bin *b, double q)
 {
     const double t = log(q / a->wavenumber) / log(b->wavenumber / a->wavenumber);
@@ -61,7 +53,7 @@ static wt_status make_knots(const surface_whole *w, double end, surface_knots *t
     for (size_t i = 1; i <= n_law; i++) {
         const double q = i == n_law ? end : last * pow(10, decades * (double)i / (double)n_law);
         to->wavenumber[to->n] = q;
-        to->density[to->n++] = surface_law_density(&w->law, q);
+        to->density[to->n++] = wt_self_affine_density(&w->law, q);
     }
     return WT_OK;
 }
@@ -113,21 +105,43 @@ static wt_status find_number(const surface_knots *k, number_of *number, double *
     return status;
 }
 
-/* Every bin is moved by its scatter, and all of them by that from place to place: the numbers are
- * roots of sums over C. Not of the law beyond. */
-static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
+/* What the number is with the knots from `from` to `to` moved up, each by its error: `law` or its
+ * own. */
+static wt_status move_knots(surface_whole *w, size_t from, size_t to, number_of *number,
+                            double *moved, wt_error *err)
 {
     surface_knots *k = &w->knots;
+    double *was = malloc((to - from + 1) * sizeof *was);
+    if (was == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = from; i < to; i++) {
+        was[i - from] = k->density[i];
+        k->density[i] *=
+            exp(i < k->n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
+                                  : surface_law_error(w, k->wavenumber[i]));
+    }
+    const wt_status status = find_number(k, number, moved, err);
+    for (size_t i = from; i < to; i++)
+        k->density[i] = was[i - from];
+    free(was);
+    return status;
+}
+
+/* Every bin is moved by its scatter, all of the law beyond by what its constants have, and all of
+ * them by that from place to place: the numbers are roots of sums over C. */
+static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
+{
+    const surface_knots *k = &w->knots;
     double value = 0, moved = 0;
     wt_status status = find_number(k, number, &value, err);
     const double place = w->spectrum.place_error > 0 ? value * w->spectrum.place_error / 2 : 0;
     double square = place * place;
     for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
-        const double was = k->density[i];
-        const double freedom = w->spectrum.bins[i].freedom;
-        k->density[i] *= exp(sqrt(surface_log_variance(freedom)));
-        status = find_number(k, number, &moved, err);
-        k->density[i] = was;
+        status = move_knots(w, i, i + 1, number, &moved, err);
+        square += (moved - value) * (moved - value);
+    }
+    if (status == WT_OK && k->n > k->n_measured) {
+        status = move_knots(w, k->n_measured, k->n, number, &moved, err);
         square += (moved - value) * (moved - value);
     }
     *to = (wt_estimate){value, sqrt(square), 0, NULL};
@@ -163,8 +177,9 @@ static void say_beyond(const wt_job *work, const surface_whole *w, double end)
     if (w->knots.n > w->knots.n_measured)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "beyond the reliable range the spectrum goes on by its self-affine law, "
-                        "to waves of %s: %.0f %% of the squared slope come from there, and no "
-                        "error holds that",
+                        "to waves of %s: %.0f %% of the squared slope come from there, and "
+                        "errors hold the scatter of its constants, not that the surface may leave "
+                        "it",
                         words, 100 * w->extrapolated_share);
     if (end > 2 * M_PI / shortest_wave)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,

@@ -21,13 +21,14 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, self_affine, modes, scans; const char *source;)
+          double modes_error, law_error, self_affine, modes, scans; const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
            anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
-           const char *directions, *includes, *lacks, *option, *anisotropy_option; size_t n_scans;)
+           const char *directions, *includes, *lacks, *option, *anisotropy_option, *convention;
+           size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
 TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, chance_fourth;)
@@ -45,14 +46,27 @@ static wt_estimate of_interval(wt_interval i, bool known)
     return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
 }
 
-/* With few places it is hardly known itself: half an interval of 95 %, over 1.96. */
-static double place_error_of(const wt_surface_spectrum *s)
+double surface_place_error(const wt_surface_spectrum *s)
 {
     return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
                               : s->place_error;
 }
 
+double surface_law_error(const surface_whole *w, double wavenumber)
+{
+    const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
+                 all = wt_self_affine_log_error(&w->law, wavenumber, true),
+                 places = surface_place_error(&w->spectrum), common = places > 0 ? places : 0;
+    return sqrt(fmax(alone * alone, all * all - common * common));
+}
+
 /* ---- the spectrum ---------------------------------------------------------------------------- */
+
+static wt_interval of_law(const wt_self_affine *law, double q)
+{
+    const double c = wt_self_affine_density(law, q), error = wt_self_affine_log_error(law, q, true);
+    return (wt_interval){c, c * error, c * exp(-NORMAL_95 * error), c * exp(NORMAL_95 * error)};
+}
 
 static void add_rows(table_writer *t, const surface_whole *w)
 {
@@ -63,9 +77,13 @@ static void add_rows(table_writer *t, const surface_whole *w)
                    bin = !law && !cut;
         const double c = k->density[i], q = k->wavenumber[i];
         const wt_interval none = {c, nan, nan, nan};
-        TABLE_ADD(power_spectrum, t, q, bin ? wt_surface_density(&w->spectrum, i) : none,
+        TABLE_ADD(power_spectrum, t, q,
+                  bin   ? wt_surface_density(&w->spectrum, i)
+                  : law ? of_law(&w->law, q)
+                        : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  surface_law_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
+                  bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
@@ -170,6 +188,15 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
     return table_end(&t, table);
 }
 
+static const char *included(const surface_whole *w, bool places)
+{
+    if (w->knots.n > w->knots.n_measured)
+        return places
+                   ? "modes of each bin, constants of the law beyond, scatter from place to place"
+                   : "modes of each bin, constants of the law beyond";
+    return places ? "modes of each bin, scatter from place to place" : "modes of each bin";
+}
+
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
@@ -183,30 +210,32 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     print_directions(w, directions, sizeof directions);
     print_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
-    TABLE_SET(
-        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
-        .hurst = of_interval(w->law.hurst, w->law.found),
-        .c0 = of_interval(w->law.c0, w->law.found),
-        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
-        .reliable_from = number(s->bins[0].wavenumber, 0),
-        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
-        .steep = number(w->steep, 0),
-        .steep_by = isnan(w->steep)   ? "not reached"
-                    : w->steep_by_law ? "law"
-                                      : "measured",
-        .extrapolated_share =
-            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
-        .place_scatter = number(s->place_scatter, 0), .place_error = number(place_error_of(s), 0),
-        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
-        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
-        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
-        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-        .directions = directions,
-        .includes = places ? "modes of each bin, scatter from place to place" : "modes of each bin",
-        .lacks = places ? "calibration of the scanner, noise of the instrument"
-                        : "places of the surface, calibration of the scanner, noise of the "
-                          "instrument",
-        .option = option, .anisotropy_option = anisotropy, .n_scans = n_scans);
+    TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+              .hurst = of_interval(w->law.hurst, w->law.found),
+              .c0 = of_interval(w->law.c0, w->law.found),
+              .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found),
+              .law = law, .reliable_from = number(s->bins[0].wavenumber, 0),
+              .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+              .steep = number(w->steep, 0),
+              .steep_by = isnan(w->steep)   ? "not reached"
+                          : w->steep_by_law ? "law"
+                                            : "measured",
+              .extrapolated_share =
+                  number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+              .place_scatter = number(s->place_scatter, 0),
+              .place_error = number(surface_place_error(s), 0),
+              .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
+              .anisotropy_direction =
+                  number(w->directions.direction, w->directions.direction_error),
+              .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
+              .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
+              .directions = directions, .includes = included(w, places),
+              .lacks = places ? "calibration of the scanner, noise of the instrument"
+                              : "places of the surface, calibration of the scanner, noise of the "
+                                "instrument",
+              .option = option, .anisotropy_option = anisotropy,
+              .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+              .n_scans = n_scans);
     return table_end(&t, table);
 }
 
@@ -249,14 +278,16 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     wt_table_free(tables->angular_spectrum);
     wt_table_free(tables->surfaces);
     wt_table_free(tables->scan_spectra);
-    *tables = (wt_topography_tables){NULL, NULL, NULL, NULL};
+    wt_table_free(tables->height_map);
+    wt_table_free(tables->height_profile);
+    *tables = (wt_topography_tables){.power_spectrum = NULL};
 }
 
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_whole *whole,
                               wt_topography_tables *tables, wt_error *err)
 {
-    wt_topography_tables made = {NULL, NULL, NULL, NULL};
+    wt_topography_tables made = {.power_spectrum = NULL};
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = make_angular(whole, &made.angular_spectrum, err);
@@ -264,6 +295,10 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
         status = make_surfaces(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)
         status = make_scans(scans, n, &made.scan_spectra, err);
+    if (status == WT_OK && job->heights)
+        status = surface_view_profiles(scans, n, &made.height_profile, err);
+    if (status == WT_OK && job->heights && !isnan(whole->directions.amplitude))
+        status = surface_view_maps(scans, n, &made.height_map, err);
     if (status == WT_OK)
         *tables = made;
     else

@@ -48,13 +48,16 @@ static const wt_param rows[] = {
      .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
     {PARAM_FLAG_OF("scans", wt_topography_job, scans), .flags = PARAM_NO_CASE,
      .help = "the table scan_spectra, too: every scan by itself, unreliable wavenumbers included"},
+    {PARAM_FLAG_OF("heights", wt_topography_job, heights), .flags = PARAM_NO_CASE,
+     .help = "the tables height_map and height_profile, too: heights less their form, thinned, of "
+             "which weartrack report makes figures"},
 };
 PARAM_TABLE(wt_topography_job_params, wt_topography_job, rows, wt_topography_job_defaults, NO_PARTS)
 
 /* ---- scans ----------------------------------------------------------------------------------- */
 
-static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, flow_file *file,
-                              surface_scan *to, wt_error *err)
+static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, size_t n_files,
+                              flow_file *file, surface_scan *to, wt_error *err)
 {
     wt_image image = {.values = NULL};
     wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
@@ -63,6 +66,11 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     *to = (surface_scan){.name = file->name, .map = wt_height_map_of(&image)};
     snprintf(to->image, sizeof to->image, "%s", image.name);
     status = wt_surface_analyse(&to->map, &job->options, &to->heights, &to->spectrum, err);
+    if (status == WT_OK && job->heights) {
+        status = surface_view_make(&to->map, job->options.form, n_files, &to->view, err);
+        if (status != WT_OK)
+            wt_surface_spectrum_clear(&to->spectrum);
+    }
     if (status != WT_OK)
         wt_error_file(err, file->name);
     wt_image_clear(&image);
@@ -87,7 +95,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
     size_t n_failed = 0;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = measure_scan(job, work, &files->file[i], &scans[*n], &failure);
+        status = measure_scan(job, work, files->n, &files->file[i], &scans[*n], &failure);
         if (status == WT_OK) {
             (*n)++;
         } else if (flow_leave_out(work, &files->file[i], &failure)) {
@@ -197,8 +205,10 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
         status =
             surface_tables_make(wt_topography_job_params(), job, scans, n, &whole, tables, err);
     cost_say(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
         wt_surface_spectrum_clear(&scans[i].spectrum);
+        surface_view_clear(&scans[i].view);
+    }
     free(scans);
     surface_knots_clear(&whole.knots);
     wt_surface_spectrum_clear(&whole.spectrum);

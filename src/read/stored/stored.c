@@ -20,9 +20,12 @@ static recognition detect(const file_reader *self, file_peek *peek)
                       90);
 }
 
-/* Results (a master curve, moduli) have columns of the same names and are no measurements. */
-static bool is_measured(const char *name)
+/* Results (a master curve, moduli) have columns of the same names and are no measurements. Beside
+ * the spectrum of a measured surface its "roughness" is that once more. */
+static bool is_measured(const wt_result *result, const char *name)
 {
+    if (strcmp(name, "roughness") == 0 && wt_result_find(result, "power_spectrum") != NULL)
+        return false;
     static const char *const names[] = {"force_curve/", "image/", "sweep", "roughness",
                                         "power_spectrum"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -38,7 +41,8 @@ static void warn_of_others(wt_parselog *log, const char *name, const wt_result *
     size_t n = 0, used = 0;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const char *table = wt_table_name(wt_result_table(result, i));
-        if (is_measured(table) || strcmp(table, "notes") == 0 || strcmp(table, "failures") == 0)
+        if (is_measured(result, table) || strcmp(table, "notes") == 0 ||
+            strcmp(table, "failures") == 0)
             continue;
         n++;
         if (used < sizeof names)
@@ -78,7 +82,7 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
         const wt_table *table = wt_result_table(result, i);
-        if (!is_measured(wt_table_name(table)))
+        if (!is_measured(result, wt_table_name(table)))
             continue;
         n_measured++;
         status = wt_stream_write(stream, table, NULL, err);
@@ -115,7 +119,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         char item[128];
         snprintf(item, sizeof item, "table %s", wt_table_name(table));
         facts_add(facts, item, "", "", "%zu rows", wt_table_n_rows(table));
-        measured = measured || is_measured(wt_table_name(table));
+        measured = measured || is_measured(result, wt_table_name(table));
     }
     wt_result_free(result);
     return measured ? text_describe_made(self, input, options, log, facts) : WT_OK;
