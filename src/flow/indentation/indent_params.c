@@ -2,6 +2,7 @@
 #include "base/param.h"
 #include "fit/indentation/curve.h"
 #include "flow/indentation/indent.h"
+#include "flow/indentation/shown_curves.h"
 #include "read/params.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ wt_indent_job wt_indent_job_defaults(void)
     };
 }
 
-static wt_status read_tip(const char *text, void *tip, wt_error *err)
+wt_status indent_read_tip(const char *text, void *tip, wt_error *err)
 {
     wt_tip made, *to = tip;
     const wt_status status = wt_tip_parse(text, &made, err);
@@ -35,7 +36,7 @@ static wt_status read_tip(const char *text, void *tip, wt_error *err)
     return WT_OK;
 }
 
-static wt_status check_tip(const void *tip, wt_error *err)
+wt_status indent_check_tip(const void *tip, wt_error *err)
 {
     return wt_tip_check(tip, err);
 }
@@ -62,8 +63,8 @@ wt_status indent_error_check(const void *estimate, wt_error *err)
 }
 
 static const wt_param rows[] = {
-    {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
-     .flags = PARAM_REQUIRED,
+    {PARAM_OTHER_OF("tip", wt_indent_job, tip, indent_read_tip), .check = indent_check_tip,
+     .value = "TIP", .flags = PARAM_REQUIRED,
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
              "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
              "punch:radius=2um; half-angle and radius with their standard errors, as "
@@ -85,8 +86,13 @@ static const wt_param rows[] = {
     {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
-    {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
-     .help = "also the representative (median) curve and its fit"},
+    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .value = "WHICH", .unset = "",
+     .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
+             "error of the modulus), all or FILE:N; median is the representative one, whole, as "
+             "force_displacement and force_indentation"},
+    {PARAM_TEXT_OF("choices", wt_indent_job, choices), .value = "FILE", .unset = "",
+     .help = "what was chosen by hand: curves left out, contact points of curves, spring constant, "
+             "sensitivity and tip of files"},
 };
 PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
             PARAM_PART(wt_indent_params, wt_indent_job, options))
@@ -111,6 +117,11 @@ wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
     wt_status status = param_check(wt_indent_job_params(), job, err);
     if (status == WT_OK)
         status = check_sample(job, err);
+    if (status == WT_OK) {
+        shown_curves shown;
+        status = shown_curves_begin(job, &shown, err);
+        shown_curves_clear(&shown);
+    }
     return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;
 }
 

@@ -203,6 +203,15 @@ void flow_files_clear(flow_files *files)
     *files = (flow_files){NULL, 0, NULL};
 }
 
+bool flow_file_is(const flow_file *file, const char *named, size_t length)
+{
+    const size_t path = strlen(file->path);
+    if (strlen(file->name) == length && memcmp(file->name, named, length) == 0)
+        return true;
+    return length > 0 && path >= length && memcmp(file->path + path - length, named, length) == 0 &&
+           (path == length || file->path[path - length - 1] == '/');
+}
+
 /* ---- opening --------------------------------------------------------------------------------- */
 
 static wt_status read_piece(void *user, size_t from, void *to, size_t n, wt_error *err)

@@ -38,6 +38,9 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err) WT_NODISCARD;
 void flow_files_clear(flow_files *files);
 
+/* Whether so many characters name it: its name, its path, or the end of that behind a '/'. */
+bool flow_file_is(const flow_file *file, const char *named, size_t length);
+
 /* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
