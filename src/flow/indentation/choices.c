@@ -176,30 +176,41 @@ wt_status choices_read(const wt_indent_job *job, const wt_job *work, hand_choice
     return status;
 }
 
+/* The file of a choice; one that has that very name before others whose paths end alike. */
+static wt_status find_file(const hand_choices *choices, hand_choice *c, const flow_files *files,
+                           wt_error *err)
+{
+    flow_naming best = FLOW_OTHER_FILE;
+    const flow_file *other = NULL;
+    for (size_t k = 0; k < files->n; k++) {
+        const flow_naming as = flow_file_is(&files->file[k], c->file, strlen(c->file));
+        if (as == FLOW_OTHER_FILE || as < best)
+            continue;
+        other = as == best ? c->of : NULL;
+        c->of = &files->file[k];
+        best = as;
+    }
+    if (c->of == NULL) {
+        (void)wt_fail(err, WT_E_NOT_FOUND, "no file of the group \"%s\" is called so",
+                      choices->group);
+        wt_error_advice(err, "correct the column file, delete the row, or name another group in "
+                             "the column group");
+        return at_choice(choices, c, err);
+    }
+    if (other == NULL)
+        return WT_OK;
+    (void)wt_fail(err, WT_E_ARG, "two files are called so");
+    wt_error_found(err, "%s and %s", other->name, c->of->name);
+    wt_error_advice(err, "write more of the path in the column file");
+    return at_choice(choices, c, err);
+}
+
 wt_status choices_bind(hand_choices *choices, const flow_files *files, wt_error *err)
 {
-    for (size_t i = 0; i < choices->n; i++) {
-        hand_choice *c = &choices->choice[i];
-        for (size_t k = 0; k < files->n; k++) {
-            if (!flow_file_is(&files->file[k], c->file, strlen(c->file)))
-                continue;
-            if (c->of != NULL) {
-                (void)wt_fail(err, WT_E_ARG, "two files are called so");
-                wt_error_found(err, "%s and %s", c->of->name, files->file[k].name);
-                wt_error_advice(err, "write more of the path in the column file");
-                return at_choice(choices, c, err);
-            }
-            c->of = &files->file[k];
-        }
-        if (c->of == NULL) {
-            (void)wt_fail(err, WT_E_NOT_FOUND, "no file of the group \"%s\" is called so",
-                          choices->group);
-            wt_error_advice(err, "correct the column file, delete the row, or name another group "
-                                 "in the column group");
-            return at_choice(choices, c, err);
-        }
-    }
-    return WT_OK;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < choices->n; i++)
+        status = find_file(choices, &choices->choice[i], files, err);
+    return status;
 }
 
 /* ---- using ----------------------------------------------------------------------------------- */

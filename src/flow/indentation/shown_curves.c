@@ -78,7 +78,8 @@ static bool is_named(shown_curves *shown, const flow_file *file, size_t curve)
         const char *number = number_in(shown->words[i]);
         if (number == NULL || strncmp(shown->words[i], worst, strlen(worst)) == 0 ||
             strtoul(number, NULL, 10) != curve ||
-            !flow_file_is(file, shown->words[i], (size_t)(number - 1 - shown->words[i])))
+            flow_file_is(file, shown->words[i], (size_t)(number - 1 - shown->words[i])) ==
+                FLOW_OTHER_FILE)
             continue;
         named = shown->met[i] = true;
     }

@@ -203,13 +203,21 @@ void flow_files_clear(flow_files *files)
     *files = (flow_files){NULL, 0, NULL};
 }
 
-bool flow_file_is(const flow_file *file, const char *named, size_t length)
+static bool is_end_of(const char *end, size_t n_end, const char *path, size_t n)
 {
-    const size_t path = strlen(file->path);
-    if (strlen(file->name) == length && memcmp(file->name, named, length) == 0)
-        return true;
-    return length > 0 && path >= length && memcmp(file->path + path - length, named, length) == 0 &&
-           (path == length || file->path[path - length - 1] == '/');
+    return n_end > 0 && n > n_end && path[n - n_end - 1] == '/' &&
+           memcmp(path + n - n_end, end, n_end) == 0;
+}
+
+flow_naming flow_file_is(const flow_file *file, const char *named, size_t length)
+{
+    const size_t n = strlen(file->path);
+    if ((strlen(file->name) == length && memcmp(file->name, named, length) == 0) ||
+        (n == length && memcmp(file->path, named, length) == 0))
+        return FLOW_SAME_NAME;
+    const bool same_end =
+        is_end_of(named, length, file->path, n) || is_end_of(file->path, n, named, length);
+    return same_end ? FLOW_SAME_END : FLOW_OTHER_FILE;
 }
 
 /* ---- opening --------------------------------------------------------------------------------- */
