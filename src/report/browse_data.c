@@ -6,6 +6,7 @@
 #include "report/browse.h"
 
 #include "base/utf8.h"
+#include "report/curve_finder.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -76,16 +77,11 @@ static void add_base64(growing_text *to, const uint8_t *bytes, size_t n)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-/* A block of the table "curves". */
-typedef struct block {
-    size_t from, to;
-} block;
-
 typedef struct range {
     double low, high;
 } range;
 
-static range range_of(const table_view *view, block b, curves_column column, range r)
+static range range_of(const table_view *view, curve_block b, curves_column column, range r)
 {
     for (size_t i = b.from; i < b.to; i++) {
         const double value = curves_get(view, i, column);
@@ -113,7 +109,7 @@ static uint8_t *put_packed(uint8_t *to, unsigned value)
 }
 
 /* Compliance of the lever: what displacement and indentation differ by at the largest force. */
-static double compliance(const table_view *view, block b)
+static double compliance(const table_view *view, curve_block b)
 {
     double largest = 0, per_force = (double)NAN;
     for (size_t i = b.from; i < b.to; i++) {
@@ -131,7 +127,7 @@ static double compliance(const table_view *view, block b)
 /* [samples, of them approach, first with a fit above the baseline, displacement from, to, force
  * from, to, compliance of the lever, base64: displacements, forces, fitted forces of the contact]
  */
-static wt_status add_samples(const table_view *view, block b, growing_text *to, wt_error *err)
+static wt_status add_samples(const table_view *view, curve_block b, growing_text *to, wt_error *err)
 {
     const size_t n = b.to - b.from;
     size_t approach = 0, contact = 0;
@@ -170,56 +166,9 @@ static wt_status add_samples(const table_view *view, block b, growing_text *to, 
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-/* Where the samples of the rows of a group are; found from the block after the last one, for both
- * stand in one order. */
-typedef struct finder {
-    const table_view *view;
-    const block *blocks; /* [n] */
-    size_t n, next;
-} finder;
-
-static bool is_of_row(const table_view *curves, block b, const table_view *rows, size_t row)
-{
-    const double a = curves_get(curves, b.from, CURVES_CURVE),
-                 other = indentation_get(rows, row, INDENTATION_CURVE);
-    return !(a < other) && !(a > other) &&
-           strcmp(curves_text(curves, b.from, CURVES_FILE),
-                  indentation_text(rows, row, INDENTATION_FILE)) == 0 &&
-           strcmp(curves_text(curves, b.from, CURVES_GROUP), rows->suffix) == 0;
-}
-
-static const block *find_samples(finder *f, const table_view *rows, size_t row)
-{
-    for (size_t tried = 0; tried < f->n; tried++) {
-        const size_t k = (f->next + tried) % f->n;
-        if (!is_of_row(f->view, f->blocks[k], rows, row))
-            continue;
-        f->next = k + 1;
-        return &f->blocks[k];
-    }
-    return NULL;
-}
-
-static block *find_blocks(const table_view *curves, size_t *n, wt_error *err)
-{
-    block *blocks = malloc((curves->n_rows > 0 ? curves->n_rows : 1) * sizeof *blocks);
-    *n = 0;
-    if (blocks == NULL)
-        (void)wt_fail(err, WT_E_MEMORY, "out of memory");
-    size_t last = 0;
-    for (size_t i = 0; blocks != NULL && i < curves->n_rows; i++) {
-        const size_t number = wt_table_block(curves->table, i);
-        if (*n == 0 || number != last)
-            blocks[(*n)++] = (block){i, i};
-        blocks[*n - 1].to = i + 1;
-        last = number;
-    }
-    return blocks;
-}
-
 /* [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null]; a file
  * is a number in the list of files. */
-static wt_status add_row(const table_view *rows, size_t row, size_t file, finder *f,
+static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_finder *f,
                          growing_text *to, wt_error *err)
 {
     static const indentation_column numbers[] = {INDENTATION_MODULUS,
@@ -240,7 +189,7 @@ static wt_status add_row(const table_view *rows, size_t row, size_t file, finder
     text_add(to, ",");
     add_number(to, indentation_get(rows, row, INDENTATION_Y));
     text_add(to, ",");
-    const block *b = find_samples(f, rows, row);
+    const curve_block *b = curve_finder_next(f, rows, row);
     wt_status status = WT_OK;
     if (b != NULL)
         status = add_samples(f->view, *b, to, err);
@@ -250,7 +199,7 @@ static wt_status add_row(const table_view *rows, size_t row, size_t file, finder
     return status;
 }
 
-static wt_status add_group(const table_view *rows, finder *f, growing_text *to, wt_error *err)
+static wt_status add_group(const table_view *rows, curve_finder *f, growing_text *to, wt_error *err)
 {
     growing_text files = {0};
     wt_status status = WT_OK;
@@ -293,12 +242,8 @@ static void add_choices(const table_view *choices, growing_text *to)
 
 wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *err)
 {
-    size_t n = 0;
-    block *blocks = find_blocks(&tables->curves, &n, err);
-    if (blocks == NULL)
-        return WT_E_MEMORY;
-    finder f = {&tables->curves, blocks, n, 0};
-    wt_status status = WT_OK;
+    curve_finder f = {.view = &tables->curves};
+    wt_status status = curve_finder_make(&f, err);
     text_add(to, "{\"groups\":[");
     for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
         text_add(to, i > 0 ? "," : "");
@@ -307,6 +252,6 @@ wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *er
     text_add(to, "],\"choices\":[");
     add_choices(&tables->choices, to);
     text_add(to, "]}");
-    free(blocks);
+    curve_finder_clear(&f);
     return status;
 }

@@ -272,10 +272,27 @@ void choices_judge(const curve_choice *choice, wt_indent_fit *fit)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-wt_status choices_table(const hand_choices *choices, wt_table **table, wt_error *err)
+/* What a reader of the result should know: what was done by hand. */
+static void note_choices(const hand_choices *choices, const wt_job *work)
+{
+    size_t n_curves[CHOICE_KINDS] = {0}, used = 0;
+    char text[256] = "";
+    for (size_t i = 0; i < choices->n; i++)
+        n_curves[choices->choice[i].kind] += choices->choice[i].n_curves;
+    for (int k = 0; k < CHOICE_KINDS; k++)
+        if (n_curves[k] > 0)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s of %zu",
+                                     used > 0 ? ", " : "", kinds[k].word, n_curves[k]);
+    wt_parselog_add(work->log, WT_NOTE, choices->path, NULL,
+                    "%s: chosen by hand, in curves: %s (table choices)", choices->group, text);
+}
+
+wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_table **table,
+                        wt_error *err)
 {
     if (choices->n == 0)
         return WT_OK;
+    note_choices(choices, work);
     table_writer t = {0};
     if (*table == NULL) {
         t = table_begin(&choices_schema, err);

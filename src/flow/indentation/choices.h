@@ -61,7 +61,8 @@ void choices_judge(const curve_choice *choice, wt_indent_fit *fit);
 
 /* Appends what was applied to the table "choices", which is made if it is NULL; one that met no
  * curve is WT_E_NOT_FOUND. */
-wt_status choices_table(const hand_choices *choices, wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_table **table,
+                        wt_error *err) WT_NODISCARD;
 void choices_clear(hand_choices *choices);
 
 #endif

@@ -253,12 +253,12 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
+    if (status == WT_OK)
+        status = choices_table(&task.choices, work, &tables->choices, err);
     if (status == WT_OK && task.shown.median && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status == WT_OK)
         status = shown_curves_table(&task.shown, job->group, &tables->curves, err);
-    if (status == WT_OK)
-        status = choices_table(&task.choices, &tables->choices, err);
     if (status == WT_OK) {
         status = table_end(&task.rows, &tables->indentation);
         task.rows.table = NULL;
