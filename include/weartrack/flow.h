@@ -119,6 +119,9 @@ WT_API const wt_params *wt_file_set_params(void);
 typedef struct wt_convert_job {
     unsigned kind; /* WT_KIND_* of a file that holds several; 0: the first that has data, in the
                       order force, sweep, spectrum, image */
+    const char *contact; /* result of weartrack indent: force curves are given from the contact
+                            points and above the baselines there, with their indentation; NULL =
+                            as measured */
     wt_read_options read;
 } wt_convert_job;
 WT_API wt_convert_job wt_convert_job_defaults(void);

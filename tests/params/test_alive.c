@@ -152,6 +152,7 @@ static const struct {
     {NULL, "master", "the base has it"},
     {"master", "shifts", "a file of shifts: tests/cli/shifts.txt"},
     {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
+    {NULL, "contact", "a result with contact points: tests/cli/choices.txt"},
     {NULL, "choices", "a file of choices: tests/cli/choices.txt"},
     {"record", "profile", "files of profiles: unit_flow_record"},
     {NULL, "report", "where the report goes, not what it is"},
