@@ -61,7 +61,7 @@ static void add_source(const wt_result *result, bool with_provenance, growing_te
     text_html(to, "weartrack %s", wt_version());
     const char *command = wt_provenance_command(wt_result_provenance_const(result));
     if (with_provenance && command[0] != '\0')
-        text_html(to, " &middot; <code>%s</code>", command);
+        text_html(to, "<details><summary>Command</summary><code>%s</code></details>", command);
 }
 
 static wt_status write_page(const char *path, const growing_text *page, wt_error *err)

@@ -33,12 +33,17 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
     return WT_OK;
 }
 
-/* The file of the choices is relative to the case. */
-static wt_status place_choices(wt_case *c, wt_error *err)
+/* The file of the choices, relative to the case. */
+static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
 {
-    if (c->indent.choices == NULL)
+    const xmlNode *node = case_child(section, "choices");
+    const char *name = NULL;
+    if (node == NULL)
         return WT_OK;
-    char *path = wt_path_join(c->folder, c->indent.choices);
+    const wt_status status = case_node_text(c, node, &name, err);
+    if (status != WT_OK)
+        return status;
+    char *path = wt_path_join(c->folder, name);
     c->indent.choices = path != NULL ? pool_text(&c->memory, path, strlen(path)) : NULL;
     free(path);
     return c->indent.choices != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -48,7 +53,7 @@ wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *er
 {
     wt_status status = case_read_params(c, section, wt_indent_job_params(), &c->indent, err);
     if (status == WT_OK)
-        status = place_choices(c, err);
+        status = read_choices(c, section, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_compare_job_params(), &c->compare, err);
     if (status == WT_OK)

@@ -6,6 +6,7 @@
 #include "read/params.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -49,6 +50,16 @@ static wt_status check_group(const void *member, wt_error *err)
     return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
 }
 
+static wt_status check_curves(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_indent_job *job = (const void *)(at - offsetof(wt_indent_job, curves));
+    shown_curves shown;
+    const wt_status status = shown_curves_begin(job, &shown, err);
+    shown_curves_clear(&shown);
+    return status;
+}
+
 wt_status indent_error_check(const void *estimate, wt_error *err)
 {
     const wt_estimate *e = estimate;
@@ -86,11 +97,13 @@ static const wt_param rows[] = {
     {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
-    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .value = "WHICH", .unset = "",
+    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curves,
+     .value = "WHICH", .unset = "",
      .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
              "error of the modulus), all or FILE:N; median is the representative one, whole, as "
              "force_displacement and force_indentation"},
     {PARAM_TEXT_OF("choices", wt_indent_job, choices), .value = "FILE", .unset = "",
+     .flags = PARAM_NO_CASE,
      .help = "what was chosen by hand: curves left out, contact points of curves, spring constant, "
              "sensitivity and tip of files"},
 };
@@ -117,11 +130,6 @@ wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
     wt_status status = param_check(wt_indent_job_params(), job, err);
     if (status == WT_OK)
         status = check_sample(job, err);
-    if (status == WT_OK) {
-        shown_curves shown;
-        status = shown_curves_begin(job, &shown, err);
-        shown_curves_clear(&shown);
-    }
     return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;
 }
 

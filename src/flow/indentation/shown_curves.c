@@ -66,8 +66,6 @@ wt_status shown_curves_begin(const wt_indent_job *job, shown_curves *shown, wt_e
     if (status == WT_OK && job->n_curves > 0 &&
         (shown->met = calloc(job->n_curves, sizeof *shown->met)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status != WT_OK)
-        wt_error_place(err, "curves");
     return status;
 }
 
