@@ -389,7 +389,7 @@
       series: {approach: {strokeWidth: lines}, retract: {strokeWidth: lines},
         fit: {strokeWidth: 2, drawPoints: false}},
       xlabel: `${axis} (${xPrefix}m)`, ylabel: `force (${yPrefix}N)`, legend: 'always',
-      axes: {y: {axisLabelWidth: 52}}, title: undefined,
+      axes: {x: {pixelsPerLabel: 45}, y: {axisLabelWidth: 52}},
       legendFormatter: (legend) => legend.series.map((s) =>
         `<span style="color:${s.color}">&#9644; ${s.label}${s.y === undefined ? '' :
           ' ' + Number(s.y.toPrecision(4))}</span>`).join(' &nbsp; ')};
@@ -403,7 +403,7 @@
     residual = left.length < 2 ? null : new Dygraph($('residual'), left, {...common,
       labels: [axis, 'residual'], colors: ['#222'], strokeWidth: lines, legend: 'never',
       dateWindow: graph.xAxisRange(), xlabel: '', ylabel: `residual (${rPrefix}N)`,
-      axes: {y: {axisLabelWidth: 52, pixelsPerLabel: 20}}});
+      axes: {x: {pixelsPerLabel: 45}, y: {axisLabelWidth: 52, pixelsPerLabel: 20}}});
     graph.updateOptions({zoomCallback: (from, to) => {
       if (residual) residual.updateOptions({dateWindow: [from, to]});
     }}, true);
