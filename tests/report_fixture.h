@@ -458,6 +458,61 @@ static inline void fixture_accuracy(wt_case *read)
     wt_result_free(asked);
 }
 
+/* What the case gives, as that of a sample and a condition. */
+static inline wt_result *fixture_labelled(const char *sample, const char *condition, double ratio,
+                                          double error)
+{
+    static const char *const names[] = {"answer", "comparison", "modulus_rate", "friction",
+                                        "layer"};
+    const fixture_change no_change = {.table = "answer"};
+    wt_result *labelled = wt_result_new();
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        wt_table *copy = fixture_copy(wt_result_find(fixture_case, names[i]), &no_change);
+        if (i == 0) {
+            fixture_check(wt_table_set_key(copy, "case_sample", sample, NULL));
+            fixture_check(wt_table_set_key(copy, "case_condition", condition, NULL));
+        }
+        if (i == 1)
+            fixture_key(copy, "modulus_ratio", ratio, error * ratio, "1");
+        fixture_check(wt_result_add(labelled, copy, NULL));
+    }
+    return labelled;
+}
+
+/* Two samples at two conditions, side by side; one pair differs, one does not, of one it cannot be
+ * said. */
+static inline void fixture_collect(wt_collection_tables *tables)
+{
+    static const struct {
+        const char *sample, *condition;
+        double ratio, error;
+    } of[] = {{"HC", "mild", 0.9, 0.02},
+              {"HC", "severe", 0.6, 0.02},
+              {FIXTURE_EVIL, "mild", 0.8, 0.15},
+              {FIXTURE_EVIL, "severe", 0.6, 0.02}};
+    enum { CASES = sizeof of / sizeof of[0] };
+    const wt_collect_job job = wt_collect_job_defaults();
+    wt_collected cases[CASES];
+    wt_result *results[CASES];
+    for (size_t i = 0; i < CASES; i++) {
+        results[i] = fixture_labelled(of[i].sample, of[i].condition, of[i].ratio, of[i].error);
+        cases[i] = (wt_collected){results[i], "case.h5"};
+    }
+    fixture_check(wt_collect(cases, CASES, &job, tables, NULL));
+    for (size_t i = 0; i < CASES; i++)
+        wt_result_free(results[i]);
+}
+
+static inline void fixture_collection(void)
+{
+    wt_collection_tables tables = {0};
+    fixture_collect(&tables);
+    fixture_check(wt_result_add(fixture_case, tables.collection, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.collected_modulus, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.collected_friction, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.ratio_pairs, NULL));
+}
+
 /* The case is run once in each program. */
 static inline const wt_result *fixture_produced(void)
 {
@@ -471,6 +526,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_curves();
         fixture_ramp();
         fixture_materials();
+        fixture_collection();
         fixture_payne();
         fixture_record();
         fixture_common_law();

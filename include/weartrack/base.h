@@ -216,7 +216,8 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_MASS, "mass", "kg", "mass")                                                             \
     X(WT_Q_HEAT_CAPACITY, "heat_capacity", "J/(m^3 K)", "heat capacity per volume")                \
     X(WT_Q_DIFFUSIVITY, "diffusivity", "m^2/s", "thermal diffusivity")                             \
-    X(WT_Q_ENERGY, "energy", "J", "energy")
+    X(WT_Q_ENERGY, "energy", "J", "energy")                                                        \
+    X(WT_Q_MOLAR_ENERGY, "molar_energy", "J/mol", "energy per mole")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,
@@ -225,7 +226,7 @@ typedef enum wt_quantity {
         WT_Q_COUNT
 } wt_quantity;
 
-typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has fewer than 64 entries */
+typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has 64 entries at most */
 #define WT_Q_BIT(q) ((wt_quantity_set)1 << (unsigned)(q))
 #define WT_Q_ALL (~(wt_quantity_set)0)
 
@@ -237,7 +238,9 @@ WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
 /* x_si = factor * x + offset for x in `unit` (any UDUNITS-2 spelling, UTF-8; also "%", "°C", "µm",
  * square brackets around it; "" and "-" for a dimensionless quantity). WT_E_UNIT if it is unknown
  * or does not measure `quantity`. Hz and rad/s are never converted into each other: that is the
- * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. */
+ * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. Units
+ * that are not built in are asked of UDUNITS-2, whose scanner calls exit(2) where it gets no
+ * memory; the command ends before that. */
 WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor,
                                double *offset, wt_error *err) WT_NODISCARD;
 /* Parses "0.4MPa", "20 degC", "35deg", "1e-4 mm^3/(N m)" to SI. The unit is required unless the

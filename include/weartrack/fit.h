@@ -368,6 +368,19 @@ WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, const w
 /* The smallest number of spots in each group at which a difference `log_ratio` of ln E is seen in
  * four of five trials when spots scatter by `scatter`; 0 if 1000 are not enough. */
 WT_API size_t wt_spots_needed(double log_ratio, double scatter);
+/* What is known of the logarithm of a ratio. */
+typedef struct wt_log_ratio {
+    double value, standard_error;
+    double df; /* of its error; NaN: a normal one */
+} wt_log_ratio;
+/* a - b of two that know nothing of each other: Welch, with the freedom of Satterthwaite, as above.
+ * What cannot be said is NaN. */
+typedef struct wt_log_ratio_difference {
+    double value, low, high; /* with its interval of 95 % */
+    double df;               /* NaN: a normal error */
+    double p;                /* two-sided, that there is none */
+} wt_log_ratio_difference;
+WT_API wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b);
 /* Holm's correction (Scand. J. Stat. 6 (1979) 65) of n p-values for n rates; adjusted[n]. A NaN
  * stays and is not counted. */
 WT_API void wt_holm(const double *p, size_t n, double *adjusted);
@@ -584,6 +597,8 @@ typedef struct wt_cycle {
     double zero;      /* of strokes: mean of there and back, with their signs, as a coefficient */
     double deviation; /* of its samples */
     double normal_force, velocity, pressure, temperature, wear_depth;
+    double rotation; /* of the disc [rad/s] */
+    double duration; /* to the first sample of the next one [s] */
 } wt_cycle;
 
 typedef struct wt_cycles {
@@ -595,6 +610,7 @@ typedef struct wt_cycles {
     double
         difference; /* largest of mu and friction force over load, where the file has both; NaN */
     bool has_zero;  /* there and back have opposite signs */
+    size_t n_unloaded; /* samples that a load of 0 or less gives no coefficient */
 } wt_cycles;
 /* `radius` [m] of the track tells laps by the distance, and the velocity by the rotation; NaN: not
  * known. `load` [N] where none was recorded; NaN. `kind` other than WT_CYCLE_AUTO that the record

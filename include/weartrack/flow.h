@@ -327,7 +327,7 @@ typedef struct wt_record_job {
     const char *profile;      /* files of profiles across the track that tell it; NULL: none */
     wt_estimate mass_loss;    /* [kg], with */
     wt_estimate density;      /* [kg/m^3] */
-    wt_estimate track_length; /* [m]; NaN: circumference of the track */
+    wt_estimate track_length; /* [m]; NaN: circumference of the track, or the stroke */
     wt_estimate ball_radius;  /* [m] */
     /* Nominal pressure of the ball. */
     wt_estimate modulus;  /* Young's, at the frequency of the contact [Pa] */
@@ -403,6 +403,30 @@ WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n,
  * what its curves share. NULL if no group states a common error. */
 WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
+
+/* ---- results of cases side by side ----------------------------------------------------------- */
+
+/* A result of wt_run; its sample and condition are those of the case, or `file` and "". */
+typedef struct wt_collected {
+    const wt_result *result;
+    const char *file;
+} wt_collected;
+
+typedef struct wt_collect_job {
+    double margin; /* relative difference of modulus ratios that does not matter; default 0.2 */
+} wt_collect_job;
+WT_API wt_collect_job wt_collect_job_defaults(void);
+WT_API const wt_params *wt_collect_job_params(void);
+
+/* The tables of these names; NULL: no case has anything for it, or there is no pair. */
+typedef struct wt_collection_tables {
+    wt_table *collection, *collected_modulus, *collected_friction, *ratio_pairs;
+} wt_collection_tables;
+WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
+/* Modulus ratios of pairs are compared as if they knew nothing of each other. WT_E_EMPTY without a
+ * case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
+WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
+                            wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
 

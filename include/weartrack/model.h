@@ -216,6 +216,7 @@ typedef struct wt_roughness_law {
     /* int_q0^q k^m C dk for m = 1 or 3 in closed form; NULL: integrated numerically. */
     double (*moment)(const wt_roughness *roughness, int m, double q);
     void (*free)(wt_roughness *roughness);
+    bool powers; /* C is a power of q between the breaks */
 } wt_roughness_law;
 
 struct wt_roughness {

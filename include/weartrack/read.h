@@ -117,6 +117,8 @@ typedef struct wt_read_options {
     double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
+    bool *unit_used; /* [n_units] of files of several kinds: set where one has that column, and no
+                        file without it is warned of; NULL = each is. May be set by any thread. */
     bool any_temperature; /* a sweep without a temperature is read, as NaN */
     bool one_height;      /* of the heights wanted only that of a sensor, where there is one */
     const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-_Static_assert(WT_Q_COUNT < 64, "wt_quantity_set has one bit per quantity");
+_Static_assert(WT_Q_COUNT <= 64, "wt_quantity_set has one bit per quantity");
 
 static const struct {
     const char *id, *unit;
@@ -79,7 +79,8 @@ static const unit_words *unit_words_of(wt_quantity quantity)
                                          {"kg", "3mg", 1e9},
                                          {"J/(m^3 K)", "2.2e6J/(m^3 K)", 1e12},
                                          {"m^2/s", "1e-7m^2/s", 1e6},
-                                         {"J", "0.97eV", 1e12}};
+                                         {"J", "0.97eV", 1e12},
+                                         {"J/mol", "80kJ/mol", 1e12}};
     size_t i = 0;
     while (strcmp(by_unit[i].unit, wt_quantity_unit(quantity)) != 0)
         i++;

@@ -43,6 +43,7 @@ int cmd_psd(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
 int cmd_new_case(int argc, char **argv);
+int cmd_collect(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_table(int argc, char **argv);
@@ -70,12 +71,14 @@ typedef struct cmd_part {
     PARAM_LOCAL_TABLE(name, type, rows, name##_unset, NO_PARTS)
 
 /* Options that mean the same everywhere. A subcommand shows those it names. */
+typedef enum cmd_log { CMD_LOG_TEXT, CMD_LOG_JSON } cmd_log;
 typedef struct cmd_common {
     const char *output;         /* -o, NULL = standard output */
     const char *formats;        /* folder of further descriptions */
     const char *const *columns; /* of plain tables */
     size_t n_columns;
     const char *files_from; /* file with names of files, NULL = none */
+    cmd_log log;
     bool provenance, cost;
     bool quiet, strict, help;
 } cmd_common;
@@ -86,6 +89,8 @@ typedef struct cmd_usage {
     const char *arguments; /* "[OPTION]... FILE..." */
     const char *what;      /* what it does, a few lines */
     const char *common; /* as `only` of the common options; quiet, strict and help are everywhere */
+    const char *first;  /* the options that most need, for --help without "all"; NULL: all */
+    const char *master; /* those that are told by weartrack master; NULL: none */
     const char *notes;  /* after the options; NULL if none */
     int n_files;        /* how many must be given; CMD_SOME: one or more; 0: any number */
     const char *files;  /* said of another number: "two files are needed" */
@@ -97,7 +102,8 @@ enum { CMD_SOME = -1 };
 /* Shows progress on stderr if it is a terminal, after a second. */
 typedef struct cmd_progress {
     double start, shown;
-    bool active, printed;
+    double interval; /* from one to the next [s] */
+    bool active;
 } cmd_progress;
 
 /* One call of a subcommand: its words, and what it has beside its job. */
@@ -117,6 +123,8 @@ typedef struct cmd_session {
     wt_cost *cost; /* NULL: not asked for */
     wt_job work;   /* for the job: what failed is listed, inputs go to the result's provenance */
     cmd_progress progress;
+    wt_read_options *shared; /* by files of several kinds: its units are those of columns that one
+                                of them has; NULL: none */
 } cmd_session;
 
 /* Nothing but the defaults of the job, for its options; may be freed. */
@@ -140,6 +148,9 @@ bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */
 wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user);
+/* Files of several kinds are read by these options, which stay where they are until the end: a unit
+ * is for a column that any of them has. False if it cannot. */
+bool cmd_share_units(cmd_session *s, wt_read_options *read);
 /* Says what failed, the remarks and, unless `made` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status made);
 /* The same after writing the tables, in this order, and the record behind them, if they were made;
@@ -162,6 +173,18 @@ size_t cmd_text_width(const char *text, size_t n);
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 
 /* ---- messages ----------------------------------------------------------------------------- */
+
+/* From now on what is said is one object of JSON a line, each with its event: message, note,
+ * warning, loss, error, failed, progress or end (log.c). */
+void cmd_log_json(const char *name);
+bool cmd_is_json(void);
+/* A member of such an object: a text, or a number where that is NULL. */
+typedef struct cmd_word {
+    const char *name, *text;
+    size_t number;
+} cmd_word;
+/* Nothing without --log json. Empty texts are left out. */
+void cmd_event(const char *event, const cmd_word *words, size_t n);
 
 /* To standard error. What a terminal would obey, in the name of a file say, is shown as \x1b; only
  * the format itself may end a line. */

@@ -187,6 +187,10 @@ int cmd_compare(int argc, char **argv)
             "those of the first, with their intervals, over frequency and temperature. MATERIAL is "
             "the output of weartrack master or what was measured (file, folder, pattern).",
         .common = "output formats columns provenance",
+        .first = "master indentation-temperature track-temperature cantilevers "
+                 "spring-constant-error tip-error at-temperature at-frequency output",
+        .master = "temperature temperature-in-name units format sheet deformation strain sample "
+                  "sample-by",
         .n_files = CMD_SOME};
     own_options own = {0};
     compare_call call = {.s = cmd_session_defaults(),

@@ -1,10 +1,10 @@
-# Completion of the command in bash and zsh, from what --help says, which comes from the records of the
+# Completion of the command in bash and zsh, from what --help all says, which comes from the records of the
 # options. Run: cmake -DPROGRAM=.. -DOUT=<folder> -P completion.cmake. SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
 # Help as a list of lines; what a list of CMake or a word of zsh would take for its own is replaced.
 function(help_of lines)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "\n                              +" "  " text "${text}") # what was wrapped
   string(REPLACE ";" "," text "${text}")
   string(REPLACE "[" "(" text "${text}")
@@ -15,7 +15,7 @@ function(help_of lines)
   set(${lines} "${text}" PARENT_SCOPE)
 endfunction()
 
-help_of(lines)
+help_of(lines --help)
 foreach(line IN LISTS lines)
   if(line MATCHES "^  ([a-z-]+) +([^ ].*)$" AND NOT CMAKE_MATCH_1 STREQUAL "help")
     list(APPEND names ${CMAKE_MATCH_1})
@@ -32,7 +32,7 @@ foreach(name IN LISTS names)
   set(options "")
   set(choices "")
   set(arguments "")
-  help_of(lines ${name})
+  help_of(lines ${name} --help all)
   foreach(line IN LISTS lines)
     if(NOT line MATCHES "^  (-([a-z]), |    )--([a-z-]+)( ([^ ]+))?(  +(.*))?$")
       continue()
@@ -41,6 +41,9 @@ foreach(name IN LISTS names)
     set(option "${CMAKE_MATCH_3}")
     set(value "${CMAKE_MATCH_5}")
     string(REGEX REPLACE "  +" " " help "${CMAKE_MATCH_7}")
+    if(help STREQUAL "")
+      set(help "as in weartrack master")
+    endif()
     string(APPEND options " --${option}")
     set(action "")
     if(value MATCHES "^[a-z]+(\\|[a-z]+)+$")

@@ -55,7 +55,11 @@ int cmd_friction(int argc, char **argv)
         .what = "Persson's hysteresis friction, contact area and, with --shear-stress, total "
                 "friction at each velocity, each with its numerical and its standard error; with a "
                 "modified layer on top if its thickness and modulus ratio are given.",
-        .common = "output formats columns files-from provenance cost"};
+        .common = "output formats columns files-from provenance cost",
+        .first = "material dma roughness pressure velocity sliding-temperature shear-stress "
+                 "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
+                 "temperatures pressures output",
+        .master = CMD_DMA_OPTIONS};
     wt_layer_known layer = {0};
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});

@@ -22,6 +22,8 @@ int cmd_indent(int argc, char **argv)
                 "(folders and patterns are allowed). One row per curve; a curve without a modulus "
                 "says why.",
         .common = "output formats columns files-from provenance cost",
+        .first = "tip spring-constant sensitivity spring-constant-error poisson-ratio fit-depth "
+                 "fit-force sample-thickness master group curves output",
         .notes =
             "Exit status 3 if a file or curve could not be read and others are answered, 1 if no "
             "curve has a modulus.",

@@ -11,7 +11,11 @@ int cmd_layer(int argc, char **argv)
         .what = "Energy density with depth, formation and wear rate, balance and thickness in time "
                 "of the modified layer, for the energy closure at constant load, at the velocity "
                 "given (the middle one of a list).",
-        .common = "output formats columns files-from provenance cost"};
+        .common = "output formats columns files-from provenance cost",
+        .first = "material dma roughness pressure velocity sliding-temperature "
+                 "specific-wear-rate critical-energy observed-thickness duty start-thickness "
+                 "times output",
+        .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});

@@ -37,6 +37,7 @@ const cmd_command cmd_commands[] = {
     {"accuracy", cmd_accuracy, "error against run time, of the methods or of a case"},
     {"report", cmd_report, "plots and one page from a result file"},
     {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},
+    {"collect", cmd_collect, "cases of several samples and conditions side by side"},
     {"summary", cmd_summary, "one row for each of many results"},
     {NULL, NULL, NULL}};
 
@@ -53,8 +54,8 @@ static void print_help(FILE *out)
             fprintf(out, "  %-11s %s\n", c->name, c->help);
     }
     fputs("\n  help        the same; `weartrack help SUBCOMMAND` for one of them\n\n"
-          "options: --help, --version. Each subcommand has --help and a page "
-          "weartrack-SUBCOMMAND(1).\n"
+          "options: --help, --version. Each subcommand has --help (and --help all) and a page\n"
+          "weartrack-SUBCOMMAND(1). To begin: weartrack-tutorial(7).\n"
           "Exit status: 0 whole, 1 nothing usable or a fault, 2 usage error, 3 answered in part.\n",
           out);
 }
@@ -116,10 +117,13 @@ int main(int argc, char **argv)
               (argc == 2 || strcmp(argv[2], "help") == 0 || strcmp(argv[2], "--help") == 0)))
         print_help(stdout);
     else if (help)
-        status = dispatch(2, (char *[]){argv[2], help_option, NULL});
+        status = dispatch(argc > 3 ? 3 : 2, (char *[]){argv[2], help_option, argv[3], NULL});
     else
         status = dispatch(argc - 1, argv + 1);
     if (wt_door_gaps() != NULL) /* of the system, not of the data: no remark of a result */
         cmd_say("weartrack: warning: %s\n", wt_door_gaps());
-    return close_stdout(status);
+    status = close_stdout(status);
+    const cmd_word last = {"status", NULL, (size_t)status};
+    cmd_event("end", &last, 1);
+    return status;
 }

@@ -182,6 +182,8 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
+        .first = "reference-temperature shift-law vertical-shift leave-out liquid temperature "
+                 "units sheet deformation strain sample export prony-terms output",
         .notes =
             "The tables prony, relaxation_spectrum, shift_factors and master_curve follow one "
             "another, then draws of all that is not known of the material, material_draws and "

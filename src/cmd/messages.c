@@ -15,6 +15,16 @@ static bool is_control(const char *text)
     return (c < 0x20 && c != '\t') || c == 0x7f || (c == 0xc2 && (unsigned char)text[1] < 0xa0);
 }
 
+/* A line of progress, which other words take the place of. */
+static bool progress_stands;
+
+static void erase_progress(void)
+{
+    if (progress_stands)
+        fputs("\r\033[K", stderr);
+    progress_stands = false;
+}
+
 void cmd_say(const char *format, ...)
 {
     char *text = NULL;
@@ -25,6 +35,14 @@ void cmd_say(const char *format, ...)
     if (written < 0)
         return;
     size_t length = (size_t)written;
+    if (cmd_is_json()) {
+        text[length - (length > 0 && text[length - 1] == '\n')] = '\0';
+        const cmd_word word = {"text", text, 0};
+        cmd_event("message", &word, 1);
+        free(text);
+        return;
+    }
+    erase_progress();
     const bool line = *format != '\0' && format[strlen(format) - 1] == '\n';
     length -= line;
     for (size_t i = 0, n; i < length; i += n) {
@@ -48,9 +66,21 @@ void cmd_partly(cmd_session *s)
 
 void cmd_fail_one(cmd_session *s)
 {
+    const wt_error *e = &s->err;
     char line[2048];
-    wt_error_format(&s->err, line, sizeof line);
-    cmd_say("weartrack %s: %s\n", s->name, line);
+    wt_error_format(e, line, sizeof line);
+    const cmd_word words[] = {
+        {"status", wt_status_text(e->status), 0},
+        {"file", e->file, 0},
+        {"place", e->place, 0},
+        {"text", e->message[0] != '\0' ? e->message : wt_status_text(e->status), 0},
+        {"expected", e->expected, 0},
+        {"found", e->found, 0},
+        {"advice", e->advice, 0}};
+    if (cmd_is_json())
+        cmd_event("error", words, COUNT_OF(words));
+    else
+        cmd_say("weartrack %s: %s\n", s->name, line);
     cmd_partly(s);
 }
 
@@ -103,6 +133,15 @@ static size_t fold_equal(fold *folds, size_t n)
 static void print_fold(const char *name, const fold *f)
 {
     const wt_log_entry *e = &f->entry;
+    const cmd_word words[] = {{"file", e->file, 0},
+                              {"place", f->n_files > 1 ? "" : e->place, 0},
+                              {"text", e->text, 0},
+                              {"files", NULL, f->n_files},
+                              {"times", NULL, f->n}};
+    if (cmd_is_json()) {
+        cmd_event(wt_severity_name(e->severity), words, COUNT_OF(words));
+        return;
+    }
     cmd_say("weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
     if (f->n_files > 1)
         cmd_say(" and %zu more", f->n_files - 1);
@@ -152,10 +191,15 @@ bool cmd_say_failures(cmd_session *s, const wt_table *failures)
     const size_t n = failures != NULL ? wt_table_n_rows(failures) : 0;
     if (n == 0)
         return false;
-    cmd_say("weartrack %s: %zu failed:\n", s->name, n);
+    if (!cmd_is_json())
+        cmd_say("weartrack %s: %zu failed:\n", s->name, n);
     for (size_t i = 0; i < n; i++) {
         const char *where = wt_table_text(failures, i, FAILURES_FILE);
         const char *what = wt_table_text(failures, i, FAILURES_MESSAGE);
+        const cmd_word words[] = {{"file", where, 0}, {"text", what, 0}};
+        cmd_event("failed", words, COUNT_OF(words));
+        if (cmd_is_json())
+            continue;
         /* most messages begin with the file they are about */
         if (strncmp(what, where, strlen(where)) == 0)
             cmd_say("  %s\n", what);
@@ -207,11 +251,16 @@ static bool report_progress(void *user, const char *what, size_t done, size_t to
     const double now = wt_time_wall();
     if (interrupted != 0)
         return false;
-    /* Only work over a second is worth a line, and ten lines a second are enough. */
-    if (!state->active || now - state->start < 1 || now - state->shown < 0.1)
+    /* Only work over a second is worth a line. */
+    if (!state->active || now - state->start < 1 || now - state->shown < state->interval)
         return true;
     state->shown = now;
-    state->printed = true;
+    if (cmd_is_json()) {
+        const cmd_word words[] = {{"text", what, 0}, {"done", NULL, done}, {"total", NULL, total}};
+        cmd_event("progress", words, total > 0 ? 3 : 2);
+        return true;
+    }
+    progress_stands = true;
     if (total > 0)
         fprintf(stderr, "\r\033[K%s: %zu of %zu", what, done, total);
     else
@@ -223,14 +272,16 @@ static bool report_progress(void *user, const char *what, size_t done, size_t to
 wt_progress cmd_progress_start(cmd_session *s)
 {
     const double now = wt_time_wall();
-    s->progress = (cmd_progress){now, now, !s->common.quiet && isatty(STDERR_FILENO), false};
+    const bool is_json = cmd_is_json();
+    /* a program wants a line a second; people look at ten */
+    s->progress = (cmd_progress){now, now, is_json ? 1 : 0.1,
+                                 !s->common.quiet && (is_json || isatty(STDERR_FILENO))};
     return (wt_progress){report_progress, &s->progress};
 }
 
 void cmd_progress_end(cmd_session *s)
 {
-    if (s->progress.printed)
-        fputs("\r\033[K", stderr);
+    erase_progress();
     s->progress.active = false;
     release_interruptions();
 }

@@ -36,11 +36,15 @@ static const wt_param common_rows[] = {
      .help = "version, command line, digests and times in what is written"},
     {PARAM_FLAG_OF("cost", cmd_common, cost),
      .help = "also the table cost: time, nodes, files and errors of every stage"},
+    {PARAM_CHOICE_OF("log", cmd_common, log, "text|json"),
+     .help = "what is said on standard error: for people, or one object of JSON a line with all "
+             "messages, failures, the progress every second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
     {PARAM_FLAG_OF("strict", cmd_common, strict),
      .help = "exit status 1 if there is a remark (warning), too"},
-    {PARAM_FLAG_OF("help", cmd_common, help), .letter = 'h', .help = "print this"},
+    {PARAM_FLAG_OF("help", cmd_common, help), .letter = 'h',
+     .help = "print this; --help all has every option"},
 };
 PARAM_LOCAL_TABLE(common_params, cmd_common, common_rows, cmd_common_defaults, NO_PARTS)
 
@@ -149,15 +153,59 @@ static void print_option(const option_row *row)
     cmd_wrap(stdout, HELP_COLUMN, HELP_COLUMN, text);
 }
 
-static void print_help(const cmd_usage *usage, const option_list *list)
+static const option_row *find_option(const option_list *list, const char *name, size_t length)
+{
+    for (size_t i = 0; i < list->n; i++)
+        if (strlen(list->rows[i].name) == length && strncmp(list->rows[i].name, name, length) == 0)
+            return &list->rows[i];
+    return NULL;
+}
+
+/* In the order of `names`, parted by blanks; a name that is no option stands there as it is, for
+ * the tests to see. */
+static void print_listed(const option_list *list, const char *names)
+{
+    for (const char *p = names; *p != '\0'; p += strspn(p, " ")) {
+        const size_t length = strcspn(p, " ");
+        const option_row *row = find_option(list, p, length);
+        if (row != NULL)
+            print_option(row);
+        else
+            printf("      --%.*s\n", (int)length, p);
+        p += length;
+    }
+}
+
+static void print_all(const cmd_usage *usage, const option_list *list)
+{
+    const char *elsewhere = usage->master != NULL ? usage->master : "";
+    puts("\noptions:");
+    for (size_t i = 0; i < list->n; i++)
+        if (!is_listed(elsewhere, list->rows[i].name))
+            print_option(&list->rows[i]);
+    if (usage->master == NULL)
+        return;
+    puts("\nof DMA files, as in weartrack master --help all:");
+    for (size_t i = 0; i < list->n; i++)
+        if (is_listed(elsewhere, list->rows[i].name))
+            printf("      --%s%s%s\n", list->rows[i].name,
+                   list->rows[i].param->value != NULL ? " " : "",
+                   list->rows[i].param->value != NULL ? list->rows[i].param->value : "");
+}
+
+static void print_help(const cmd_usage *usage, const option_list *list, bool all)
 {
     const size_t used = (size_t)printf("usage: weartrack %s ", usage->name);
     cmd_wrap(stdout, used, used, usage->arguments);
     putchar('\n');
     cmd_wrap(stdout, 0, 0, usage->what);
-    puts("\noptions:");
-    for (size_t i = 0; i < list->n; i++)
-        print_option(&list->rows[i]);
+    if (all || usage->first == NULL) {
+        print_all(usage, list);
+    } else {
+        printf("\noptions that most need, of %zu; --help all has every one:\n", list->n);
+        print_listed(list, usage->first);
+        print_listed(list, "quiet help");
+    }
     if (usage->notes != NULL) {
         putchar('\n');
         cmd_wrap(stdout, 0, 0, usage->notes);
@@ -345,6 +393,8 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
                 row = &list->rows[i];
         if (!set_option(s, row, optarg))
             return false;
+        if (s->common.log == CMD_LOG_JSON)
+            cmd_log_json(s->name);
         const char *value = row->param->value;
         if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
             (row->param->flags & PARAM_WRITTEN) == 0)
@@ -371,7 +421,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s quiet strict help", usage->common);
+    snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
     cmd_part last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->parts = parts;
@@ -385,7 +435,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
     }
     bool good = parse_options(s, &list, argc, argv, inputs, &n_inputs);
     if (good && s->common.help) {
-        print_help(usage, &list);
+        print_help(usage, &list, optind < argc && strcmp(argv[optind], "all") == 0);
         good = false;
     }
     good = good && check_output(s) && list_files(s, (size_t)(argc - optind), argv + optind) &&

@@ -95,8 +95,9 @@ static wt_status prepare_run(run_call *r)
     const char *path = r->s.files[0], *output = r->s.common.output;
     wt_error *err = &r->s.err;
     r->result_name = output != NULL ? strdup(output) : cmd_default_name(path, ".h5");
-    r->folder_name =
-        r->own.report != NULL ? strdup(r->own.report) : cmd_default_name(path, "-report");
+    r->folder_name = r->own.report != NULL
+                         ? strdup(r->own.report)
+                         : cmd_default_name(strcmp(path, "-") == 0 ? output : path, "-report");
     r->s.log = wt_parselog_new();
     if (r->result_name == NULL || r->folder_name == NULL || r->s.log == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -225,6 +226,9 @@ static bool check_output(run_call *r)
     const char *output = r->s.common.output;
     const char *dot = output != NULL ? strrchr(wt_path_base(output), '.') : NULL;
     const int stem = dot != NULL ? (int)(dot - output) : output != NULL ? (int)strlen(output) : 0;
+    if (output == NULL && strcmp(r->s.files[0], "-") == 0 && !r->own.plan)
+        return cmd_usage_error(&r->s, "a case from a pipe has no name for its result; give -o "
+                                      "case.h5");
     if (output == NULL || cmd_is_store(output))
         return true;
     if (strcmp(output, "-") == 0)

@@ -93,9 +93,27 @@ static void say_columns(cmd_session *s)
                         "its layout is known without them");
 }
 
+bool cmd_share_units(cmd_session *s, wt_read_options *read)
+{
+    read->unit_used = calloc(read->n_units + 1, sizeof *read->unit_used);
+    s->shared = read;
+    if (read->unit_used == NULL)
+        cmd_end(s, wt_fail(&s->err, WT_E_MEMORY, "out of memory"));
+    return read->unit_used != NULL;
+}
+
+static void say_units(cmd_session *s)
+{
+    for (size_t u = 0; s->shared != NULL && u < s->shared->n_units; u++)
+        if (!s->shared->unit_used[u])
+            wt_parselog_add(s->log, WT_WARNING, NULL, NULL, "--units %s: no file has such a column",
+                            s->shared->units[u]);
+}
+
 wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user)
 {
     say_columns(s);
+    say_units(s);
     wt_status status = WT_OK;
     wt_table *failures = s->work.failures, *notes = NULL;
     if (cmd_say_failures(s, failures)) {
@@ -161,6 +179,10 @@ int cmd_session_free(cmd_session *s)
     for (size_t i = 0; i < s->n_parts; i++)
         wt_params_clear(s->parts[i].params, s->parts[i].structure, &s->parts[i].given);
     wt_strings_free((char **)s->common.columns, s->common.n_columns);
+    if (s->shared != NULL) {
+        free(s->shared->unit_used);
+        s->shared->unit_used = NULL;
+    }
     free(s->files);
     free(s->names);
     wt_table_free(s->work.failures);

@@ -158,7 +158,8 @@ bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
     wt_job *work = &s->session.work;
-    if (!cmd_begin_reading(&s->session, s->set.read.format))
+    if (!cmd_begin_reading(&s->session, s->set.read.format) ||
+        !cmd_share_units(&s->session, &s->set.read))
         return false;
     /* without all that was asked for there is no friction */
     wt_table_free(work->failures);

@@ -15,6 +15,12 @@ typedef struct cmd_contact {
     double softening_temperature; /* of its sweeps [K]; NaN: they are of one */
 } cmd_contact;
 
+/* Options about DMA files, which weartrack master tells. */
+#define CMD_DMA_OPTIONS                                                                            \
+    "leave-out shift-law reference-temperature reference-at vertical-shift expansion "             \
+    "terms-per-decade liquid shift-by temperature temperature-in-name units format sheet "         \
+    "deformation strain sample sample-by"
+
 /* Parts of the options; CMD_OWN are those of the subcommand itself. */
 enum {
     CMD_CONTACT,

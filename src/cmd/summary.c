@@ -6,8 +6,10 @@
 static size_t read_all(cmd_session *s, wt_table **headlines)
 {
     size_t n_read = 0;
+    const wt_progress progress = cmd_progress_start(s);
     for (size_t i = 0; i < s->n_files; i++) {
         const char *path = s->files[i];
+        (void)progress.report(progress.user, "result", i + 1, s->n_files);
         wt_result *result = NULL;
         wt_status read = wt_tables_read_headlines(path, &result, &s->err);
         if (read == WT_OK)
@@ -21,6 +23,7 @@ static size_t read_all(cmd_session *s, wt_table **headlines)
         }
         wt_result_free(result);
     }
+    cmd_progress_end(s);
     if (n_read == 0)
         s->status = CMD_FAILED;
     return n_read;

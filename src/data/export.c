@@ -1,6 +1,6 @@
 /* A table for other programs: rows under one header line, or JSON. A missing number is an empty
  * cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/utf8.h"
+#include "base/json.h"
 #include "weartrack/data.h"
 
 #include <errno.h>
@@ -89,26 +89,6 @@ static void put_separated(FILE *out, const wt_table *table, char separator, bool
 
 /* ---- JSON ------------------------------------------------------------------------------------ */
 
-static void put_string(FILE *out, const char *text)
-{
-    (void)putc('"', out);
-    for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
-        const unsigned char c = (unsigned char)*text;
-        n = utf8_character(text, left);
-        if (n == 0) {
-            (void)fputs("\\ufffd", out);
-            n = 1;
-        } else if (c < ' ') {
-            (void)fprintf(out, "\\u%04x", c);
-        } else {
-            if (c == '"' || c == '\\')
-                (void)putc('\\', out);
-            (void)fwrite(text, 1, n, out);
-        }
-    }
-    (void)putc('"', out);
-}
-
 /* JSON has no infinite numbers: they are words. */
 static void put_number(FILE *out, double value)
 {
@@ -122,7 +102,7 @@ static void put_number(FILE *out, double value)
 static void put_named(FILE *out, const char *before, const char *name, const char *text)
 {
     (void)fprintf(out, "%s\"%s\": ", before, name);
-    put_string(out, text);
+    json_put_text(out, text);
 }
 
 static void put_keys(FILE *out, const wt_table *table)
@@ -132,10 +112,10 @@ static void put_keys(FILE *out, const wt_table *table)
         const char *name = wt_table_key_name(table, i);
         wt_estimate e;
         (void)fputs(i > 0 ? ",\n  " : "\n  ", out);
-        put_string(out, name);
+        json_put_text(out, name);
         (void)fputs(": ", out);
         if (!wt_table_estimate(table, name, &e)) {
-            put_string(out, wt_table_key(table, name));
+            json_put_text(out, wt_table_key(table, name));
             continue;
         }
         (void)fputs("{\"value\": ", out);
@@ -178,7 +158,7 @@ static void put_json(FILE *out, const wt_table *table)
         for (size_t i = 0; i < wt_table_n_columns(table); i++) {
             (void)fprintf(out, "%s\"%s\": ", i > 0 ? ", " : "", wt_table_column_name(table, i));
             if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
-                put_string(out, wt_table_text(table, row, i));
+                json_put_text(out, wt_table_text(table, row, i));
             else
                 put_number(out, wt_table_number(table, row, i));
         }

@@ -69,7 +69,8 @@ static void put_keys(table_writer *t, const finding_tables *found, const table_v
     for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
         const schema_field *key = &schema->keys[i];
         finding f;
-        if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
+        if (key->headline == NULL || view_key_text(view, schema, i) == NULL ||
+            strcmp(key->name, "verdict") == 0) /* the column is that of the comparison */
             continue;
         if (key->kind == SCHEMA_TEXT)
             put_word(t, key->name, view_key_text(view, schema, i));
@@ -138,14 +139,23 @@ static void put_misfit(table_writer *t, const table_view *shifts)
 
 /* The tables that have headlines beside those of the findings; behind the first ones all are keys.
  */
-enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 4 };
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 13 };
 static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       [NOTES] = &notes_schema,
                                                       [FAILURES] = &failures_schema,
                                                       [WITH_KEYS] = &shift_factors_schema,
                                                       &glass_transition_schema,
                                                       &friction_schema,
-                                                      &layer_schema};
+                                                      &layer_schema,
+                                                      &dwell_schema,
+                                                      &sensitivity_schema,
+                                                      &thermal_schema,
+                                                      &material_ratio_schema,
+                                                      &common_law_schema,
+                                                      &ratio_pairs_schema,
+                                                      &record_schema,
+                                                      &wear_schema,
+                                                      &power_spectrum_schema};
 
 bool store_has_headlines(const char *table)
 {

@@ -26,17 +26,13 @@ enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
  * smooth: its poles lie at pi/2 beside the axis. */
 static const double law_width = 0.7, closed_width = 1;
-/* At a goal no tighter than the last, pieces twice as wide do with the same degree: 3.4^-8 is 5e-5.
- */
-static const double loose_width = 2, loose_goal = 1e-5;
 /* Two bounds in ln w closer than this are one: their difference is rounding. */
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
  * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
  * coefficient.
  */
-static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6,
-                    most_closed_goal = 1e-4;
+static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
 /* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
@@ -406,6 +402,7 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
 }
 
 /* z of x in a piece; what rounding puts beside it goes to its end. */
+WIDE_REGISTERS
 static void place_in(const series *restrict s, const double *restrict x, size_t n,
                      double *restrict z)
 {
@@ -416,8 +413,10 @@ static void place_in(const series *restrict s, const double *restrict x, size_t 
     else
         for (size_t i = 0; i < n; i++)
             z[i] = (sqrt(x[i] > anchor ? x[i] - anchor : 0) - middle) * scale;
-    for (size_t i = 0; i < n; i++)
-        z[i] = z[i] < -1 ? -1 : z[i] > 1 ? 1 : z[i];
+    for (size_t i = 0; i < n; i++) {
+        const double below = z[i] < 1 ? z[i] : 1;
+        z[i] = below > -1 ? below : -1;
+    }
 }
 
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
@@ -490,23 +489,41 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
 }
 
 /* From frequencies below a limit. */
-static double part_below(const angular_law *a, size_t limit, double w, double j1)
+static void parts_below(const angular_law *a, size_t limit, const double *w, const double *j1,
+                        size_t n, double *part)
 {
-    double part, j2;
-    if (w <= a->limit[limit])
-        return j1;
-    angular_panels_integrate(&a->below[limit], w, &part, &j2);
-    return part;
+    const double end = a->limit[limit];
+    double lowest = w[0], j2;
+    for (size_t i = 1; i < n; i++)
+        lowest = w[i] < lowest ? w[i] : lowest;
+    if (lowest >= 2 * end) {
+        angular_panels_far(&a->below[limit], w, n, part);
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (w[i] > end)
+            angular_panels_integrate(&a->below[limit], w[i], &part[i], &j2);
+        else
+            part[i] = j1[i];
 }
 
-double angular_outside(const angular_law *angular, double w, double j1)
+void angular_outside(const angular_law *angular, const double *w, const double *j1, size_t n,
+                     double *outside)
 {
-    double outside = 0;
-    if (!isnan(angular->limit[0]))
-        outside += part_below(angular, 0, w, j1);
-    if (!isnan(angular->limit[1]))
-        outside += j1 - part_below(angular, 1, w, j1);
-    return fmin(fmax(outside, 0), j1);
+    double part[RULE_MOST];
+    for (size_t i = 0; i < n; i++)
+        outside[i] = 0;
+    for (size_t limit = 0; limit < 2; limit++) {
+        if (isnan(angular->limit[limit]))
+            continue;
+        parts_below(angular, limit, w, j1, n, part);
+        for (size_t i = 0; i < n; i++)
+            outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double some = outside[i] > 0 ? outside[i] : 0;
+        outside[i] = some < j1[i] ? some : j1[i];
+    }
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */
@@ -519,9 +536,8 @@ static double limit_of(double frequency)
 static void choose_pieces(angular_law *a, bool closed)
 {
     a->closed = closed;
-    a->goal =
-        fmin(fmax(goal_share * a->tolerance, least_goal), closed ? most_closed_goal : most_goal);
-    a->piece_width = !closed ? law_width : a->goal >= loose_goal ? loose_width : closed_width;
+    a->goal = fmin(fmax(goal_share * a->tolerance, least_goal), most_goal);
+    a->piece_width = closed ? closed_width : law_width;
 }
 
 void angular_weigh(angular_law *angular, const angular_weight *weight)

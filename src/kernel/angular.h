@@ -47,8 +47,10 @@ bool angular_closed(const angular_law *angular, double x_min, double x_max);
 /* Largest relative error of J1 and of J2 for ln w in this range, from series and panels; `*piece`
  * is where to look from, 0 or from a range below. */
 double angular_error(const angular_law *angular, double x_min, double x_max, size_t *piece);
-/* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w). */
-double angular_outside(const angular_law *angular, double w, double j1);
+/* The parts of J1(w) that come from frequencies outside the range backed by data, at n <= RULE_MOST
+ * values of w; j1 = J1(w). */
+void angular_outside(const angular_law *angular, const double *w, const double *j1, size_t n,
+                     double *outside);
 /* Whether the range of the material is limited at all. */
 bool angular_limited(const angular_law *angular);
 

@@ -18,10 +18,10 @@
 static const double widest = 0.35;
 /* ln F changes by no more over one panel: of exp(1.2 x) ten nodes leave less than rounding. */
 static const double steepest = 1.2;
-/* The integrals begin so far below the range in ln omega, with a power law below: exp(-40) of what
- * a constant modulus gives, which weighs with c, is left; less where the law is one, for nothing
- * is. */
-static const double deep = 40, shallow = 2.5;
+/* The integrals begin so far below the range in ln omega, with a power law below: so much less than
+ * the goal of what a constant modulus gives, which weighs with c, is left; less where the law is
+ * one, for nothing is. */
+static const double deep = 8, shallow = 2.5;
 /* They begin at a whole multiple of it, so that similar ranges have the same panels. */
 static const double stride = 16;
 static const int power_of[2] = {2, 1};
@@ -84,8 +84,8 @@ static size_t count_parts(const wt_material *material, const gauss_rule *rule, d
     const double steep = ceil(fmax((to - from) / widest, by / steepest));
     const size_t least = steep > 1 ? (size_t)fmin(steep, 1e6) : 1;
     size_t n = least;
-    if (material->law->power_below)
-        return n; /* a power law between its knots */
+    if (material->law->power_below || material->law->angular != NULL)
+        return n; /* a power law between its knots; a closed form as smooth as a Maxwell element */
     for (size_t i = 0; i < n && n < most_parts * least; i++)
         if (!is_resolved(material, rule, from + (to - from) * (double)i / (double)n,
                          from + (to - from) * (double)(i + 1) / (double)n)) {
@@ -326,8 +326,8 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     double begin = log(low);
     if (n_breaks > 0)
         begin = fmin(begin, log(breaks[0]));
-    const double first =
-        fmax(floor(begin / stride) * stride - (is_power ? shallow : deep), log(DBL_MIN) + 1);
+    const double first = fmax(
+        floor(begin / stride) * stride - (is_power ? shallow : deep - log(goal)), log(DBL_MIN) + 1);
     angular_panels a = {.material = material, .rule = rule};
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
@@ -400,6 +400,36 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     }
     *j1 += sum1 * square;
     *j2 += sum2 * c;
+}
+
+/* sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
+WIDE_REGISTERS
+static void far_series(const double *restrict of, size_t terms, double edge,
+                       const double *restrict w, size_t n, double *restrict j1)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double c = edge / w[i], square = c * c;
+        double sum = 0;
+        for (size_t m = terms; m-- > 0;)
+            sum = sum * square + of[m];
+        j1[i] = 4 * square * sum;
+    }
+}
+
+void angular_panels_far(const angular_panels *panels, const double *w, size_t n, double *j1)
+{
+    const angular_panels *a = panels;
+    const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
+    double of[WEIGHT_FAR], b = 1, nearest = 0, power = 1;
+    for (size_t i = 0; i < n; i++)
+        nearest = nearest > edge / w[i] ? nearest : edge / w[i];
+    size_t terms = 0;
+    for (; terms < a->terms && terms < WEIGHT_FAR && power > DBL_EPSILON / 64; terms++) {
+        of[terms] = sums[terms] * (a->weight != NULL ? a->weight->far[0][terms] : b);
+        b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
+        power *= nearest * nearest;
+    }
+    far_series(of, terms, edge, w, n, j1);
 }
 
 enum { MIDDLE = 8 * PANEL_NODES }; /* nodes at a time: what a stack holds lightly */

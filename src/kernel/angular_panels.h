@@ -47,6 +47,8 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
                              wt_error *err) WT_NODISCARD;
 void angular_panels_clear(angular_panels *panels);
 
+/* J1 at n frequencies that are all twice `high` or more. */
+void angular_panels_far(const angular_panels *panels, const double *w, size_t n, double *j1);
 /* J1 and J2 at w, from frequencies up to `high` alone. */
 void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2);
 /* Relative error of J1 and J2 at w, but for what rounding makes of steep moduli closer to w than a

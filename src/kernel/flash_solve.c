@@ -373,7 +373,7 @@ static double kink_off(const flash_map *map)
         rule_top top, other;
         rule_tops(grid->rule, s->running + p * n, s->g + p * n, &top, &other);
         const size_t middle = p * n + n / 2;
-        const double error = rule_error(grid->rule, &top, map->ws->seen);
+        const double error = rule_error(grid->rule, &top);
         for (size_t j = 0; j < grid->n_k; j++)
             off += error * s->wave[j] * grid->in[middle * grid->n_k + j] *
                    grid->out[j * grid->n + grid->n - 1];

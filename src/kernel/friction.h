@@ -52,10 +52,10 @@ struct wt_friction_workspace {
     double stiffness;           /* 1 / (1 - nu^2) */
     double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
-    size_t n_knots; /* of the material, rad/s */
-    double *slopes; /* [n_knots + 1] of the material between them */
+    size_t n_knots;    /* of the material, rad/s */
+    double *log_knots; /* [n_knots] */
+    double *slopes;    /* [n_knots + 1] of the material between them */
     const gauss_rule *rules[FRICTION_RULES];
-    double seen;     /* by rule_error */
     panel_plan plan; /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */

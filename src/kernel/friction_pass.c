@@ -264,7 +264,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
     rule_top top_g, top_mu;
     rule_tops(rule, g, mu, &top_g, &top_mu);
     part->variance = weighted_sum(rule, g);
-    part->variance_error = rule_error(rule, &top_g, ws->seen);
+    part->variance_error = rule_error(rule, &top_g);
     part->closed_error = 0;
     if (part->variance > CONTACT_FULL) {
         for (size_t i = 0; i < rule->n; i++)
@@ -277,7 +277,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->closed_error = (most - least) * integral;
     }
     part->hysteresis = contact * weighted_sum(rule, mu);
-    part->hysteresis_error = contact * rule_error(rule, &top_mu, ws->seen);
+    part->hysteresis_error = contact * rule_error(rule, &top_mu);
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
@@ -324,19 +324,18 @@ static const double area_begun = 0.3;
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
  * Where P leaves 1 the difference is too small to show in the last coefficients, so it is looked at
  * alone. */
-static double hysteresis_error(const wt_friction_workspace *ws, const gauss_rule *rule,
-                               const rule_top *full, const rule_top *part, double before,
-                               double after)
+static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
+                               double before, double after)
 {
     rule_top gap;
     if (!(before < area_begun))
-        return rule_error(rule, part, ws->seen);
-    const double own = rule_error(rule, full, ws->seen);
+        return rule_error(rule, part);
+    const double own = rule_error(rule, full);
     if (!(after > CONTACT_FULL))
         return own;
     for (size_t k = 0; k < RULE_TOP; k++)
         gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
-    return own + rule_error(rule, &gap, ws->seen);
+    return own + rule_error(rule, &gap);
 }
 
 /* On top of a variance so far. */
@@ -372,14 +371,28 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
         part->hysteresis += part->share[j];
     }
     rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance_error = rule_error(rule, &top_g, ws->seen);
+    part->variance_error = rule_error(rule, &top_g);
     if (variance < area_begun)
         rule_tops(rule, full, mu, &top_full, &top_mu);
     part->hysteresis_error =
-        hysteresis_error(ws, rule, &top_full, &top_mu, variance, variance + part->variance);
+        hysteresis_error(rule, &top_full, &top_mu, variance, variance + part->variance);
 }
 
 /* ---- one pass -------------------------------------------------------------------------------- */
+
+/* What of a part comes from frequencies outside the data. */
+static double outside_of(const angular_law *angular, const node_view *view, const pass_part *part)
+{
+    const size_t n = view->rule->n;
+    double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
+    for (size_t j = 0; j < n; j++)
+        j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
+    angular_outside(angular, view->omega, j1, n, outside);
+    for (size_t j = 0; j < n; j++)
+        if (part->share[j] > 0)
+            sum += part->share[j] * (outside[j] / j1[j]);
+    return sum;
+}
 
 /* Adds a part, from the nodes in view, to a pass: of the core (place 0) or of a panel. */
 static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
@@ -392,12 +405,8 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     const double variance = pass->variance + part->variance;
     if (w->record != NULL)
         friction_record_add(w->record, view->q, part->share, n);
-    for (size_t j = 0; w->with_outside && j < n; j++)
-        if (part->share[j] > 0) {
-            const double j1 = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
-            pass->outside +=
-                part->share[j] * (angular_outside(ws->angular, view->omega[j], j1) / j1);
-        }
+    if (w->with_outside)
+        pass->outside += outside_of(ws->angular, view, part);
     pass->variance_error += part->variance_error;
     add_moved(ws, panel, view->log_omega, view->j1, view->j2, n, w->at.log_lowest, part->variance,
               part->hysteresis, variance, pass);

@@ -324,13 +324,47 @@ static double place_nodes(const panel_plan *plan, const grid_panel *panel, const
     return half;
 }
 
-static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *layer, size_t n,
-                        const double *q, double *factor1, double *factor2)
+static double quartic(double q)
 {
-    roughness->law->density(roughness, q, n, factor2);
+    return q * q * (q * q);
+}
+
+/* q^4 C at the nodes, by how it goes from the first to the last: e^x of many numbers at a time
+ * takes a fifth of their powers. False where that is no number, for a density may be 0. */
+static bool weigh_power(const wt_roughness *roughness, size_t n, const double *t, const double *q,
+                        double *weighed)
+{
+    const double ends[2] = {q[0], q[n - 1]};
+    double density[2], rise[RULE_MOST];
+    roughness->law->density(roughness, ends, 2, density);
+    const double first = density[0] * quartic(ends[0]), last = density[1] * quartic(ends[1]);
+    const double power = log(last / first) / (t[n - 1] - t[0]);
+    if (!isfinite(power))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        rise[i] = power * (t[i] - t[0]);
+    exponential(rise, n, weighed);
+    for (size_t i = 0; i < n; i++)
+        weighed[i] *= first;
+    return true;
+}
+
+static void weigh_density(const wt_roughness *roughness, size_t n, const double *t, const double *q,
+                          double *weighed)
+{
+    if (roughness->law->powers && weigh_power(roughness, n, t, q, weighed))
+        return;
+    roughness->law->density(roughness, q, n, weighed);
+    for (size_t i = 0; i < n; i++)
+        weighed[i] *= quartic(q[i]);
+}
+
+static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *layer, size_t n,
+                        const double *t, const double *q, double *factor1, double *factor2)
+{
+    weigh_density(roughness, n, t, q, factor2);
     for (size_t i = 0; i < n; i++) {
-        const double square = q[i] * q[i];
-        const double base = square * square * factor2[i] * factor1[i];
+        const double base = factor2[i] * factor1[i];
         const double scale = layered_scale(q[i] * layer->thickness, layer->modulus_ratio);
         factor1[i] = base * scale;
         factor2[i] = base * scale * scale;
@@ -349,7 +383,8 @@ static void fill_place(scale_grid *grid, const panel_plan *plan, const grid_pane
     const size_t n = grid->rule->n, at = p * n;
     grid->half_width[p] =
         place_nodes(plan, panel, grid->rule, grid->t + at, grid->q + at, grid->factor1 + at);
-    weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
+    weigh_nodes(roughness, layer, n, grid->t + at, grid->q + at, grid->factor1 + at,
+                grid->factor2 + at);
     if (plan->softening != NULL)
         softening_at(plan->softening, grid->q + at, grid->t + at, n, grid->f + at, grid->g + at);
 }
@@ -377,7 +412,7 @@ void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
     grid->core_half_width[level] =
         place_nodes(plan, &plan->core[level], grid->rule, grid->core_t + at, grid->core_q + at,
                     grid->core_factor1 + at);
-    weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,
+    weigh_nodes(roughness, layer, n, grid->core_t + at, grid->core_q + at, grid->core_factor1 + at,
                 grid->core_factor2 + at);
     if (plan->softening != NULL)
         softening_at(plan->softening, grid->core_q + at, grid->core_t + at, n, grid->core_f + at,

@@ -47,7 +47,9 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     r.threshold = log(p->critical_energy) + log(p->damage);
     r.formation = p->duty * (r.power / p->critical_energy / p->damage);
     r.wear = p->duty * p->specific_wear_rate * p->pressure * p->velocity;
-    if (!isfinite(r.formation) || !isfinite(r.wear)) {
+    /* of a wave the density goes with q, and its bends with the cube */
+    const double bends = r.power * r.q_max * r.q_max * r.q_max;
+    if (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends)) {
         wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
         wt_error_found(err, "formation %g m/s, wear %g m/s", r.formation, r.wear);
         wt_error_advice(err, "check the units: 1 mm^3/(N m) is 1e-9 m^2/N");
@@ -64,7 +66,9 @@ double layer_formation(const layer_rates *rates, double thickness)
 {
     if (rates->formation == 0)
         return 0;
-    return rates->formation * exp(energy_log_tail(rates->source, thickness) - rates->log_power);
+    const double fall = energy_log_tail(rates->source, thickness) - rates->log_power;
+    const double lowest = -700; /* e^x of it is a number; of a fast formation there is more */
+    return fall > lowest ? rates->formation * exp(fall) : exp(log(rates->formation) + fall);
 }
 
 double layer_decay(const layer_rates *rates, double thickness)

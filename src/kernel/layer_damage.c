@@ -123,8 +123,10 @@ static wt_status damage_edge(damage *d, stretch range, double level, double *edg
     d->level = level;
     if (!damage_climb(d, range, &s, NULL))
         return WT_OK;
-    *edge = s.low;
-    return damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, 0, edge, err) : WT_OK;
+    const bool deeper = damage_at(s.high, d) >= 0; /* by the rounding of where the stretch ends */
+    *edge = deeper ? s.high : s.low;
+    return !deeper && damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, 0, edge, err)
+                                              : WT_OK;
 }
 
 /* How far the edge moves, to other bands too, when D moves by its error. `most`: as deep as it may

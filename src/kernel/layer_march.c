@@ -97,7 +97,9 @@ static double panel_take(const march *m, double *length, double *error, double *
             rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
         time = panel_time(m, m->high, m->thickness, *length, sensitivity);
         *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
-        if (*error <= (panel_goal + 4 * noise) * time)
+        /* times below the smallest normal number have no digits to agree in, and where formation
+         * underflows there are none */
+        if (!(*error > (panel_goal + 4 * noise) * time + DBL_MIN))
             break;
         *length *= 0.5;
     }

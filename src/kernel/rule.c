@@ -107,8 +107,10 @@ void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_to
 }
 
 /* The coefficients in pairs, of which one may be small by accident, or both: they fall at the
- * slowest rate that they show. */
-double rule_error(const gauss_rule *rule, const rule_top *top, double seen)
+ * slowest rate that they show. That is taken to go on over half of the degrees up to twice the last
+ * one, for a part that falls more slowly may still hide below: over 0.65 of them, two of 11,200
+ * numbers were further off than stated. */
+double rule_error(const gauss_rule *rule, const rule_top *top)
 {
     const double *c = top->coefficient;
     double pair[RULE_TOP / 2] = {0};
@@ -122,7 +124,7 @@ double rule_error(const gauss_rule *rule, const rule_top *top, double seen)
     const double last =
         larger(larger(fabs(c[RULE_TOP - 1]), rate * fabs(c[RULE_TOP - 2])), square * pair[1]);
     double fall = 2 * last, power = rate;
-    for (size_t left = (size_t)(seen * (double)(rule->n + 1)); left > 0; left /= 2, power *= power)
+    for (size_t left = (rule->n + 1) / 2; left > 0; left /= 2, power *= power)
         fall *= left % 2 ? power : 1;
     return fall;
 }

@@ -35,9 +35,7 @@ typedef struct rule_top {
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
                rule_top *of_g);
 /* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
- * fall: the rule is exact up to twice the degree of the last one. `seen`: share of the degrees up
- * to there over which the fall is taken to go on, for a part that falls more slowly may still hide
- * below. */
-double rule_error(const gauss_rule *rule, const rule_top *top, double seen);
+ * fall: the rule is exact up to twice the degree of the last one. */
+double rule_error(const gauss_rule *rule, const rule_top *top);
 
 #endif

@@ -18,6 +18,26 @@ typedef struct prony_data {
     double numbers[];        /* [3 n] all of them */
 } prony_data;
 
+/* prony_add at n frequencies below the limit, where it has no branch and vectorises. */
+WIDE_REGISTERS
+static void add_moduli(const double *restrict omega, size_t n, double modulus, double tau,
+                       double *restrict storage, double *restrict loss)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double z = omega[i] * tau, b = modulus * (z / (1 + z * z));
+        storage[i] += b * z;
+        loss[i] += b;
+    }
+}
+
+static double highest_of(const double *omega, size_t n)
+{
+    double highest = 0;
+    for (size_t i = 0; i < n; i++)
+        highest = highest < omega[i] ? omega[i] : highest;
+    return highest;
+}
+
 static void prony_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {
@@ -26,11 +46,15 @@ static void prony_modulus(const wt_material *material, const double *omega, size
         storage[i] = d->equilibrium;
         loss[i] = 0;
     }
+    const double highest = highest_of(omega, n);
     for (size_t k = 0; k < d->n; k++) {
         const double e = d->modulus[k];
         const double tau = d->relaxation_time[k];
-        for (size_t i = 0; i < n; i++)
-            prony_add(e, tau, omega[i], &storage[i], &loss[i]);
+        if (highest * tau < prony_square_limit)
+            add_moduli(omega, n, e, tau, storage, loss);
+        else
+            for (size_t i = 0; i < n; i++)
+                prony_add(e, tau, omega[i], &storage[i], &loss[i]);
     }
 }
 
@@ -70,11 +94,10 @@ static void prony_angular(const wt_material *material, const double *restrict om
 {
     const prony_data *d = material->data;
     const double base = d->equilibrium * d->equilibrium;
-    double highest = 0;
+    const double highest = highest_of(omega, n);
     for (size_t i = 0; i < n; i++) {
         j1[i] = 0;
         j2[i] = base;
-        highest = highest < omega[i] ? omega[i] : highest;
     }
     for (size_t k = 0; k < d->n; k++) {
         const double tau = d->relaxation_time[k];

@@ -69,6 +69,7 @@ static const wt_roughness_law self_affine_law = {
     .breaks = power_breaks,
     .moment = power_moment,
     .free = power_free,
+    .powers = true,
 };
 
 static const wt_roughness_law table_law = {
@@ -77,6 +78,7 @@ static const wt_roughness_law table_law = {
     .breaks = power_breaks,
     .moment = power_moment,
     .free = power_free,
+    .powers = true,
 };
 
 static wt_status power_new(const wt_roughness_law *law, const double *knot, const double *density,

@@ -29,8 +29,8 @@ double wt_shear_peak_velocity(const wt_shear_law *law, double temperature)
 
 double wt_shear_factor(const wt_shear_law *law, double velocity, double temperature)
 {
-    if (law->kind == WT_SHEAR_CONSTANT)
-        return 1;
+    if (law->kind == WT_SHEAR_CONSTANT || law->width == 0)
+        return 1; /* at rest, too, where 0 times infinity is no number */
     const double decades = log10(fabs(velocity) / wt_shear_peak_velocity(law, temperature));
     return exp(-law->width * decades * decades);
 }

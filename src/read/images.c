@@ -122,6 +122,8 @@ wt_status images_given(wt_image *images, size_t n, const wt_read_options *option
         if (isnan(images[i].width) || isnan(images[i].height))
             wt_parselog_add(log, WT_WARNING, file, images[i].name,
                             "the size of the image is not known; --pixel-size gives it");
+        if (status == WT_OK && strcmp(images[i].unit, "m") == 0)
+            images_warn_of_spikes(&images[i], file, log);
     }
     return status;
 }

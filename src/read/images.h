@@ -33,9 +33,11 @@ void images_free(wt_image **images, size_t *n);
 wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
                      wt_image **images, size_t *n, wt_error *err);
 /* What the user says of images whose file does not: the size of their pixels, the unit of heights.
- * A size that nobody knows is warned of. */
+ * A size that nobody knows is warned of, and heights that are spikes. */
 wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
                        wt_parselog *log, wt_error *err);
+/* Warns of single heights that make most of the slopes of an image of heights. */
+void images_warn_of_spikes(const wt_image *image, const char *file, wt_parselog *log);
 /* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
  * with `curves` and `no_curves`: no curves are no failure beside an image. */
 struct file_reader;

@@ -88,7 +88,7 @@ void page_results(page_writer *page)
                                        &t->directions,     &t->softening,      &t->common_law,
                                        &t->modulus_budget, &t->record,         &t->wear,
                                        &t->anisotropy,     &t->friction_map,   &t->friction_decades,
-                                       &t->flash};
+                                       &t->flash,          &t->collection,     &t->ratio_pairs};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -106,6 +106,11 @@ void page_results(page_writer *page)
     page_keys(page, &t->comparison, "Wear track against bulk: what was compared");
     page_whole_table(page, &t->dma_comparison,
                      "Indentation against DMA at the equivalent frequency", NULL, 0);
+    page_whole_table(page, &t->collection, "Cases, by sample and condition", NULL, 0);
+    page_whole_table(page, &t->ratio_pairs,
+                     "Modulus ratios of cases of one sample or condition against one another", NULL,
+                     0);
+    page_keys(page, &t->ratio_pairs, "Modulus ratios against one another: what was compared");
     page_keys(page, &t->material_ratio, "Materials: what was compared");
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
                      COUNT_OF(shift_columns));

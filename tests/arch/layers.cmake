@@ -66,8 +66,9 @@ set(within_flow/strain flow/work flow/sweeps)
 set(within_flow/materials flow/work flow/sweeps flow/comparison/margin.h)
 set(within_flow/sliding flow/work flow/materials flow/strain)
 set(within_flow/layer flow/work flow/strain flow/sliding)
+set(within_flow/collection flow/comparison/margin.h)
 set(within_flow/comparison flow/work flow/materials flow/indentation flow/dwell)
-set(abilities work calibration comparison indentation dwell record spot surface sweeps ramp strain materials sliding
+set(abilities work calibration collection comparison indentation dwell record spot surface sweeps ramp strain materials sliding
   layer)
 list(TRANSFORM abilities PREPEND flow/)
 set(within_flow/errors ${abilities} flow/accuracy)

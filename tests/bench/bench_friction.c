@@ -26,14 +26,17 @@ typedef struct friction_case {
     bool flash;
 } friction_case;
 
-static wt_material *prony(void)
+/* With the range of frequencies that was measured; NaN: all are known. */
+static wt_material *prony_between(double lowest, double highest)
 {
     wt_error err = WT_ERROR_INIT;
     wt_prony series = {0};
     wt_material *material = NULL;
     bench_check(wt_prony_alloc(&series, TERMS, &err), &err);
     series.deformation = WT_TENSION;
-    series.reference_temperature = series.frequency_min = series.frequency_max = (double)NAN;
+    series.reference_temperature = (double)NAN;
+    series.frequency_min = lowest;
+    series.frequency_max = highest;
     series.equilibrium_modulus = equilibrium;
     for (int k = 0; k < TERMS; k++) {
         series.modulus[k] = moduli[k];
@@ -42,6 +45,11 @@ static wt_material *prony(void)
     bench_check(wt_material_prony(&series, 0.5, &material, &err), &err);
     wt_prony_clear(&series);
     return material;
+}
+
+static wt_material *prony(void)
+{
+    return prony_between((double)NAN, (double)NAN);
 }
 
 /* Points of the same over 14 decades. */
@@ -182,6 +190,7 @@ void bench_friction(void)
     bench_flash(1e-7);
     bench_flash(1e-10);
     bench_material("friction velocities, Prony", "the same, tolerance 1e-2", prony());
+    bench_material("the same, known from 10 to 1e7 rad/s", NULL, prony_between(10, 1e7));
     bench_material("friction, table of 107 knots", "the same, tolerance 1e-2", table(107));
     bench_material("friction, table of 1,000 knots", NULL, table(MOST_KNOTS));
     bench_material("friction, fractional Zener", NULL, zener());

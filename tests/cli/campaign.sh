@@ -38,6 +38,17 @@ printf '\n' >>cases/dma.txt
 campaign || fail "the fourth campaign fails"
 [ "$(runs)" = 3 ] || fail "a file of all cases has changed, and not all are run again"
 
+# A case that answers nothing has a row; a file that is no case stops no other one.
+printf '<case version="1"><dma><files>absent.txt</files></dma></case>\n' >cases/nothing.xml
+printf '<case' >cases/broken.xml
+campaign --keep-going && fail "a file that is no case is taken for one"
+grep -q 'rule run' said || fail "a file that is no case stops all"
+rm cases/broken.xml
+campaign || fail "a case without an answer stops the campaign"
+awk -F '\t' '$1 ~ /nothing/ && $2 == 1 { found = 1 } END { exit !found }' results/summary.tsv ||
+  fail "no row of a case without an answer"
+rm cases/nothing.xml results/nothing.h5
+
 options='--replicates 11 --no-provenance'
 campaign || fail "the fifth campaign fails"
 [ "$(runs)" = 3 ] || fail "with other options old results stay"

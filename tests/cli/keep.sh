@@ -58,6 +58,9 @@ made 'in part'
 mkdir descriptions
 run --formats descriptions
 grep -q 'made again: --formats' said || fail "kept in spite of --formats"
+run --no-provenance
+run --no-provenance
+grep -q 'does not say what it was made of' said || fail "kept without a provenance"
 printf 'x' > case.h5
 run
 grep -q 'made again: it cannot be read' said || fail "a result that is none is not made again"

@@ -89,13 +89,31 @@ static void put_option(const option *o)
     put_sentence(o->text);
 }
 
+/* The names of the options that another page tells, as one entry; `head`: what they are of. */
+static void put_told(FILE *help, const char *head, size_t length)
+{
+    char line[LINE], text[LINE];
+    const char *parted = ".TP\n";
+    snprintf(text, sizeof text, "%.*s, as in weartrack-master(1)", (int)length, head);
+    while (fgets(line, sizeof line, help) != NULL && strncmp(line, "      --", 8) == 0) {
+        line[6 + strcspn(line + 6, " \n")] = '\0';
+        fputs(parted, stdout);
+        put_troff(line + 6);
+        parted = ", ";
+    }
+    putchar('\n');
+    put_sentence(text);
+    while (fgets(line, sizeof line, help) != NULL) /* or the command would meet a closed pipe */
+        continue;
+}
+
 /* Reads the list of options out of the help. */
 static bool put_options(const char *program, const char *subcommand)
 {
     char command[LINE], line[LINE];
     option o = {0};
     bool in_list = false;
-    snprintf(command, sizeof command, "\"%s\" %s --help", program, subcommand);
+    snprintf(command, sizeof command, "\"%s\" %s --help all", program, subcommand);
     FILE *help = popen(command, "r");
     while (help != NULL && fgets(line, sizeof line, help) != NULL) {
         line[strcspn(line, "\n")] = '\0';
@@ -105,6 +123,13 @@ static bool put_options(const char *program, const char *subcommand)
         }
         const char *dashes = strstr(line, "--");
         char *rest = line + strspn(line, " ");
+        const char *told = strstr(line, ", as in weartrack master --help all:");
+        if (told != NULL) {
+            put_option(&o);
+            o = (option){.letter = '\0'};
+            put_told(help, line, (size_t)(told - line));
+            break;
+        }
         if (!in_list || *rest == '\0') {
             in_list = in_list && *rest != '\0';
             continue;
@@ -126,7 +151,7 @@ static bool put_options(const char *program, const char *subcommand)
         snprintf(o.text + used, sizeof o.text - used, "%s%s", used > 0 && *rest ? " " : "", rest);
     }
     put_option(&o);
-    return help != NULL && pclose(help) == 0 && o.name[0] != '\0';
+    return help != NULL && pclose(help) == 0;
 }
 
 /* ---- elements of a section ------------------------------------------------------------------- */

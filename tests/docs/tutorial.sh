@@ -1,12 +1,13 @@
 #!/bin/sh
-# The session of weartrack-tutorial(7): its commands run, and what it shows of them is what they say.
+# The session of a page, weartrack-tutorial(7) or weartrack-source(7): its commands run, and what it shows
+# of them is what they say.
 # Usage: tutorial.sh WEARTRACK PAGE FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 page=$2 fixtures=$3 work=$4
 rm -rf "$work"; mkdir -p "$work/bin"; cd "$work"
 ln -s "$weartrack" bin/weartrack
 PATH=$work/bin:$PATH
-cp -R "$fixtures/case" case && cp -R "$fixtures/surface" surface
+cp -R "$fixtures/case" "$fixtures/surface" "$fixtures/texture" "$fixtures/transverse" .
 chmod -R u+w case
 sed -n '/^\.RS$/,/^\.RE$/{/^\.R[SE]$/d;s/\\-/-/g;p;}' "$page" >session
 cd case

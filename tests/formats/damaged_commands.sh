@@ -1,36 +1,58 @@
 #!/bin/sh
-# Damaged files (damaged_files.c) through the commands that fit what is in them: none may crash, hang
-# or be stopped by a sanitizer, and what it does ends as one of the four exit statuses says.
+# Damaged files (damage.h) through the commands that fit what is in them: none may crash, hang or be
+# stopped by a sanitizer, and what it does ends as one of the four exit statuses says. Whoever gets
+# other rows or numbers than the whole file gives, with exit status 0 or 3, is told something that is
+# not said of that; of those kinds of damage at least that are named. A number that was changed for
+# another, in a file that says it once, cannot be known for wrong: those are counted.
 #
-#   damaged_commands.sh DAMAGED_FILES COMMAND FOLDER SEED TRIALS indent|spot|master|psd FILE
+#   damaged_commands.sh DAMAGED_FILES COMMAND FOLDER SEED TRIALS KINDS "CALL" FILE
+#
+# KINDS: deleted,cut,... or none. CALL is a subcommand with its options. WT_DAMAGES in the environment
+# is the number of trials instead. An archive is read as it is packed for damage, without its end, which
+# is said and makes the exit status 3.
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
-damaged=$1 command=$2 folder=$3 seed=$4 trials=$5 which=$6 file=$7
-tip="--tip pyramid:half-angle=20deg,radius=20nm"
-case $which in
-indent) options="$tip --spring-constant 0.3N/m --sensitivity 80nm/V" ;;
-spot) options="$tip --depth 50nm" ;;
-master | psd) options= ;;
-esac
+damaged=$1 command=$2 folder=$3 seed=$4 trials=${WT_DAMAGES:-$5} kinds=$6 call=$7 file=$8
+name=$(basename "$file")
 rm -rf "$folder"
-mkdir -p "$folder" || exit 2
-n=0 answered=0 bad=0
-# shellcheck disable=SC2086 # the options are several words
-"$command" "$which" -q $options "$file" >/dev/null || { echo "$file is not answered as it is"; exit 1; }
-"$damaged" "$seed" "$trials" "write=$folder" "$file" || exit 1
-for one in "$folder"/*; do
-  # shellcheck disable=SC2086
-  timeout 60 "$command" "$which" -q $options "$one" >/dev/null 2>"$folder.said"
+mkdir -p "$folder/files" "$folder/run" || exit 2
+# Always under one name, so that only the damage makes a difference. The answer without what is said
+# of it and what an image is called goes to $folder/table, what is said to $folder/said.
+run() { # FILE
+  cp "$1" "$folder/run/$name" || exit 2
+  # shellcheck disable=SC2086 # the options are several words
+  timeout 30 "$command" $call --no-provenance "$folder/run/$name" >"$folder/answer" 2>"$folder/said"
   status=$?
+  awk '/^## table: / { notes = $0 ~ /notes$/ } !notes && !/^##( image:|$)/' "$folder/answer" >"$folder/table"
+}
+"$damaged" "$seed" "$trials" "write=$folder/files" "$file" || exit 1
+run "$folder/files/whole-$name"
+[ $status -eq 0 ] || [ $status -eq 3 ] || { cat "$folder/said"; echo "$file is not answered as it is"; exit 1; }
+mv "$folder/table" "$folder/whole"
+mv "$folder/said" "$folder/whole-said"
+rm "$folder/files/whole-$name"
+n=0 answered=0 told=0 silent=0 bad=0
+for one in "$folder/files"/*; do
+  run "$one"
   n=$((n + 1))
-  { [ $status -eq 0 ] || [ $status -eq 3 ]; } && answered=$((answered + 1))
-  if [ $status -gt 3 ] || grep -q "Sanitizer\|runtime error" "$folder.said" ||
-    { [ $status -ne 0 ] && [ ! -s "$folder.said" ]; }; then
-    echo "exit status $status: $which $one"
-    head -5 "$folder.said"
+  if [ $status -gt 3 ] || grep -q "Sanitizer\|runtime error" "$folder/said" ||
+    { [ $status -ne 0 ] && [ ! -s "$folder/said" ]; }; then
+    echo "exit status $status: $call $one"
+    head -5 "$folder/said"
     bad=$((bad + 1))
+  elif [ $status -eq 0 ] || [ $status -eq 3 ]; then
+    answered=$((answered + 1))
+    cmp -s "$folder/table" "$folder/whole" && continue
+    if grep -qvxFf "$folder/whole-said" "$folder/said"; then
+      told=$((told + 1))
+      continue
+    fi
+    silent=$((silent + 1))
+    kind=$(basename "$one" | cut -d- -f2)
+    case ,$kinds, in *,"$kind",*) bad=$((bad + 1)) && mark="must be said" ;; *) mark="" ;; esac
+    echo "other numbers and no word: $call $one $mark"
   fi
 done
-echo "$which $file: $n damaged, $answered answered, $bad bad"
+echo "$call $file: $n damaged, $answered answered, of them $told otherwise and said, $silent not said; $bad bad"
 [ "$n" -eq "$trials" ] && [ "$answered" -gt 0 ] && [ $bad -eq 0 ]

@@ -34,6 +34,6 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
 /* Each writes its files into a folder; 0, or -1 with a text on stderr. Variant 0 is the bundled
  * case; another one has the same truth and other errors of measurement. */
 int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant);
-int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant);
+int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant, double ratio);
 
 #endif

@@ -1,7 +1,8 @@
 /* Writes the data files of the bundled case and the truth behind them:
- *   generate_case FOLDER CASE.xml [VARIANT]
+ *   generate_case FOLDER CASE.xml [VARIANT [RATIO]]
  * The same bytes every time; variants, for counting how often a stated interval holds the truth,
- * differ in their errors of measurement. SPDX-License-Identifier: GPL-3.0-or-later */
+ * differ in their errors of measurement, ratios in how soft the track is. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "flow/run/steps.h"
 #include "generate.h"
 
@@ -62,7 +63,8 @@ static double key(const wt_table *table, const char *name)
 }
 
 /* Friction and thickness of the true material under the conditions of the case file. */
-static int write_truth(const wt_rubber *rubber, const char *folder, const char *case_path)
+static int write_truth(const wt_rubber *rubber, const char *folder, const char *case_path,
+                       double ratio)
 {
     int result = -1;
     wt_case *c = NULL;
@@ -83,8 +85,7 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;
-    wt_layer_known known = {.thickness = layer.thickness,
-                            .modulus_ratio = {TRUTH_RATIO, 0, 0, "1"}};
+    wt_layer_known known = {.thickness = layer.thickness, .modulus_ratio = {ratio, 0, 0, "1"}};
     status = wt_friction_make(&sliding, &known, &job, &friction, &err);
     out = status != WT_OK || path == NULL ? NULL : fopen(path, "w");
     if (out == NULL)
@@ -92,7 +93,7 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     fputs("# What the data of this case were made from, and what follows from it without error.\n"
           "# name value (SI units)\n",
           out);
-    fprintf(out, "modulus_ratio %.6g\n", TRUTH_RATIO);
+    fprintf(out, "modulus_ratio %.6g\n", ratio);
     fprintf(out, "reference_temperature %.6g\n", TRUTH_REFERENCE);
     fprintf(out, "wlf_c1 %.6g\nwlf_c2 %.6g\n", TRUTH_C1, TRUTH_C2);
     fprintf(out, "hysteresis %.6g\n", key(friction.friction, "hysteresis_at_reference"));
@@ -117,11 +118,12 @@ done:
 int main(int argc, char **argv)
 {
     double relaxation_time[TRUTH_TERMS], modulus[TRUTH_TERMS];
-    if (argc != 3 && argc != 4) {
-        fprintf(stderr, "usage: generate_case FOLDER CASE.xml [VARIANT]\n");
+    if (argc < 3 || argc > 5) {
+        fprintf(stderr, "usage: generate_case FOLDER CASE.xml [VARIANT [RATIO]]\n");
         return 2;
     }
-    uint64_t variant = argc == 4 ? strtoull(argv[3], NULL, 10) : 0;
+    const double ratio = argc > 4 ? strtod(argv[4], NULL) : TRUTH_RATIO;
+    uint64_t variant = argc > 3 ? strtoull(argv[3], NULL, 10) : 0;
     wt_rubber rubber = truth_rubber(relaxation_time, modulus);
     /* log b of the isotherms, for the material at another temperature */
     double temperature[13], log_b[13];
@@ -133,8 +135,8 @@ int main(int argc, char **argv)
     rubber.vertical_temperature = temperature;
     rubber.vertical_log_b = log_b;
     return generate_dma(&rubber, argv[1], variant) != 0 ||
-                   generate_curves(&rubber, argv[1], variant) != 0 ||
-                   write_truth(&rubber, argv[1], argv[2]) != 0
+                   generate_curves(&rubber, argv[1], variant, ratio) != 0 ||
+                   write_truth(&rubber, argv[1], argv[2], ratio) != 0
                ? EXIT_FAILURE
                : EXIT_SUCCESS;
 }

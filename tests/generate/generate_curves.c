@@ -109,7 +109,7 @@ static int write_spot(buffers *b, const char *path)
     return jpk_write(&file);
 }
 
-int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant)
+int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant, double ratio)
 {
     static const char *const zone[2] = {"bulk", "track"};
     int result = -1;
@@ -127,7 +127,7 @@ int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t varian
             for (size_t i = 0; i < CURVES; i++) {
                 double rate = piezo_rate[i / COLUMNS];
                 double factor =
-                    (g == 1 ? TRUTH_RATIO : 1) * exp(of_spot + CURVE_SCATTER * truth_normal(&seed));
+                    (g == 1 ? ratio : 1) * exp(of_spot + CURVE_SCATTER * truth_normal(&seed));
                 truth_press press = {&tip, SPRING_CONSTANT, travel_at(material, &tip, rate, factor),
                                      rate, factor};
                 fill_curve(b, i, &press, rubber, &seed);

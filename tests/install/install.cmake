@@ -26,7 +26,8 @@ file(GLOB_RECURSE installed RELATIVE ${prefix} "${prefix}/*")
 foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/weartrack/base\\.h$"
         "^include/weartrack/weartrack\\.h$" "weartrack\\.pc$" "weartrack-config\\.cmake$"
         "share/man/man1/weartrack\\.1$" "share/man/man1/weartrack-run\\.1$"
-        "share/man/man5/weartrack-case\\.5$" "share/man/man7/weartrack-tutorial\\.7$" "share/bash-completion/completions/weartrack$"
+        "share/man/man5/weartrack-case\\.5$" "share/man/man7/weartrack-tutorial\\.7$" "share/man/man3/weartrack-kernel\\.3$"
+        "share/man/man3/wt_friction_compute\\.3$" "share/bash-completion/completions/weartrack$"
         "share/zsh/site-functions/_weartrack$" "share/weartrack/formats/.*\\.xml$"
         "share/weartrack/formats/weartrack-format\\.xsd$"
         "share/weartrack/formats/weartrack-case\\.xsd$" "share/weartrack/styles/.*\\.gp$"
@@ -109,6 +110,15 @@ get_filename_component(lib_dir ${pc_dir} DIRECTORY)
 run(${CC} -std=c17 ${flags} ${SOURCE}/tests/install/consumer/consumer.c -o ${WORK}/by_pc ${pc_flags} -lm
     -Wl,-rpath,${lib_dir})
 run(${WORK}/by_pc)
+# the program of the README, by its own words
+file(READ ${SOURCE}/README.md readme)
+string(REGEX MATCH "```c\n([^`]*)```" program "${readme}")
+file(WRITE ${WORK}/tip.c "${CMAKE_MATCH_1}")
+run(${CC} ${flags} ${WORK}/tip.c ${pc_flags} -o ${WORK}/tip -Wl,-rpath,${lib_dir})
+run(${WORK}/tip)
+if(NOT output MATCHES "^force at 70 nm and 5 MPa: [1-9][0-9.]* nN\n$")
+  message(FATAL_ERROR "the program of the README says: ${output}")
+endif()
 run(${prefix}/bin/weartrack --version)
 if(NOT output MATCHES "^weartrack [0-9]")
   message(FATAL_ERROR "the installed command says: ${output}")

@@ -129,6 +129,7 @@ static const struct {
 } dead[] = {
     {NULL, "threads", "changes no result: test_flow_run"},
     {NULL, "quiet", "words on standard error: tests/cli"},
+    {NULL, "log", "words on standard error: cli_log_json"},
     {NULL, "strict", "changes the exit status where there is a remark: tests/cli/remarks.txt"},
     {NULL, "files-from", "files as in the call: tests/cli/remarks.txt"},
     {NULL, "help", "tests/docs"},
@@ -389,7 +390,7 @@ static void test_options(void **state)
     size_t n_dead = 0, n_tried = 0;
     for (size_t s = 0; s < N_SUBCOMMANDS; s++) {
         char command[512], line[512];
-        snprintf(command, sizeof command, "%s %s --help", WT_PROGRAM, subcommands[s].name);
+        snprintf(command, sizeof command, "%s %s --help all", WT_PROGRAM, subcommands[s].name);
         FILE *help = popen(command, "r");
         assert_non_null(help);
         while (fgets(line, sizeof line, help) != NULL) {

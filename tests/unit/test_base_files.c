@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <locale.h>
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -163,6 +164,25 @@ static void complete_or_not_at_all(void **state)
     assert_int_equal(count_files(), 2);
     assert_int_equal(unlink(link_path), 0);
     assert_int_equal(unlink(path), 0);
+}
+
+/* What an output file held is given back, whatever its end was. */
+static void outfile_memory(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 2000, LEAST = 16 /* bytes of a block of the allocator */ };
+    char path[256];
+    wt_outfile *file = NULL;
+    path_of("again.txt", path);
+    size_t before = 0;
+    for (int i = 0; i < ROUNDS + 10; i++) {
+        if (i == 10) /* what is kept for ever is there now */
+            before = mallinfo2().uordblks;
+        assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
+        wt_outfile_discard(file);
+    }
+    const size_t after = mallinfo2().uordblks;
+    assert_true(after < before + (size_t)ROUNDS * LEAST);
 }
 
 static void write_over(const char *path, const char *text)
@@ -462,7 +482,8 @@ int main(void)
         cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
         cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
         cmocka_unit_test(digests),         cmocka_unit_test(digests_of_pieces),
-        cmocka_unit_test(mixed_numbers),   cmocka_unit_test(provenance),
+        cmocka_unit_test(outfile_memory),  cmocka_unit_test(mixed_numbers),
+        cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

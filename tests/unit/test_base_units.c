@@ -1,5 +1,6 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/number.h"
+#include "base/quantity.h"
 #include "base/shortage.h"
 #include "base/unit_known.h"
 #include "near.h"
@@ -219,6 +220,36 @@ static void quantities(void **state)
     check_parse("10rad/s", WT_Q_FREQUENCY, 1.5915494309189535);
 }
 
+/* The largest of every unit: wide of what instruments give, near enough to find a unit mistaken. */
+static void largest_of_each(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit;
+        double most;
+    } rows[] = {
+        {"1", 1e30},     {"s", 1e30},        {"m", 1e6},         {"V", 1e6},      {"N", 1e9},
+        {"rad", 1e6},    {"Hz", 1e30},       {"rad/s", 1e30},    {"Pa", 1e15},    {"1/Pa", 1e6},
+        {"rad/m", 1e15}, {"m^4", 1e12},      {"m^3", 1e12},      {"m/s", 1e9},    {"N/m", 1e9},
+        {"m/V", 1e3},    {"m^2/N", 1e3},     {"J/m^3", 1e30},    {"W/m^3", 1e30}, {"1/s", 1e30},
+        {"byte", 1e30},  {"K", 1e5},         {"m.Hz^-0.5", 1},   {"m^2/Hz", 1},   {"V^2/Hz", 1e6},
+        {"kg/m^3", 1e6}, {"V.Hz^-0.5", 1e3}, {"1/K", 1e3},       {"m^2", 1e12},   {"kg", 1e9},
+        {"m^2/s", 1e6},  {"J", 1e12},        {"J/(m^3 K)", 1e12}};
+    for (int q = 1; q < (int)WT_Q_COUNT; q++) {
+        const wt_quantity quantity = (wt_quantity)q;
+        double most = (double)NAN;
+        for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+            if (strcmp(rows[i].unit, wt_quantity_unit(quantity)) == 0)
+                most = rows[i].most;
+        most = quantity == WT_Q_TEMPERATURE ? 2000 : most;
+        assert_true(quantity_is_possible(quantity, most));
+        assert_true(quantity_is_possible(quantity, -most));
+        assert_false(quantity_is_possible(quantity, 1.01 * most));
+        assert_false(quantity_is_possible(quantity, -1.01 * most));
+        assert_false(quantity_is_possible(quantity, (double)NAN));
+    }
+}
+
 static void quantities_refused(void **state)
 {
     (void)state;
@@ -374,19 +405,13 @@ static void no_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_database),
-        cmocka_unit_test(units_of_instruments),
-        cmocka_unit_test(temperatures),
-        cmocka_unit_test(frequency_is_not_angular),
-        cmocka_unit_test(wrong_units),
-        cmocka_unit_test(every_si_unit_is_itself),
-        cmocka_unit_test(quantities),
-        cmocka_unit_test(quantities_refused),
-        cmocka_unit_test(formatted),
-        cmocka_unit_test(foreign_locale),
-        cmocka_unit_test(chances_in_words),
-        cmocka_unit_test(several_threads),
-        cmocka_unit_test(known_as_udunits_says),
+        cmocka_unit_test(no_database),        cmocka_unit_test(units_of_instruments),
+        cmocka_unit_test(temperatures),       cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(wrong_units),        cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(quantities),         cmocka_unit_test(largest_of_each),
+        cmocka_unit_test(quantities_refused), cmocka_unit_test(formatted),
+        cmocka_unit_test(foreign_locale),     cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(several_threads),    cmocka_unit_test(known_as_udunits_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -295,6 +295,29 @@ static void full_disk(void **state)
     wt_table_free(t);
 }
 
+/* Nothing is written of what could not be read back. */
+static void no_table(void **state)
+{
+    (void)state;
+    wt_table *const t = wt_table_new("empty", "without columns");
+    assert_non_null(t);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const out = open_memstream(&text, &size);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_stream_write(out, t, NULL, &err), WT_E_ARG);
+    assert_non_null(strstr(err.message, "table \"empty\" has no columns"));
+    assert_int_equal(wt_table_add_column(t, "modulus", "Pa", "a", NULL), WT_OK);
+    assert_int_equal(fflush(out), 0);
+    assert_int_equal(size, 0);
+    assert_int_equal(wt_stream_write(out, t, NULL, NULL), WT_OK);
+    assert_int_equal(fclose(out), 0);
+    assert_string_equal(text, "## table: empty\n## title: without columns\n"
+                              "## column: modulus\ta\n# modulus[Pa]\n##\n");
+    free(text);
+    wt_table_free(t);
+}
+
 static void foreign_locale(void **state)
 {
     (void)state;
@@ -321,6 +344,7 @@ int main(void)
         cmocka_unit_test(several_tables), cmocka_unit_test(by_hand),
         cmocka_unit_test(refused),        cmocka_unit_test(any_cut_and_any_byte),
         cmocka_unit_test(full_disk),      cmocka_unit_test(foreign_locale),
+        cmocka_unit_test(no_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,6 +114,30 @@ static void test_of_the_reference(void **state)
     check_reference("velstep4_BRAVA_expb819_basalt.txt", "mu", WT_CYCLE_SAMPLE);
 }
 
+/* One odd cycle at either end is no step: where the mean changes is not looked for in the outermost
+ * 2 % of a series. */
+static void test_of_the_ends_of_a_step(void **state)
+{
+    (void)state;
+    enum { CYCLES = 200, STEP = 120, EDGE = 4 };
+    double y[CYCLES];
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < STEP ? 0 : 1;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[0] = 8;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[0] = 0;
+    y[CYCLES - 1] = -8;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    y[CYCLES - 1] = 1;
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < EDGE ? 1 : 0;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), EDGE);
+    for (size_t i = 0; i < CYCLES; i++)
+        y[i] = i < CYCLES - EDGE ? 0 : 1;
+    assert_int_equal(wt_change_of_mean(y, CYCLES), CYCLES - EDGE);
+}
+
 /* 3 N in every row, 7.6 samples in a lap, and a running-in that ends where the rules say, too. */
 static void test_of_a_measured_disc(void **state)
 {
@@ -372,6 +396,28 @@ static void test_of_laps(void **state)
     }
 }
 
+/* A span is as long as nearly all steps, also of a record of milliseconds. */
+static void test_of_short_spans(void **state)
+{
+    (void)state;
+    enum { DENSE = 10, ALL = 100 };
+    wt_record record = empty_record();
+    double *time = with(&record, WT_RECORD_TIME), *mu = with(&record, WT_RECORD_COEFFICIENT), t = 0;
+    record.n = ALL;
+    for (int i = 0; i < ALL; i++) {
+        time[i] = t;
+        mu[i] = 1;
+        t += i < DENSE ? 1e-3 : 2e-3;
+    }
+    wt_cycles c;
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_TIME, (double)NAN, (double)NAN, &c, NULL),
+                     WT_OK);
+    assert_int_equal(c.cycle[0].n, 2);
+    assert_int_equal(c.cycle[c.n - 1].n, 1);
+    assert_int_equal(c.n, ALL - DENSE / 2);
+    wt_cycles_clear(&c);
+}
+
 /* A rate of sampling that is a hundred times higher in the second half gives it no more weight, and
  * a step is no cycle of two. */
 static void test_of_spans_of_time(void **state)
@@ -520,6 +566,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_of_the_reference),
         cmocka_unit_test(test_of_a_measured_disc),
+        cmocka_unit_test(test_of_the_ends_of_a_step),
         cmocka_unit_test(test_of_the_likelihood),
         cmocka_unit_test(test_of_the_mean_of_a_law),
         cmocka_unit_test(test_of_the_error_of_a_mean),
@@ -528,6 +575,7 @@ int main(void)
         cmocka_unit_test(test_of_stick_slip),
         cmocka_unit_test(test_of_strokes),
         cmocka_unit_test(test_of_laps),
+        cmocka_unit_test(test_of_short_spans),
         cmocka_unit_test(test_of_spans_of_time),
         cmocka_unit_test(test_of_a_force_without_a_load),
         cmocka_unit_test(test_of_a_made_track),

@@ -578,7 +578,9 @@ static void test_refused(void **state)
     wt_height_map map = map_of(z);
     for (size_t i = 0; i < SIDE * SIDE / 4; i++)
         z[i] = (double)NAN;
-    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_E_RANGE);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, &err), WT_E_RANGE);
+    assert_int_equal(err.status, WT_E_RANGE);
     for (size_t i = 0; i < (size_t)SIDE * SIDE; i++)
         z[i] = 1e-6;
     map.dx = (double)NAN;

@@ -257,6 +257,22 @@ static void test_alone(void **state)
     clear(&m);
 }
 
+/* How places differ is in the errors of heights and slopes, half of it, for they go by the root of
+ * the density; what no number approximates has no numerical error. */
+static void test_numerical_errors(void **state)
+{
+    (void)state;
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, all, COUNT_OF(all));
+    static const char *const names[] = {"rms_height", "rms_slope", "place_error", "place_scatter"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        wt_estimate e = {(double)NAN, (double)NAN, (double)NAN, NULL};
+        assert_true(wt_table_estimate(m.tables.power_spectrum, names[i], &e));
+        assert_near(e.numerical_error, 0, 0);
+    }
+    clear(&m);
+}
+
 /* The table is a counter surface with its errors: replicates scatter by them, each point by itself.
  */
 static void test_replicates(void **state)
@@ -434,6 +450,7 @@ int main(void)
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),

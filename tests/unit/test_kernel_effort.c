@@ -80,7 +80,8 @@ static void nodes_follow_the_tolerance(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(12), table()};
-    const double most[][3] = {{55, 100, 145}, {180, 270, 370}};
+    /* of the rules that sufficed: smaller ones have fewer, and more panels are taken again */
+    const double most[][3] = {{62, 122, 157}, {225, 350, 370}};
     for (size_t m = 0; m < 2; m++) {
         wt_friction_point tight[VELOCITIES];
         const double tolerances[] = {1e-2, 1e-6, 1e-10};

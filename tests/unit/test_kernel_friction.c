@@ -710,10 +710,47 @@ static void total_friction(void **state)
     assert_near(mu.numerical_error, 1e-9 + 3004626.504404032 / 4e5 * 1e-8, 1e-14);
 }
 
+/* A spectrum that underflows to 0 far below q1, and one with a fall of twelve decades within 1e-4
+ * of the wavenumber, come to the same by the density at every node as by its powers. */
+static void densities_and_powers(void **state)
+{
+    (void)state;
+    static const double modulus[] = {1e7, 1e8}, time[] = {1e-3, 1e-6};
+    static const double knot[] = {500, 2000, 2000.2, 1e6}, density[] = {1e-15, 1e-17, 1e-29, 1e-35};
+    const scene s = {.law = PRONY, .n = 2, .e0 = 1e6, .e = modulus, .tau = time, .nu = 0.5};
+    wt_roughness *roads[2] = {NULL, NULL};
+    wt_material *rubber = NULL;
+    assert_int_equal(wt_roughness_self_affine(500, 2000, 1e60, 3, 6e-16, &roads[0], NULL), WT_OK);
+    assert_int_equal(wt_roughness_table(knot, density, 4, &roads[1], NULL), WT_OK);
+    assert_int_equal(scene_material(&s, &rubber, NULL), WT_OK);
+    for (size_t i = 0; i < 2; i++) {
+        wt_roughness_law law = *roads[i]->law;
+        wt_roughness own = *roads[i];
+        const wt_roughness *const both[] = {roads[i], &own};
+        wt_friction_point p[2];
+        const double velocity = 0.1;
+        assert_true(law.powers);
+        law.powers = false;
+        own.law = &law;
+        for (size_t k = 0; k < 2; k++) {
+            wt_friction_workspace *ws = NULL;
+            assert_int_equal(wt_friction_workspace_new(rubber, both[k], NULL, &ws, NULL), WT_OK);
+            assert_int_equal(wt_friction_compute(ws, 3e5, &velocity, 1, &p[k], NULL), WT_OK);
+            wt_friction_workspace_free(ws);
+        }
+        assert_true(p[0].hysteresis.value > 0 && p[0].reached);
+        assert_near(p[0].hysteresis.value, p[1].hysteresis.value, 1e-11);
+        assert_near(p[0].stress_variance.value, p[1].stress_variance.value, 1e-11);
+        wt_roughness_free(roads[i]);
+    }
+    wt_material_free(rubber);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(densities_and_powers),
         cmocka_unit_test(numeric_profiles),
         cmocka_unit_test(profile_ends),
         cmocka_unit_test(area_functions),

@@ -468,6 +468,9 @@ static void check_shear(rig *r)
                wt_friction_total(p.hysteresis, p.area_ratio, of_shear, r->pressure).value,
                expected(r, "total"), 1e-9);
     assert_true(wt_shear_factor(&defaults, r->velocity, temperature) == 1);
+    assert_true(wt_shear_factor(&law, 0, temperature) == 0);
+    law.width = 0;
+    assert_true(wt_shear_factor(&law, 0, temperature) == 1);
 }
 
 static void test_shear_cases(void **state)

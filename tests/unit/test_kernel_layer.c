@@ -712,6 +712,61 @@ static void bad_input(void **state)
     rig_free(&r);
 }
 
+/* Formation so fast that its times are no normal numbers, and so deep that it underflows, comes to
+ * an end; it goes as 1/q ln t at last. */
+static void fastest_formation(void **state)
+{
+    (void)state;
+    double q[] = {1e3, 1e5, 1e7}, power[] = {1, 0.5, 0.1};
+    wt_energy_source source = {
+        .profile = WT_PROFILE_PERSSON, .n = 3, .wavenumber = q, .power = power};
+    wt_layer_parameters p = wt_layer_defaults();
+    p.critical_energy = 1e-300;
+    p.pressure = 3e5;
+    p.velocity = 1;
+    p.start_thickness = 1e-6;
+    const double time[] = {1e-300, 1, 1e300};
+    wt_layer_point points[3];
+    assert_int_equal(wt_layer_history(&source, &p, time, 3, points, NULL), WT_OK);
+    for (size_t i = 0; i < 3; i++) { /* d delta/dt = exp(-2 q delta) / U of the longest wave */
+        const double expected = (log(2 * q[0] * time[i]) - log(p.critical_energy)) / (2 * q[0]);
+        assert_near(points[i].thickness.value, expected, i > 0 ? 1e-9 : 2e-3);
+    }
+    for (size_t i = 0; i < 3; i++)
+        power[i] *= 1e300;
+    p.critical_energy = 1;
+    wt_layer_balance b;
+    assert_int_equal(wt_layer_balance_compute(&source, &p, &b, NULL), WT_E_RANGE);
+}
+
+/* A band whose deepest place is known no better than its logarithms say. */
+static void edge_within_rounding(void **state)
+{
+    (void)state;
+    double q[] = {1e3, 1e5, 1e7}, power[] = {1e5, 5e4, 1e4};
+    wt_energy_source source = {.profile = WT_PROFILE_INCOMPRESSIBLE,
+                               .local_friction = 0.5,
+                               .n = 3,
+                               .wavenumber = q,
+                               .power = power};
+    wt_layer_parameters p = wt_layer_defaults();
+    p.critical_energy = 1;
+    p.specific_wear_rate = 1e-12;
+    p.pressure = 3e5;
+    p.velocity = 1;
+    p.start_thickness = 1e-6;
+    p.incubation = true;
+    double last = 0;
+    for (double t = 1e-3; t < 1e300; t *= 3) {
+        wt_layer_point point;
+        wt_error err = WT_ERROR_INIT;
+        if (wt_layer_history(&source, &p, &t, 1, &point, &err) != WT_OK)
+            fail_msg("%g s: %s", t, err.message);
+        assert_true(point.thickness.value >= last - point.thickness.numerical_error);
+        last = point.thickness.value;
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -733,6 +788,8 @@ int main(void)
         cmocka_unit_test(nothing_happens),
         cmocka_unit_test(numbers_alone),
         cmocka_unit_test(bad_input),
+        cmocka_unit_test(fastest_formation),
+        cmocka_unit_test(edge_within_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

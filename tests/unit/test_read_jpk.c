@@ -471,6 +471,85 @@ static void described(void **state)
     unlink(path);
 }
 
+/* Of a curve of a map, and of the only one of a file. */
+static void lost_segments(void **state)
+{
+    (void)state;
+    static const char path[] = "lost.jpk-force-map";
+    for (int map = 0; map < 2; map++) {
+        jpk_writer_file f = make_file(path);
+        f.map = map != 0;
+        f.n_curves = map != 0 ? 3 : 1;
+        f.n_planned = 0;
+        f.columns = f.rows = 0;
+        f.miscounted = &curves[f.n_curves - 1];
+        size_t n_said = 0;
+        reading r;
+        assert_int_equal(jpk_write(&f), 0);
+        assert_int_equal(open_path(&r, path, NULL), WT_OK);
+        for (size_t i = 0; i < f.n_curves; i++)
+            assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
+            const wt_log_entry e = wt_parselog_get(r.log, i);
+            if (strstr(e.text, "of the 5 segments that its header counts") == NULL)
+                continue;
+            assert_int_equal(e.severity, WT_WARNING);
+            assert_int_equal(e.count, 1);
+            assert_non_null(strstr(e.text, "the curve has 4 "));
+            n_said++;
+        }
+        assert_int_equal(n_said, 1);
+        close_all(&r);
+        unlink(path);
+    }
+}
+
+/* Where the header of a curve was cut, say. */
+static void lost_position(void **state)
+{
+    (void)state;
+    static const char path[] = "nowhere.jpk-force-map";
+    for (int lost = 0; lost < 2; lost++) {
+        jpk_writer_file f = make_file(path);
+        size_t n_said = 0;
+        reading r;
+        curves[1].y = lost != 0 ? (double)NAN : curves[1].y;
+        assert_int_equal(jpk_write(&f), 0);
+        assert_int_equal(open_path(&r, path, NULL), WT_OK);
+        for (size_t i = 0; i < f.n_curves; i++)
+            assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        for (size_t i = 0; i < wt_parselog_count(r.log); i++)
+            n_said += strstr(wt_parselog_get(r.log, i).text, "says no position") != NULL;
+        assert_int_equal(n_said, lost);
+        close_all(&r);
+        unlink(path);
+    }
+}
+
+static void cut_header(void **state)
+{
+    (void)state;
+    static const char path[] = "cut-header.jpk-force";
+    jpk_writer_file f = make_file(path);
+    reading r;
+    bool said = false;
+    f.map = false;
+    f.n_curves = 1;
+    f.n_planned = 0;
+    f.columns = f.rows = 0;
+    f.without_rest = &samples[0].segments[3];
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
+        const wt_log_entry e = wt_parselog_get(r.log, i);
+        said |= e.severity == WT_WARNING && strstr(e.text, "lists no channels") != NULL;
+    }
+    assert_true(said);
+    close_all(&r);
+    unlink(path);
+}
+
 /* An entry that unpacks to many times what its points take is refused before it is unpacked: it
  * would fill the memory. */
 static void swollen_entry(void **state)
@@ -516,6 +595,9 @@ int main(void)
         cmocka_unit_test(many_channels),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
+        cmocka_unit_test(lost_segments),
+        cmocka_unit_test(lost_position),
+        cmocka_unit_test(cut_header),
         cmocka_unit_test(swollen_entry),
     };
     return cmocka_run_group_tests(tests, open_formats, free_formats);

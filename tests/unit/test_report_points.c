@@ -155,6 +155,23 @@ static void test_groups(void **state)
             next_is(&s, (chosen){by_group[i].figure, {by_group[i].column}, {by_group[i].group[k]}});
         end_sections(&s);
     }
+    /* a panel for each of one column, in it each of another */
+    static const char *const samples[] = {"HC", FIXTURE_EVIL}, *const conditions[] = {"mild",
+                                                                                      "severe"};
+    sections rates = begin_sections("collected_modulus"),
+             rubbers = begin_sections("collected_friction");
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < 3; i++)
+            next_is(&rates, (chosen){"collected_modulus",
+                                     {"sample", "place"},
+                                     {samples[k], i == 0 ? "bulk" : conditions[i - 1]}});
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < 2; i++)
+            next_is(&rubbers, (chosen){"collected_friction",
+                                       {"condition", "sample"},
+                                       {conditions[k], samples[i]}});
+    end_sections(&rates);
+    end_sections(&rubbers);
     sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),
              dma = begin_sections("dma_comparison"), ratio = begin_sections("material_ratio");
     next_is(&dma, (chosen){.table = "dma_comparison"});

@@ -1,5 +1,6 @@
 /* Every column and key that is declared is put by some run, job or conversion, and none is put that
  * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report_fixture.h"
 #include "sliding.h"
 #include "truth.h"
 
@@ -357,6 +358,34 @@ static void test_no_superposition(void **state)
         wt_master_tables_clear(&tables);
         unlink(path);
     }
+}
+
+/* Cases with names, and one pair without any. */
+static void test_collection(void **state)
+{
+    (void)state;
+    wt_collection_tables tables = {0};
+    wt_case *read = NULL;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 3;
+    assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL), WT_OK);
+    assert_int_equal(wt_run(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
+    wt_case_free(read);
+    fixture_collect(&tables);
+    see(tables.collection);
+    see(tables.collected_modulus);
+    see(tables.collected_friction);
+    see(tables.ratio_pairs);
+    wt_collection_tables_clear(&tables);
+    const wt_collect_job job = wt_collect_job_defaults();
+    wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
+    see(wt_result_find(labelled, "answer"));
+    const wt_collected cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
+    assert_int_equal(wt_collect(cases, 2, &job, &tables, NULL), WT_OK);
+    assert_null(tables.ratio_pairs);
+    wt_collection_tables_clear(&tables);
+    wt_result_free(labelled);
+    fixture_free();
 }
 
 /* One law of two samples and of one that has none; of one sample twice where it is Arrhenius. */
@@ -847,13 +876,14 @@ static void test_record(void **state)
     uint64_t seed = 4;
     FILE *out = fopen(strokes, "w");
     assert_non_null(out);
-    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),T (degC),pressure (MPa),"
-                 "Ff (N),Fn (N),mu,wear depth (um)\n");
+    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),rotation (rad/s),T (degC),"
+                 "pressure (MPa),Ff (N),Fn (N),mu,wear depth (um)\n");
     for (int i = 0; i < 40 * 60; i++) {
         const double phase = 2 * M_PI * (i + 0.5) / 40, way = sin(phase) > 0 ? 1 : -1,
                      lap = i / 40.0, force = (lap < 20 ? 6 : 5) + 0.1 * truth_normal(&seed);
-        fprintf(out, "%g,%g,%g,%g,%g,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap, -5 * cos(phase),
-                25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001, 1 + 0.01 * i);
+        fprintf(out, "%g,%g,%g,%g,%g,2,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap,
+                -5 * cos(phase), 25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001,
+                1 + 0.01 * i);
     }
     fclose(out);
     out = fopen(disc, "w");
@@ -1116,27 +1146,17 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_jobs),
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_no_superposition),
-        cmocka_unit_test(test_common_law),
-        cmocka_unit_test(test_no_hysteresis),
-        cmocka_unit_test(test_flash),
-        cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),
-        cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_record),
-        cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_spot),
-        cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(step_jobs),          cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),    cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_collection),    cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_no_hysteresis), cmocka_unit_test(test_flash),
+        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_record),
+        cmocka_unit_test(test_dwell),         cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),    cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),       cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
+#include "data/store.h"
 #include "data/tables/tables.h"
 
 #include <string.h>
@@ -16,11 +17,13 @@
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) X(common_law) \
     X(dwell_dma) X(power_spectrum) X(angular_spectrum) X(surfaces) X(scan_spectra) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
     X(failures) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
-    X(anisotropy) X(friction_map) X(friction_decades) X(flash)
+    X(anisotropy) X(friction_map) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
+    X(collected_friction) X(ratio_pairs)
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
-    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash)
+    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash) \
+    X(collection) X(collected_friction) X(ratio_pairs)
 /* clang-format on */
 
 typedef struct binding {
@@ -136,6 +139,22 @@ static void test_parts(void **state)
         }
 }
 
+/* A headline is read for `summary`. */
+static void test_headlines(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    for (size_t s = 0; s < table_n_schemas; s++)
+        for (size_t i = 0; i < table_schemas[s]->n_keys; i++) {
+            n += table_schemas[s]->keys[i].headline != NULL;
+            if (table_schemas[s]->keys[i].headline != NULL &&
+                !store_has_headlines(table_schemas[s]->name))
+                fail_msg("%s: %s is a headline that summary does not read", table_schemas[s]->name,
+                         table_schemas[s]->keys[i].name);
+        }
+    assert_true(n > 10);
+}
+
 /* A mistake of the program is found where it is made. */
 static void test_writer(void **state)
 {
@@ -158,7 +177,8 @@ static void test_writer(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bindings),
-                                       cmocka_unit_test(test_parts), cmocka_unit_test(test_writer)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bindings), cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_headlines), cmocka_unit_test(test_writer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -316,6 +316,8 @@ static int add_root(const writer *w)
             type, type);
     /* The colon of the time is escaped, as the instrument does. */
     fprintf(t.out, "%s.start-time=2030-01-01 00\\:00\\:00.000 +0000\n", type);
+    if (!file->map && file->miscounted == &file->curves[0])
+        fprintf(t.out, "%s.force-segments.count=%zu\n", type, file->curves[0].n_segments + 1);
     if (!file->map) {
         fprintf(t.out, "%s.header.position.x=%.17g\n%s.header.position.y=%.17g\n", type,
                 file->curves[0].x, type, file->curves[0].y);
@@ -341,7 +343,7 @@ static int add_curve_header(const writer *w, const jpk_writer_curve *curve, cons
     if (text_open(&t) != 0)
         return -1;
     fprintf(t.out, "type=force-scan-series\nforce-scan-series.force-segments.count=%zu\n",
-            curve->n_segments);
+            curve->n_segments + (w->file->miscounted == curve));
     fprintf(t.out, "force-scan-series.header.position.x=%.17g\n", curve->x);
     fprintf(t.out, "force-scan-series.header.position.y=%.17g\n", curve->y);
     fprintf(t.out, "force-scan-series.header.position-index=%zu\n", curve->index);
@@ -360,6 +362,9 @@ static int add_segment_header(const writer *w, const jpk_writer_segment *s, cons
         put_style(w, t.out, own, s->style);
     else
         fprintf(t.out, "%sforce-segment-header-info.*=%zu\n", own, style_number(s->style));
+    snprintf(name, sizeof name, "%ssegment-header.properties", folder);
+    if (w->file->without_rest == s)
+        return text_add(w, &t, name);
     fprintf(t.out, "%snum-points=%zu\n", own, s->n);
     if (!isnan(s->duration))
         fprintf(t.out, "%sduration=%.17g\n%ssettings.segment-settings.duration=%.17g\n", own,
@@ -386,7 +391,6 @@ static int add_segment_header(const writer *w, const jpk_writer_segment *s, cons
                 channel_names[c], prefix);
         fprintf(t.out, "%sdata.num-points=%zu\n", prefix, s->n);
     }
-    snprintf(name, sizeof name, "%ssegment-header.properties", folder);
     return text_add(w, &t, name);
 }
 

@@ -45,7 +45,9 @@ typedef struct jpk_writer_file {
     double setpoint;        /* [N]; NaN = none */
     bool force_from_volts;  /* the slot of the force leads to the volts, not to the distance */
     jpk_writer_encoding encoding;
-    unsigned n_more;     /* channels that are listed beside those there are */
+    const jpk_writer_curve *miscounted;     /* its header counts one segment more; NULL: none */
+    const jpk_writer_segment *without_rest; /* its header ends behind the style; NULL: none */
+    unsigned n_more;                        /* channels that are listed beside those there are */
     bool bare_height;    /* the height stays in volts: its conversions are not defined */
     bool odd_height;     /* its samples are integers of a kind that nobody knows */
     bool inline_headers; /* no shared-data: every key stands in the segment header */

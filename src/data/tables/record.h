@@ -7,13 +7,16 @@
 
 /* One step of a record in each row: what it was measured at, then friction in its steady part. */
 #define RECORD_COLUMNS(X)                                                                          \
-    X(RECORD_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"), SPARSE)  \
-    X(RECORD_NORMAL_FORCE, AS(normal_force), "normal force", SI(NORMAL_FORCE), LABEL("Load"),      \
+    X(RECORD_VELOCITY, IN(at, velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"),      \
       SPARSE)                                                                                      \
-    X(RECORD_PRESSURE, AS(pressure), "nominal pressure that the record says", SI(PRESSURE),        \
+    X(RECORD_ROTATION, IN(at, rotation), "rotation of the disc", SI(ANGULAR_FREQUENCY),            \
+      LABEL("Rotation"), SPARSE)                                                                   \
+    X(RECORD_NORMAL_FORCE, IN(at, normal_force), "normal force", SI(NORMAL_FORCE), LABEL("Load"),  \
+      SPARSE)                                                                                      \
+    X(RECORD_PRESSURE, IN(at, pressure), "nominal pressure that the record says", SI(PRESSURE),    \
       LABEL("Pressure"), SPARSE)                                                                   \
-    X(RECORD_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE), LABEL("Temperature"),   \
-      SPARSE)                                                                                      \
+    X(RECORD_TEMPERATURE, IN(at, temperature), "temperature", SI(TEMPERATURE),                     \
+      LABEL("Temperature"), SPARSE)                                                                \
     NUMBER_AND_INTERVAL(X, RECORD_FRICTION, "friction_coefficient",                                \
                         "mean friction coefficient of the steady part", NUMBER, "Friction",        \
                         SHOWS(steady.mean))                                                        \
@@ -96,10 +99,10 @@
       LABEL("Volume"), STANDARD_ERROR(WEAR_VOLUME), SPARSE)                                        \
     X(WEAR_VOLUME_STANDARD_ERROR, "volume_standard_error", "its standard error", UNIT("m^3"),      \
       SHOWS(volume.standard_error), SPARSE)                                                        \
-    X(WEAR_DEPTH, "depth", "depth that the record says", SI(WEAR_DEPTH), SHOWS(depth.value),       \
-      LABEL("Depth"), STANDARD_ERROR(WEAR_DEPTH), SPARSE)                                          \
-    X(WEAR_DEPTH_STANDARD_ERROR, "depth_standard_error", "its standard error by its scatter",      \
-      SI(WEAR_DEPTH), SHOWS(depth.standard_error), SPARSE)                                         \
+    X(WEAR_DEPTH, "depth", "depth that was worn, by that of the record", SI(WEAR_DEPTH),           \
+      SHOWS(depth.value), LABEL("Depth"), STANDARD_ERROR(WEAR_DEPTH), SPARSE)                      \
+    X(WEAR_DEPTH_STANDARD_ERROR, "depth_standard_error", "its standard error", SI(WEAR_DEPTH),     \
+      SHOWS(depth.standard_error), SPARSE)                                                         \
     X(WEAR_NORMAL_FORCE, AS(normal_force), "mean normal force", SI(NORMAL_FORCE), LABEL("Load"),   \
       SPARSE)                                                                                      \
     X(WEAR_DISTANCE, AS(distance), "distance slid", SI(SLIDING_DISTANCE), LABEL("Distance"),       \

@@ -7,10 +7,13 @@
     X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
     X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
     X(ANSWER_KIND, "kind",                                                                         \
-      "short, material, layer, difference, thickness, friction, caveat or folded: a caveat that "  \
-      "changes less than those before",                                                            \
+      "short, material, layer, difference, thickness, friction, surface, record, caveat or "       \
+      "folded: a caveat that changes less than those before",                                      \
       TEXT)
-#define ANSWER_KEYS(X) X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)
+#define ANSWER_KEYS(X)                                                                             \
+    X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \
+    X(ANSWER_KEY_CASE_SAMPLE, "case_sample", TEXT, OPTIONAL)                                       \
+    X(ANSWER_KEY_CASE_CONDITION, "case_condition", TEXT, OPTIONAL)
 
 #define INPUTS_COLUMNS(X)                                                                          \
     X(INPUTS_PATH, "path", "path as given", TEXT, LABEL("File"))                                   \

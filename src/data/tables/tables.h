@@ -19,6 +19,7 @@
 #include "data/tables/friction_maps.h"
 #include "data/tables/indentation.h"
 #include "data/tables/materials.h"
+#include "data/tables/collection.h" /* with its intervals */
 #include "data/tables/measured.h"
 #include "data/tables/ramp.h"
 #include "data/tables/record.h"
@@ -82,6 +83,13 @@
     X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \
     X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
       "compare")                                                                                   \
+    X(collection, COLLECTION, "collection", "Cases side by side", "collect")                       \
+    X(collected_modulus, COLLECTED_MODULUS, "collected_modulus",                                   \
+      "Modulus against indentation rate, of all cases", "collect")                                 \
+    X(collected_friction, COLLECTED_FRICTION, "collected_friction",                                \
+      "Friction against velocity, of all cases", "collect")                                        \
+    X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
+      "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
     X(common_law, COMMON_LAW, "common_law", "One law for several samples", "master")               \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \

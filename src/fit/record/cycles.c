@@ -34,7 +34,7 @@ static double load_of(const wt_record *record, double load, size_t i)
 
 /* The coefficient of the file, unless it lost the sign that its force has. */
 static wt_status friction_of(const wt_record *record, double load, double *friction,
-                             double *difference, wt_error *err)
+                             wt_cycles *cycles, wt_error *err)
 {
     const double *const given = record->channel[WT_RECORD_COEFFICIENT],
                         *const force = record->channel[WT_RECORD_FRICTION_FORCE];
@@ -42,7 +42,6 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
                by_force = force != NULL && has_load &&
                           (given == NULL ||
                            (has_both_signs(force, record->n) && !has_both_signs(given, record->n)));
-    *difference = (double)NAN;
     if (given == NULL && !by_force) {
         const wt_status status = wt_fail(err, WT_E_MISSING, "a friction force without a load");
         wt_error_expected(err, "a column of the normal force or of the friction coefficient");
@@ -53,8 +52,9 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
         const double normal = load_of(record, load, i),
                      ratio = force != NULL && normal > 0 ? force[i] / normal : (double)NAN;
         friction[i] = by_force ? ratio : given[i];
+        cycles->n_unloaded += by_force && normal <= 0;
         if (given != NULL)
-            *difference = fmax(*difference, fabs(fabs(given[i]) - fabs(ratio)));
+            cycles->difference = fmax(cycles->difference, fabs(fabs(given[i]) - fabs(ratio)));
     }
     return WT_OK;
 }
@@ -101,12 +101,6 @@ static void find_laps(const wt_record *record, double radius, cycle_spans *spans
     }
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* A span that holds at least one sample wherever the record has some: longer than all steps but
  * those that make up the pauses. `steps` is room for them. */
 static double span_of(const double *x, size_t n, double *steps)
@@ -115,7 +109,7 @@ static double span_of(const double *x, size_t n, double *steps)
     double sum = 0;
     for (size_t i = 1; i < n; i++)
         steps[i - 1] = x[i] - x[i - 1];
-    qsort(steps, n - 1, sizeof *steps, by_size);
+    numbers_sort(steps, n - 1);
     size_t i = 0;
     while (i + 1 < n - 1 && (sum += steps[i]) < (1 - pauses) * all)
         i++;
@@ -199,20 +193,55 @@ static double deviation_of(const double *x, cycle_span s, double mean)
     return n > 1 ? sqrt(sum / (n - 1)) : (double)NAN;
 }
 
-static double velocity_of(const wt_record *record, double radius, cycle_span s)
+/* To the first sample of the next cycle, so that one of a single sample has a duration. */
+static size_t end_of(const wt_record *record, cycle_span s)
 {
-    const double *const time = record->channel[WT_RECORD_TIME],
-                        *const distance = record->channel[WT_RECORD_DISTANCE];
-    const double measured = mean_of(record->channel[WT_RECORD_VELOCITY], s),
-                 rotation = mean_of(record->channel[WT_RECORD_ROTATION], s) * radius;
+    return same_step(record, s.end) ? s.end : s.end - 1;
+}
+
+static double span_over(const double *x, const wt_record *record, cycle_span s)
+{
+    return x != NULL ? x[end_of(record, s)] - x[s.first] : (double)NAN;
+}
+
+/* Of strokes the mean of what changes its sign with the direction is without the sign. */
+static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
+{
+    double sum = 0, n = 0;
+    if (kind != WT_CYCLE_STROKE)
+        return fabs(mean_of(x, s));
+    for (size_t i = s.first; x != NULL && i < s.end; i++)
+        if (!isnan(x[i])) {
+            sum += fabs(x[i]);
+            n++;
+        }
+    return n > 0 ? sum / n : (double)NAN;
+}
+
+/* There and back. */
+static double path_of_strokes(const double *position, cycle_span s)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = s.first; position != NULL && i < s.end; i++) {
+        low = fmin(low, position[i]);
+        high = fmax(high, position[i]);
+    }
+    return high >= low ? 2 * (high - low) : (double)NAN;
+}
+
+static double velocity_of(const wt_record *record, double radius, cycle_span s, wt_cycle_kind kind,
+                          const wt_cycle *c)
+{
+    const double measured = mean_speed(record->channel[WT_RECORD_VELOCITY], s, kind),
+                 rotation = c->rotation * radius;
     if (!isnan(measured))
-        return fabs(measured);
-    if (!isnan(rotation) || time == NULL || distance == NULL)
-        return fabs(rotation);
-    /* to the first sample of the next one, so that a cycle of one sample has a velocity */
-    const size_t end = same_step(record, s.end) ? s.end : s.end - 1;
-    const double spent = time[end] - time[s.first];
-    return spent > 0 ? (distance[end] - distance[s.first]) / spent : (double)NAN;
+        return measured;
+    if (!isnan(rotation))
+        return rotation;
+    double path = span_over(record->channel[WT_RECORD_DISTANCE], record, s);
+    if (isnan(path) && kind == WT_CYCLE_STROKE)
+        path = path_of_strokes(record->channel[WT_RECORD_POSITION], s);
+    return c->duration > 0 ? path / c->duration : (double)NAN;
 }
 
 static void set_friction(const wt_record *record, const double *friction, wt_cycle_kind kind,
@@ -254,7 +283,7 @@ static double normal_force_of(const wt_record *record, double load, cycle_span s
 }
 
 static void set_cycle(const wt_record *record, double radius, double load, cycle_span s,
-                      wt_cycle *c)
+                      wt_cycle_kind kind, wt_cycle *c)
 {
     double *const *const channel = record->channel;
     c->first = s.first;
@@ -264,7 +293,9 @@ static void set_cycle(const wt_record *record, double radius, double load, cycle
     c->distance = mean_of(channel[WT_RECORD_DISTANCE], s);
     c->laps = mean_of(channel[WT_RECORD_LAPS], s);
     c->normal_force = normal_force_of(record, load, s);
-    c->velocity = velocity_of(record, radius, s);
+    c->duration = span_over(channel[WT_RECORD_TIME], record, s);
+    c->rotation = mean_speed(channel[WT_RECORD_ROTATION], s, kind);
+    c->velocity = velocity_of(record, radius, s, kind, c);
     c->pressure = mean_of(channel[WT_RECORD_PRESSURE], s);
     c->temperature = mean_of(channel[WT_RECORD_TEMPERATURE], s);
     c->wear_depth = mean_of(channel[WT_RECORD_WEAR_DEPTH], s);
@@ -289,14 +320,14 @@ static void fill(const wt_record *record, double radius, double load, const doub
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
         set_friction(record, friction, cycles->kind, spans->span[k], c);
-        set_cycle(record, radius, load, spans->span[k], c);
+        set_cycle(record, radius, load, spans->span[k], cycles->kind, c);
         if (isnan(c->coefficient))
             continue;
         cycles->has_zero = cycles->has_zero || !isnan(c->zero);
         room[cycles->n++] = (double)c->n;
     }
     turn_steps(cycles);
-    qsort(room, cycles->n, sizeof *room, by_size);
+    numbers_sort(room, cycles->n);
     cycles->samples = cycles->n > 0 ? room[cycles->n / 2] : 0;
 }
 
@@ -306,7 +337,7 @@ wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double rad
     *cycles = (wt_cycles){.difference = (double)NAN};
     if (record == NULL || record->n == 0)
         return wt_fail(err, WT_E_ARG, "cycles of a record without samples");
-    wt_cycles made = {.n = 0};
+    wt_cycles made = {.difference = (double)NAN};
     double *const friction = calloc(record->n, sizeof *friction), *const room = calloc(
                                                                       record->n, sizeof *room);
     cycle_spans spans = {calloc(record->n, sizeof *spans.span), 0};
@@ -314,7 +345,7 @@ wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double rad
                            ? WT_OK
                            : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = friction_of(record, load, friction, &made.difference, err);
+        status = friction_of(record, load, friction, &made, err);
     if (status == WT_OK)
         status = choose(record, kind, radius, friction, room, &spans, &made.kind, err);
     if (status == WT_OK) {

@@ -7,6 +7,7 @@
  */
 #include "fit/record/slow_scatter.h"
 
+#include "base/normal.h"
 #include "base/pool.h"
 #include "weartrack/fit.h"
 
@@ -22,8 +23,7 @@ static const double least_behind = 0.1;
 static const double least_odds = 20;
 /* Range of the ratio of the two scatters that is taken for possible, as a logarithm: 1 % to 100. */
 static const double scatter_range = 9.2;
-static const double normal_95 = 1.959963984540054; /* 97.5 % of the normal law */
-static const double tail = 0.025;                  /* on each side of an interval of 95 % */
+static const double tail = 0.025; /* on each side of an interval of 95 % */
 
 typedef struct likelihoods {
     size_t n;
@@ -78,7 +78,7 @@ static void interval_of(const double *log_weight, size_t first, size_t end, wt_r
             break;
     }
     /* of the normal law with that interval: the tails may be far away, and are light */
-    r->end.standard_error = (r->end.high - r->end.low) / (2 * normal_95);
+    r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
     r->steady_from = (size_t)r->end.high;
 }
 
@@ -119,8 +119,12 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
 {
     pool memory = {0};
     const double variance = total_variance(y, n);
-    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || !(variance > 0))
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return WT_OK;
+    if (!(variance > 0)) {
+        r->why_not = "the cycles do not scatter";
+        return WT_OK;
+    }
     likelihoods l = {n, pool_numbers(&memory, n + 1), pool_numbers(&memory, n + 1),
                      SCATTER_DIGITS * SCATTER_DIGITS * variance};
     if (memory.failed) {
@@ -149,7 +153,7 @@ static void tell_in_points(const scatter_parts *parts, wt_running_in *r)
     r->end.value = rest + length * r->end.value;
     r->end.low = rest + length * (r->end.low - 1) + 1;
     r->end.high = rest + length * (r->end.high + 1) - 1;
-    r->end.standard_error = (r->end.high - r->end.low) / (2 * normal_95);
+    r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
     r->steady_from = r->seen ? (size_t)r->end.high : r->steady_from;
 }
 

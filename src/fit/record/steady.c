@@ -4,15 +4,17 @@
  */
 #include "fit/record/slow_scatter.h"
 
+#include "base/normal.h"
 #include "fit/students_t.h"
 #include "weartrack/fit.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { FEWEST = 4 };                               /* two more than a line has constants */
-static const double normal_95 = 1.959963984540054; /* 97.5 % of the normal law */
-static const double tail = 0.025;                  /* on each side of an interval of 95 % */
+enum { FEWEST = 4 }; /* two more than a line has constants */
+/* Of the mean: what rounding makes of equal samples. */
+static const double rounding = 1e-12;
+static const double tail = 0.025; /* on each side of an interval of 95 % */
 /* Fewer independent points than these do not tell how far they scatter. */
 static const double least_independent = 8;
 
@@ -20,7 +22,7 @@ static wt_interval interval_of(t_mixture *m, double value)
 {
     mixture_normalise(m);
     const double low = mixture_quantile(m, tail), high = mixture_quantile(m, 1 - tail);
-    return (wt_interval){value, (high - low) / (2 * normal_95), low, high};
+    return (wt_interval){value, (high - low) / (2 * NORMAL_95), low, high};
 }
 
 /* Mean, drift and correlation by all laws, each as heavy as it is likely. */
@@ -79,7 +81,9 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
         steady->min = fmin(steady->min, y[i]);
         steady->max = fmax(steady->max, y[i]);
     }
-    if (n < FEWEST || !(m.variance > 0))
+    if (n >= FEWEST && !(steady->deviation > rounding * fabs(m.mean)))
+        steady->note = "the cycles do not scatter, which tells no error";
+    if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
     scatter_parts parts;
     double *room;

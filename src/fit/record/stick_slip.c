@@ -4,6 +4,7 @@
  */
 #include "weartrack/fit.h"
 
+#include "base/array.h"
 #include "base/pool.h"
 
 #include <math.h>
@@ -16,19 +17,13 @@ static const double outstanding = 6;
 static const double least_ratio = 2;
 enum { FEWEST = 10 }; /* slips that tell a mean and its scatter */
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Standard deviation of white scatter: the median of second differences, of which the slips are
  * few. They have 6 times its variance, and 0.6745 of a deviation is the median. */
 static double scatter_of(const double *y, size_t n, double *room)
 {
     for (size_t i = 0; i + 2 < n; i++)
         room[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
-    qsort(room, n - 2, sizeof *room, by_size);
+    numbers_sort(room, n - 2);
     return room[(n - 2) / 2] / (0.6745 * sqrt(6));
 }
 

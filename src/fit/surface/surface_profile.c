@@ -50,7 +50,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule))) {
         status = wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
         wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
-        wt_error_advice(err, "noise makes it flat: measure with less, or more points_per_wave");
+        wt_error_advice(err, "noise makes it flat: measure with less, or end the range "
+                             "at longer waves, by more points-per-wave");
     }
     for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
         const double c = surface_invert(q, c1, profile->n, true, q[k], rule);

@@ -13,7 +13,6 @@
 #include <string.h>
 
 static const char in_short[] = "In short";
-static const char what_rubber[] = "What is the rubber like?";
 static const char is_there[] = "Is there a modified layer?";
 static const char how_different[] = "How different is it?";
 static const char how_thick[] = "How thick is it?";
@@ -495,50 +494,6 @@ static void answer_friction(const answer_story *story)
         say_change(story);
 }
 
-struct law_text {
-    char text[256];
-};
-
-/* The law of the shift factors with its constants. */
-static struct law_text law_words(const table_view *shift)
-{
-    struct law_text words;
-    const wt_estimate c1 = shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C1),
-                      energy = shift_factors_value(shift, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
-    if (isnan(c1.value) && isnan(energy.value))
-        snprintf(words.text, sizeof words.text, "no law of the shift factors");
-    else if (isnan(c1.value))
-        snprintf(words.text, sizeof words.text, "Arrhenius with %s", words_of_known(energy).text);
-    else
-        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s", words_of_known(c1).text,
-                 words_of_known(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
-                 isnan(energy.value) ? "" : ", Arrhenius in the cold");
-    return words;
-}
-
-/* Only where no later stage uses the material: there it is an answer, else a step. */
-static void answer_rubber(const answer_story *story)
-{
-    const table_view *shift = &story->shift_factors, *prony = &story->prony;
-    if (shift->table == NULL || prony->table == NULL || story->found.comparison.table != NULL ||
-        story->found.friction.table != NULL)
-        return;
-    const double reference =
-        shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
-    const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
-                      limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
-    const char *verdict = shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    const bool holds = strncmp(verdict, "holds", 5) == 0; /* else a caveat says it */
-    answer_say(story, what_rubber, "material",
-               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
-               words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
-               isnan(limit.value) ? "" : "at most ",
-               words_of_known(isnan(limit.value) ? equilibrium : limit).text,
-               prony_words(prony, PRONY_KEY_DEFORMATION),
-               holds ? " Time-temperature superposition " : "", holds ? verdict : "",
-               holds ? "." : "");
-}
-
 /* ---- the story ------------------------------------------------------------------------------- */
 
 static wt_status bind_tables(const wt_result *result, answer_story *story, wt_error *err)
@@ -557,6 +512,8 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&roughness_schema, "", &story->roughness},
         {&power_spectrum_schema, "", &story->power_spectrum},
         {&surfaces_schema, "", &story->surfaces},
+        {&record_schema, "", &story->record},
+        {&wear_schema, "", &story->wear},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -583,12 +540,17 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_thickness(&story);
     answer_friction(&story);
     answer_surface(&story);
+    answer_record(&story);
     answer_caveats(&story);
     answer_put_caveats(&story);
     say_not_asked(&story);
     answer_story_clear(&story);
     if (wt_case_title(c)[0] != '\0') /* the title of the page */
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
+    if (c->sample[0] != '\0')
+        answer_set_text(&answer, ANSWER_KEY_CASE_SAMPLE, c->sample);
+    if (c->condition[0] != '\0')
+        answer_set_text(&answer, ANSWER_KEY_CASE_CONDITION, c->condition);
     wt_table *made = NULL;
     status = table_end(&answer, &made);
     if (status == WT_OK && story.status != WT_OK)

@@ -183,44 +183,20 @@ static void say_payne(sentence *s, const table_view *v)
         say(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
-static double extreme_friction(const table_view *v, double sign)
-{
-    double most = record_get(v, 0, RECORD_FRICTION);
-    for (size_t i = 1; i < v->n_rows; i++)
-        most = sign * fmax(sign * most, sign * record_get(v, i, RECORD_FRICTION));
-    return most;
-}
-
 static void say_record(sentence *s, const table_view *v)
 {
-    const wt_estimate mu = record_value(v, RECORD_KEY_FRICTION);
     if (v->n_rows == 0)
         return;
     next(s);
-    if (isnan(mu.value))
-        say(s, "friction as measured at %zu conditions, from %.4g to %.4g", v->n_rows,
-            extreme_friction(v, -1), extreme_friction(v, 1));
-    else
-        say(s, "friction as measured %s", words_of_estimate(mu).text);
-    const double end = record_get(v, 0, RECORD_RUNNING_IN);
-    if (v->n_rows == 1 && !isnan(end))
-        say(s, ", after a running-in of %.0f cycles", end);
-    else if (v->n_rows == 1)
-        say(s, "; %s", record_text(v, 0, RECORD_RUNNING_IN_NOTE));
-    if (v->n_rows == 1 && record_text(v, 0, RECORD_NOTE)[0] != '\0')
-        say(s, "; %s", record_text(v, 0, RECORD_NOTE));
+    tell_record(&s->told, v);
 }
 
 static void say_wear(sentence *s, const table_view *v)
 {
-    const wt_estimate k = wear_value(v, WEAR_KEY_RATE);
     if (v->n_rows == 0)
         return;
     next(s);
-    if (isnan(k.value))
-        say(s, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
-    else
-        say(s, "specific wear rate %s", words_of_known(k).text);
+    tell_wear(&s->told, v);
 }
 
 static void say_dwell(sentence *s, const table_view *v)
@@ -376,6 +352,8 @@ static void say_friction(sentence *s, const table_view *v)
         say(s, "with layer %s, ", words_of_finding(&with_layer).text);
         tell_change(&s->told, &s->found, false);
         say(s, ", ");
+    } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
+        say(s, "friction with the layer not known without a shear stress, ");
     }
     say(s, "hysteresis %s, contact area of the nominal one %s", words_of_finding(&hysteresis).text,
         words_of_finding(&area).text);

@@ -34,6 +34,7 @@ typedef struct answer_story {
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
+    table_view record, wear;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
@@ -47,8 +48,13 @@ void answer_say(const answer_story *story, const char *question, const char *kin
 void answer_caveat(answer_story *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
 /* The rows of kind "caveat", those that change most first, then the others of kind "folded". */
 void answer_put_caveats(answer_story *story);
+/* What the rubber is like, only where no later stage uses it: there it is an answer, else a step.
+ */
+void answer_rubber(const answer_story *story);
 /* What a measured counter surface is like. */
 void answer_surface(const answer_story *story);
+/* Friction and wear as measured. */
+void answer_record(const answer_story *story);
 void answer_story_clear(answer_story *story);
 
 #endif

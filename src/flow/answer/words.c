@@ -83,18 +83,29 @@ number_words words_of_estimate(wt_estimate e)
     return words;
 }
 
-number_words words_of_known(wt_estimate e)
+static number_words known_between(wt_estimate e, double low, double high)
 {
-    const double half = NORMAL_95 * e.standard_error, low = e.value - half, high = e.value + half;
     const int digits = finding_digits(e.value, low, high);
     number_words words = words_with(e.value, e.unit, digits);
     telling t = {words.text, sizeof words.text, strlen(words.text)};
-    if (isfinite(e.value) && isnan(half))
+    if (isfinite(e.value) && isnan(high))
         tell(&t, " (error not known)");
-    else if (isfinite(e.value) && half > 0)
+    else if (isfinite(e.value) && high > e.value)
         tell(&t, " (95 %%: %s to %s)", words_with(low, e.unit, digits).text,
              words_with(high, e.unit, digits).text);
     return words;
+}
+
+number_words words_of_known(wt_estimate e)
+{
+    const double half = NORMAL_95 * e.standard_error;
+    return known_between(e, e.value - half, e.value + half);
+}
+
+number_words words_of_positive(wt_estimate e)
+{
+    const double factor = exp(NORMAL_95 * e.standard_error / e.value);
+    return known_between(e, e.value / factor, e.value * factor);
 }
 
 number_words words_of_celsius(double kelvin)

@@ -29,6 +29,8 @@ number_words words_of_value(wt_estimate estimate);    /* without its errors */
 number_words words_of_estimate(wt_estimate estimate); /* +- the standard error where it is known */
 /* "1.20 s (95 %: 0.90 s to 1.50 s)", of a number that is no finding. */
 number_words words_of_known(wt_estimate estimate);
+/* The same, of a number above 0 whose error is a factor: the logarithm is normal. */
+number_words words_of_positive(wt_estimate estimate);
 number_words words_of_celsius(double kelvin);
 
 /* ---- findings -------------------------------------------------------------------------------- */
@@ -59,6 +61,10 @@ void tell_rates(telling *t, const finding_tables *tables);
 void tell_thickness(telling *t, const finding_tables *tables);
 /* "open whether the layer lowers or raises friction: -18 % (...)" */
 void tell_change(telling *t, const finding_tables *tables, bool with_choices);
+/* Of tables with rows: "friction as measured 0.80 +- 0.01, after a running-in of 20 cycles" and
+ * "specific wear rate ..." */
+void tell_record(telling *t, const table_view *record);
+void tell_wear(telling *t, const table_view *wear);
 /* "predicted from a given U_c" */
 const char *words_of_origin(const finding_tables *tables);
 

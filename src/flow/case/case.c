@@ -19,7 +19,7 @@ wt_case *case_new(void)
     wt_case *c = calloc(1, sizeof *c);
     if (c == NULL)
         return NULL;
-    c->title = "";
+    c->title = c->sample = c->condition = "";
     c->indent = wt_indent_job_defaults();
     c->compare = wt_compare_job_defaults();
     c->bulk.spring_constant = c->track.spring_constant = (wt_estimate){(double)NAN, 0, 0, "N/m"};

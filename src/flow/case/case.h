@@ -38,7 +38,8 @@ struct wt_case {
     const char *path, *folder;
     const char *xml; /* the file as it was read */
     size_t xml_length;
-    const char *title; /* "" if not given */
+    const char *title; /* "" if not given, and these */
+    const char *sample, *condition;
 
     wt_indent_job indent;   /* files are set when it runs; likewise in the others */
     wt_compare_job compare; /* the same for its tables */

@@ -154,9 +154,15 @@ static wt_status parse_case(wt_case *c, wt_error *err)
     if (status == WT_OK)
         status = validate_case(doc, err);
     const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
-    const xmlNode *title = status == WT_OK ? case_child(root, "title") : NULL;
-    if (title != NULL)
-        status = case_node_text(c, title, &c->title, err);
+    const struct {
+        const char *name;
+        const char **text;
+    } labels[] = {{"title", &c->title}, {"sample", &c->sample}, {"condition", &c->condition}};
+    for (size_t i = 0; status == WT_OK && i < sizeof labels / sizeof labels[0]; i++) {
+        const xmlNode *label = case_child(root, labels[i].name);
+        if (label != NULL)
+            status = case_node_text(c, label, labels[i].text, err);
+    }
     for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
         const xmlNode *section = case_child(root, sections[i].name);
         if (section != NULL)

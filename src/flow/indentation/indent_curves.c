@@ -172,8 +172,13 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
 static bool is_cancelled(const indent_task *task)
 {
     const wt_progress *progress = &task->work->progress;
-    return progress->report != NULL &&
-           !progress->report(progress->user, "indentation", task->n_curves, 0);
+    char what[64] = "indentation: curve";
+    if (progress->report == NULL)
+        return false;
+    if (task->n_files > 1)
+        snprintf(what, sizeof what, "indentation: file %zu of %zu, curve", task->file_number,
+                 task->n_files);
+    return !progress->report(progress->user, what, task->n_written + 1, task->n_of_file);
 }
 
 /* Those that are next in order. */
@@ -251,6 +256,7 @@ static wt_status read_file(indent_task *task, wt_error *err)
         const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
         for (size_t i = 0; i < task->n_items; i++) /* a file before may have failed half-way */
             task->items[i].state = ITEM_FREE;
+        task->n_of_file = count;
         task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
@@ -276,9 +282,11 @@ static wt_status read_file(indent_task *task, wt_error *err)
 wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
+    task->n_files = files->n;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         task->file = &files->file[i];
+        task->file_number = i + 1;
         task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
         status = read_file(task, &failure);
         if (status == WT_OK || flow_leave_out(task->work, task->file, &failure)) {

@@ -55,6 +55,8 @@ typedef struct indent_task {
     size_t n_items, n_taken;  /* of them, those that are not free */
     size_t n_samples;         /* in those */
     size_t n_read, n_written; /* curves of the file */
+    size_t n_of_file;         /* as many as it says, 0 if it does not */
+    size_t n_files, file_number;
     wt_status status;
     wt_error *err;
     table_writer rows;

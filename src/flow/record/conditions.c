@@ -12,11 +12,20 @@ static const double same_ratio = 0.1, same_temperature = 5; /* [K] */
 enum { LASTING = 10, FEWEST = 3 };
 static const double outstanding = 5; /* standard errors */
 
-typedef enum condition { VELOCITY, NORMAL_FORCE, PRESSURE, TEMPERATURE, CONDITIONS } condition;
+/* The rotation counts where no radius tells the velocity. */
+typedef enum condition {
+    VELOCITY,
+    ROTATION,
+    NORMAL_FORCE,
+    PRESSURE,
+    TEMPERATURE,
+    CONDITIONS
+} condition;
 
 static double value_of(const wt_cycle *c, condition which)
 {
-    const double values[CONDITIONS] = {c->velocity, c->normal_force, c->pressure, c->temperature};
+    const double values[CONDITIONS] = {c->velocity, c->rotation, c->normal_force, c->pressure,
+                                       c->temperature};
     return values[which];
 }
 
@@ -94,21 +103,43 @@ static double mean_or_nan(const wt_cycle *cycles, size_t n, condition which)
     return s.n > 0 ? s.mean : (double)NAN;
 }
 
-record_conditions conditions_of(const wt_cycle *cycles, size_t n)
+/* Path over time: laps of other numbers of samples are as long. */
+static double mean_velocity(const wt_cycle *cycles, size_t n)
 {
-    return (record_conditions){
-        mean_or_nan(cycles, n, VELOCITY), mean_or_nan(cycles, n, NORMAL_FORCE),
-        mean_or_nan(cycles, n, PRESSURE), mean_or_nan(cycles, n, TEMPERATURE)};
+    double path = 0, time = 0;
+    for (size_t i = 0; i < n; i++)
+        if (cycles[i].duration > 0 && !isnan(cycles[i].velocity)) {
+            path += cycles[i].velocity * cycles[i].duration;
+            time += cycles[i].duration;
+        }
+    return time > 0 ? path / time : mean_or_nan(cycles, n, VELOCITY);
 }
 
+record_conditions conditions_of(const wt_cycle *cycles, size_t n)
+{
+    return (record_conditions){mean_velocity(cycles, n), mean_or_nan(cycles, n, ROTATION),
+                               mean_or_nan(cycles, n, NORMAL_FORCE),
+                               mean_or_nan(cycles, n, PRESSURE),
+                               mean_or_nan(cycles, n, TEMPERATURE)};
+}
+
+bool conditions_rest(record_conditions at)
+{
+    return !(at.velocity > 0 || at.rotation > 0) && (at.velocity == 0 || at.rotation == 0);
+}
+
+/* What only one of them tells is not known to be alike. */
 static bool alike(double a, double b, condition which)
 {
-    return isnan(a) || isnan(b) || fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
+    if (isnan(a) || isnan(b))
+        return isnan(a) && isnan(b);
+    return fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
 }
 
 bool conditions_alike(record_conditions a, record_conditions b)
 {
     return alike(a.velocity, b.velocity, VELOCITY) &&
+           (!isnan(a.velocity) || alike(a.rotation, b.rotation, ROTATION)) &&
            alike(a.normal_force, b.normal_force, NORMAL_FORCE) &&
            alike(a.pressure, b.pressure, PRESSURE) &&
            alike(a.temperature, b.temperature, TEMPERATURE);

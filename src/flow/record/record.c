@@ -31,7 +31,7 @@ void wt_record_tables_clear(wt_record_tables *tables)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-TABLE_ROW(record, RECORD, double velocity, normal_force, pressure, temperature; wt_steady steady;
+TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
           double zero, difference, samples; size_t cycles, step;
           const char *averaged_over, *note, *file;)
@@ -142,6 +142,10 @@ static void say_step(const wt_job *work, const wt_cycles *cycles, const record_r
         clocale_print(words, sizeof words, "drifts by %.2g over the steady part", r->drift.value);
         add_note(note, size, words);
     }
+    if (conditions_rest(r->at))
+        add_note(note, size, "nothing slides in it");
+    else if (isnan(r->at.velocity) && !isnan(r->at.rotation))
+        add_note(note, size, "velocity not known: give --track-radius");
     if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
         add_note(note, size, "friction has no sign, so that its zero is not known");
 }
@@ -176,11 +180,7 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
         status = wt_stick_slip_find(all->friction + steady->first,
                                     last->first + last->n - steady->first, &r->slips, err);
     free(y);
-    const record_conditions at = conditions_of(steady, n - from);
-    r->velocity = at.velocity;
-    r->normal_force = at.normal_force;
-    r->pressure = at.pressure;
-    r->temperature = at.temperature;
+    r->at = conditions_of(steady, n - from);
     r->drift = times(r->steady.drift, (double)(n - from) - 1);
     r->end = end.cycles;
     r->end_time = in_units(cycle, n, end.cycles, false);
@@ -196,7 +196,7 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
 
 /* Rows so far, for what they have in common. */
 typedef struct together {
-    double n, sum, own, squares;
+    several friction;
     record_conditions first;
     bool alike;
 } together;
@@ -204,23 +204,22 @@ typedef struct together {
 typedef struct writers {
     table_writer record, cycles, wear;
     together all;
-    wear_rates rates;
+    several rates; /* of wear */
     size_t n_files;
 } writers;
 
+/* What does not slide has no friction coefficient of sliding. */
 static void count_row(together *all, const record_row *r)
 {
-    const record_conditions at = {r->velocity, r->normal_force, r->pressure, r->temperature};
-    const double mu = r->steady.mean.value, error = r->steady.mean.standard_error;
-    if (all->n == 0) {
-        all->first = at;
+    if (conditions_rest(r->at))
+        return;
+    if (!(all->friction.n > 0)) {
+        all->first = r->at;
         all->alike = true;
     }
-    all->alike = all->alike && conditions_alike(all->first, at);
-    all->n++;
-    all->sum += mu;
-    all->squares += mu * mu;
-    all->own += error * error;
+    all->alike = all->alike && conditions_alike(all->first, r->at);
+    several_add(&all->friction,
+                (wt_estimate){r->steady.mean.value, r->steady.mean.standard_error, 0, "1"});
 }
 
 static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
@@ -312,6 +311,10 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         say_difference(work, &cycles, file->name);
+        if (cycles.n_unloaded > 0)
+            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                            "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                            record.n);
         status = put_steps(job, work, &cycles, file->name, w, err);
     }
     if (status == WT_OK && wear_is_asked(job))
@@ -326,23 +329,13 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* Of several rows the mean, with their scatter where that is more than their errors. */
-static wt_estimate mean_friction(const together *all)
-{
-    const double mean = all->sum / all->n,
-                 between = all->n > 1
-                               ? (all->squares - all->n * mean * mean) / (all->n * (all->n - 1))
-                               : 0;
-    return (wt_estimate){mean, sqrt(fmax(all->own / (all->n * all->n), between)), 0, "1"};
-}
-
 static wt_status end_tables(writers *w, bool wear, wt_status status, wt_record_tables *made)
 {
     record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
-    if (w->all.n > 0 && w->all.alike)
-        record_set(&w->record, RECORD_KEY_FRICTION, mean_friction(&w->all));
-    if (wear)
-        wear_set_keys(&w->rates, &w->wear);
+    if (w->all.friction.n > 0 && w->all.alike)
+        record_set(&w->record, RECORD_KEY_FRICTION, several_mean(&w->all.friction, "1"));
+    if (wear && w->rates.n > 0)
+        wear_set(&w->wear, WEAR_KEY_RATE, several_mean(&w->rates, "m^2/N"));
     const wt_status written[] = {table_end(&w->record, &made->record),
                                  table_end(&w->cycles, &made->record_cycles),
                                  wear ? table_end(&w->wear, &made->wear) : WT_OK};

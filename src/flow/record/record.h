@@ -7,15 +7,26 @@
 
 #include "data/tables/tables.h"
 
-/* What a file was recorded at; the first two members of each may be NaN. */
+/* What a file was recorded at; NaN: not known. */
 typedef struct record_conditions {
-    double velocity, normal_force, pressure, temperature;
+    double velocity, rotation, normal_force, pressure, temperature;
 } record_conditions;
-/* Means over cycles. */
+/* Means over cycles, of the velocity over their time. */
 record_conditions conditions_of(const wt_cycle *cycles, size_t n);
 bool conditions_alike(record_conditions a, record_conditions b);
+/* Nothing slides. */
+bool conditions_rest(record_conditions at);
 /* The number of cycles from the first on that belong to one step. */
 size_t conditions_step(const wt_cycle *cycles, size_t n);
+
+/* Measurements of one number: their mean has the scatter among them where that is more than their
+ * errors. */
+typedef struct several {
+    double n, mean, squares, own; /* squares about the mean; of their errors */
+} several;
+void several_add(several *s, wt_estimate e);
+/* NaN of nothing. */
+wt_estimate several_mean(const several *s, const char *unit);
 
 /* Whether anything of the wear was given. */
 bool wear_is_asked(const wt_record_job *job);
@@ -23,13 +34,10 @@ wt_record_job wear_left_out(wt_record_job job);
 /* Mean cross-section of the profiles of job->profile, with their scatter. */
 wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
                                 wt_error *err);
-/* Rows of a file for the table of the wear. `radius` [m] of the track, NaN: not known. */
-typedef struct wear_rates {
-    double sum, own, squares, n; /* of the rates: sum, sum of squared errors, sum of squares */
-} wear_rates;
+/* Rows of a file for the table of the wear. `radius` [m] of the track, NaN: not known. Their rates
+ * are added to `rates`. */
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
-                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
+                   wt_estimate radius, const char *file, table_writer *t, several *rates,
                    wt_error *err);
-void wear_set_keys(const wear_rates *rates, table_writer *t);
 
 #endif

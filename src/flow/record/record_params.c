@@ -48,7 +48,7 @@ static const wt_param rows[] = {
     {PARAM("density", wt_record_job, density, WT_Q_MASS_DENSITY, ABOVE(0)), .value = "RHO",
      .unset = "", .help = "density of the rubber, such as 1150kg/m^3"},
     {PARAM("track-length", wt_record_job, track_length, WT_Q_LENGTH, ABOVE(0)), .value = "L",
-     .unset = "the circumference of the track",
+     .unset = "the circumference of the track, or the length of its strokes",
      .help = "length of the track, such as the stroke of a reciprocating record"},
     {PARAM("ball-radius", wt_record_job, ball_radius, WT_Q_LENGTH, ABOVE(0)), .value = "R",
      .unset = "",

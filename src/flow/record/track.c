@@ -7,12 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of profiles at several places of the track. */
-typedef struct areas {
-    size_t n, n_failed;
-    double sum, squares, own; /* of the areas; of squared errors */
-} areas;
-
 static wt_status find_track(const wt_image *image, wt_track *track, wt_error *err)
 {
     const size_t n = image->n_columns;
@@ -32,7 +26,7 @@ static wt_status find_track(const wt_image *image, wt_track *track, wt_error *er
     return status;
 }
 
-static wt_status measure_profile(const wt_job *work, flow_file *file, areas *to, wt_error *err)
+static wt_status measure_profile(const wt_job *work, flow_file *file, several *areas, wt_error *err)
 {
     wt_image image = {.values = NULL};
     wt_track track = {.found = false};
@@ -53,10 +47,7 @@ static wt_status measure_profile(const wt_job *work, flow_file *file, areas *to,
         wt_error_advice(err, "measure across the whole track, with as much beside it");
         return WT_E_EMPTY;
     }
-    to->n++;
-    to->sum += track.area.value;
-    to->squares += track.area.value * track.area.value;
-    to->own += track.area.standard_error * track.area.standard_error;
+    several_add(areas, track.area);
     if (track.ridges > track.area.value)
         wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
                         "more stands above the surface beside the track than is missing in it: "
@@ -72,29 +63,27 @@ wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt
     set.n_patterns = 1;
     set.read.format = NULL;
     flow_files files = {NULL, 0, NULL};
-    areas a = {.n = 0};
+    several areas = {.n = 0};
+    size_t n_failed = 0;
     wt_status status = flow_files_list(&set, 1, work, &files, err);
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = measure_profile(work, &files.file[i], &a, &failure);
+        status = measure_profile(work, &files.file[i], &areas, &failure);
         if (status == WT_OK)
             continue;
         if (flow_leave_out(work, &files.file[i], &failure)) {
             status = WT_OK;
         } else {
-            a.n_failed++;
+            n_failed++;
             status = wt_job_failed(work, files.file[i].name, status, &failure, err);
         }
     }
-    if (status == WT_OK && a.n == 0) {
+    if (status == WT_OK && !(areas.n > 0)) {
         status = wt_fail(err, WT_E_EMPTY, "no profile shows the track");
-        flow_tell_files(&files, a.n_failed, err);
+        flow_tell_files(&files, n_failed, err);
     }
     flow_files_clear(&files);
-    if (status != WT_OK)
-        return status;
-    const double n = (double)a.n, mean = a.sum / n;
-    const double between = a.n > 1 ? fmax(0, a.squares - n * mean * mean) / (n * (n - 1)) : 0;
-    *area = (wt_estimate){mean, sqrt(fmax(a.own / (n * n), between)), 0, "m^2"};
-    return WT_OK;
+    if (status == WT_OK)
+        *area = several_mean(&areas, "m^2");
+    return status;
 }

@@ -6,12 +6,12 @@
 #include "flow/record/record.h"
 
 #include "base/array.h"
+#include "base/normal.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double normal_95 = 1.959963984540054; /* 97.5 % of the normal law */
 /* Cycles at either end of a record that tell the depth there: a fiftieth of it. */
 enum { END_SHARE = 50, END_LEAST = 4 };
 /* Hertz's law is of contacts that are small against the ball; tribolayer-beyond says where. */
@@ -53,7 +53,19 @@ static wt_estimate product(wt_estimate a, wt_estimate b, const char *unit)
 
 /* ---- what is known of the record ------------------------------------------------------------- */
 
-static double distance_of(const wt_record *record, const wt_cycles *cycles, double radius)
+/* Of a track of that length strokes slide twice as far; NaN: the cycles are none, or tell no time.
+ */
+static double velocity_of_strokes(const wt_cycles *cycles, double length)
+{
+    double time = 0;
+    for (size_t i = 0; i < cycles->n; i++)
+        time += cycles->cycle[i].duration;
+    return cycles->kind == WT_CYCLE_STROKE && time > 0 ? 2 * length * (double)cycles->n / time
+                                                       : (double)NAN;
+}
+
+static double distance_of(const wt_record *record, const wt_cycles *cycles, double radius,
+                          double length)
 {
     const double *const distance = record->channel[WT_RECORD_DISTANCE],
                         *const laps = record->channel[WT_RECORD_LAPS],
@@ -61,17 +73,27 @@ static double distance_of(const wt_record *record, const wt_cycles *cycles, doub
     const size_t last = record->n - 1;
     if (distance != NULL)
         return distance[last] - distance[0];
-    if (laps != NULL && radius > 0)
+    if (laps != NULL && radius > 0 && cycles->kind != WT_CYCLE_STROKE)
         return 2 * M_PI * radius * (laps[last] - laps[0]);
     if (time == NULL)
         return (double)NAN;
-    double sum = 0, n = 0;
+    const double velocity = conditions_of(cycles->cycle, cycles->n).velocity;
+    return (time[last] - time[0]) *
+           (isnan(velocity) ? velocity_of_strokes(cycles, length) : velocity);
+}
+
+/* As given, else of strokes half of their path, else a circumference. */
+static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycles,
+                                wt_estimate radius)
+{
+    if (given(job->track_length))
+        return job->track_length;
+    if (cycles->kind != WT_CYCLE_STROKE)
+        return (wt_estimate){2 * M_PI * radius.value, 2 * M_PI * radius.standard_error, 0, "m"};
+    double path = 0;
     for (size_t i = 0; i < cycles->n; i++)
-        if (!isnan(cycles->cycle[i].velocity)) {
-            sum += cycles->cycle[i].velocity;
-            n++;
-        }
-    return sum / n * (time[last] - time[0]);
+        path += cycles->cycle[i].velocity * cycles->cycle[i].duration;
+    return (wt_estimate){path / (2 * (double)cycles->n), 0, 0, "m"};
 }
 
 static wt_estimate load_of(const wt_record_job *job, const wt_cycles *cycles)
@@ -81,7 +103,16 @@ static wt_estimate load_of(const wt_record_job *job, const wt_cycles *cycles)
     return (wt_estimate){load, load * error, 0, "N"};
 }
 
-/* Depth at the end over that at the beginning, each by the cycles there. */
+/* Share of the whole depth that lies between the means of the first and of the last cycles, `part`
+ * of them all at either end: by Archard's law the cap of a ball grows with the distance, and its
+ * depth with the power 2/3 of it. */
+static double share_between_ends(double part)
+{
+    return 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3));
+}
+
+/* Depth at the end over that at the beginning, by the cycles there. What is added for their halves
+ * hangs on the law of wear, and half of it is an error. */
 static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
 {
     const size_t n = cycles->n / END_SHARE > END_LEAST ? cycles->n / END_SHARE : END_LEAST;
@@ -97,10 +128,13 @@ static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error 
         status = wt_steady_mean(y, n, &end[e], err);
     }
     free(y);
-    if (status == WT_OK)
-        *depth =
-            (wt_estimate){end[1].mean.value - end[0].mean.value,
-                          hypot(end[0].mean.standard_error, end[1].mean.standard_error), 0, "m"};
+    if (status == WT_OK) {
+        const double seen = end[1].mean.value - end[0].mean.value,
+                     share = share_between_ends((double)n / (double)cycles->n),
+                     scatter =
+                         hypot(end[0].mean.standard_error, end[1].mean.standard_error) / share;
+        *depth = (wt_estimate){seen / share, hypot(scatter, 0.5 * seen * (1 / share - 1)), 0, "m"};
+    }
     return status;
 }
 
@@ -114,7 +148,20 @@ static wt_estimate cap_of(wt_estimate depth, double radius)
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-static void set_rate(wear_row *r, wt_estimate load, const char *of_ball)
+/* Why there is no rate: the first thing that is not known. */
+static const char *what_lacks(const wear_row *r, wt_estimate load, bool strokes)
+{
+    if (isnan(load.value))
+        return "no load: give --load";
+    if (isnan(r->distance))
+        return strokes ? "no distance: give --track-length" : "no distance: give --track-radius";
+    if (r->depth.value <= 0)
+        return "the depth of the record does not grow";
+    return strokes ? "no volume: give --track-length"
+                   : "no volume: give --track-length or --track-radius";
+}
+
+static void set_rate(wear_row *r, wt_estimate load, bool strokes, const char *of_ball)
 {
     const double value = r->volume.value / (load.value * r->distance),
                  error = hypot(relative(r->volume), relative(load));
@@ -122,12 +169,10 @@ static void set_rate(wear_row *r, wt_estimate load, const char *of_ball)
     r->rate = (wt_interval){value, none, none, none};
     if (!(value > 0)) {
         r->rate.value = none;
-        r->note = isnan(load.value)    ? "no load: give --load"
-                  : isnan(r->distance) ? "no distance: give --track-radius"
-                                       : "no volume: give --track-length or --track-radius";
+        r->note = what_lacks(r, load, strokes);
     } else if (error > 0) {
-        r->rate = (wt_interval){value, value * error, value * exp(-normal_95 * error),
-                                value * exp(normal_95 * error)};
+        r->rate = (wt_interval){value, value * error, value * exp(-NORMAL_95 * error),
+                                value * exp(NORMAL_95 * error)};
         r->note = of_ball;
     } else {
         r->note = "no error of what was lost is given";
@@ -147,62 +192,69 @@ static void set_ball(const wt_record_job *job, wt_estimate load, double track_ra
     r->duty = 3 * r->ball.contact_radius / (8 * track_radius);
 }
 
-static void put(const wt_record_job *job, const char *of, wt_estimate volume, wear_row *r,
-                wt_estimate load, table_writer *t, wear_rates *rates)
+/* Where the rows of a record go, and what they have in common. */
+typedef struct wear_rows {
+    const wt_record_job *job;
+    wear_row row;
+    wt_estimate load;
+    bool strokes;
+    table_writer *t;
+    several *rates;
+} wear_rows;
+
+static void put(wear_rows *rows, const char *of, wt_estimate volume)
 {
-    const bool large = r->ball.contact_radius > small_contact * job->ball_radius.value;
+    wear_row *const r = &rows->row;
+    const bool large = r->ball.contact_radius > small_contact * rows->job->ball_radius.value;
     r->of = of;
     r->volume = volume;
-    set_rate(r, load, large ? "the contact is large against the ball" : "");
-    wear_add_row(t, r);
-    if (isnan(r->rate.value))
-        return;
-    rates->n++;
-    rates->sum += r->rate.value;
-    rates->squares += r->rate.value * r->rate.value;
-    rates->own += r->rate.standard_error * r->rate.standard_error;
+    if (!(volume.standard_error > 0)) /* none was given */
+        r->volume.standard_error = (double)NAN;
+    set_rate(r, rows->load, rows->strokes, large ? "the contact is large against the ball" : "");
+    wear_add_row(rows->t, r);
+    if (!isnan(r->rate.value))
+        several_add(rows->rates, (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
+}
+
+static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_estimate length)
+{
+    const wt_estimate none = {(double)NAN, (double)NAN, 0, "m^3"};
+    return depth.value > 0 && depth.value < ball_radius
+               ? product(cap_of(depth, ball_radius), length, "m^3")
+               : none;
 }
 
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
-                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
+                   wt_estimate radius, const char *file, table_writer *t, several *rates,
                    wt_error *err)
 {
-    const wt_estimate load = load_of(job, cycles),
-                      round = {2 * M_PI * radius.value, 2 * M_PI * radius.standard_error, 0, "m"},
-                      length = given(job->track_length) ? job->track_length : round;
-    wear_row r = {.distance = distance_of(record, cycles, radius.value),
-                  .normal_force = load.value,
-                  .depth = {(double)NAN, (double)NAN, 0, "m"},
-                  .file = file};
-    set_ball(job, load, radius.value, &r);
+    const double none = (double)NAN;
+    const wt_estimate length = track_length(job, cycles, radius);
+    wear_rows rows = {.job = job,
+                      .load = load_of(job, cycles),
+                      .strokes = cycles->kind == WT_CYCLE_STROKE,
+                      .t = t,
+                      .rates = rates};
+    wear_row *const r = &rows.row;
+    *r = (wear_row){.distance = distance_of(record, cycles, radius.value, job->track_length.value),
+                    .normal_force = rows.load.value,
+                    .depth = {none, none, 0, "m"},
+                    .file = file};
+    set_ball(job, rows.load, radius.value, r);
     if (given(job->mass_loss)) {
         const wt_estimate inverse = {1 / job->density.value,
                                      relative(job->density) / job->density.value, 0, "m^3/kg"};
-        put(job, "mass", product(job->mass_loss, inverse, "m^3"), &r, load, t, rates);
+        put(&rows, "mass", product(job->mass_loss, inverse, "m^3"));
     }
     if (given(job->track_area))
-        put(job, "area of the track", product(job->track_area, length, "m^3"), &r, load, t, rates);
+        put(&rows, "area of the track", product(job->track_area, length, "m^3"));
     wt_status status = WT_OK;
     if (given(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
-        status = depth_of(cycles, &r.depth, err);
-    const double h = r.depth.value;
-    if (status == WT_OK && h > 0 && h < job->ball_radius.value)
-        put(job, "depth of the record",
-            product(cap_of(r.depth, job->ball_radius.value), length, "m^3"), &r, load, t, rates);
+        status = depth_of(cycles, &r->depth, err);
+    if (status == WT_OK && !isnan(r->depth.value))
+        put(&rows, "depth of the record",
+            volume_of_depth(r->depth, job->ball_radius.value, length));
     else if (status == WT_OK && !given(job->mass_loss) && !given(job->track_area))
-        put(job, "nothing", (wt_estimate){(double)NAN, (double)NAN, 0, "m^3"}, &r, load, t, rates);
+        put(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
     return status;
-}
-
-void wear_set_keys(const wear_rates *rates, table_writer *t)
-{
-    if (!(rates->n > 0))
-        return;
-    const double mean = rates->sum / rates->n,
-                 between = rates->n > 1 ? (rates->squares - rates->n * mean * mean) /
-                                              (rates->n * (rates->n - 1))
-                                        : 0;
-    wear_set(
-        t, WEAR_KEY_RATE,
-        (wt_estimate){mean, sqrt(fmax(rates->own / (rates->n * rates->n), between)), 0, "m^2/N"});
 }

@@ -142,6 +142,8 @@ wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const cha
                     .why = why,
                     .size = size};
     const wt_table *const failures = wt_result_find(result, "failures");
+    if (wt_provenance_command(k.made_of)[0] == '\0')
+        differs(&k, "it does not say what it was made of (--no-provenance)");
     if (strcmp(wt_provenance_version(k.made_of), wt_version()) != 0)
         differs(&k, "it was made by another version of weartrack");
     if (!is_same_command(wt_provenance_command(k.made_of), command))

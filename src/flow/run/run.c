@@ -58,10 +58,15 @@ static bool stands_in(const conduct *d, size_t i)
     return false;
 }
 
-static wt_status report_progress(const conduct *d, const char *what, wt_error *err)
+static wt_status report_progress(const conduct *d, size_t stage, const char *what, wt_error *err)
 {
     const wt_progress *progress = &d->run.job.progress;
-    if (progress->report != NULL && !progress->report(progress->user, what, 0, 0))
+    size_t number = 0, n = 0;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        n += d->run.plan.chosen[i];
+        number += i <= stage && d->run.plan.chosen[i];
+    }
+    if (progress->report != NULL && !progress->report(progress->user, what, number, n))
         return wt_fail(err, WT_E_CANCELLED, "cancelled");
     return WT_OK;
 }
@@ -89,7 +94,7 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
     flow_plan *plan = &d->run.plan;
     char title[160], stage[96], text[384];
     flow_stage_title(i, level, title, sizeof title);
-    wt_status status = report_progress(d, title, err);
+    wt_status status = report_progress(d, i, title, err);
     if (status != WT_OK)
         return status;
     cost_begin(d->cost, flow_stages[i].id, because);
@@ -212,7 +217,8 @@ static void warn_of_copies(const conduct *d)
         const wt_provenance_input *a = wt_provenance_get_input(p, i);
         for (size_t k = i + 1; k < n; k++) {
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
-            if (a->bytes == b->bytes && a->fingerprint == b->fingerprint)
+            const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
+            if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
                 wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
                                 "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }

@@ -119,7 +119,8 @@ static void law_words(const wt_common_law *law, double reference, char *text, si
         clocale_print(text, size, "wlf:reference-temperature=%.6gdegC,c1=%.6g,c2=%.6gK",
                       reference - WT_ZERO_CELSIUS, law->c1.value, law->c2.value);
     else
-        clocale_print(text, size, "arrhenius:activation-energy=%.6g", law->activation_energy.value);
+        clocale_print(text, size, "arrhenius:activation-energy=%.6gkJ/mol",
+                      law->activation_energy.value / 1000);
 }
 
 /* A list with room for what is said of each sample. */

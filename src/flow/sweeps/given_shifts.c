@@ -38,8 +38,8 @@ static arrhenius no_arrhenius(void)
 }
 
 static const wt_param arrhenius_rows[] = {
-    {PARAM("activation-energy", arrhenius, activation_energy, WT_Q_NONE, ABOVE(0)),
-     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "activation energy in J/mol"},
+    {PARAM("activation-energy", arrhenius, activation_energy, WT_Q_MOLAR_ENERGY, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "activation energy"},
 };
 PARAM_LOCAL_TABLE(arrhenius_params, arrhenius, arrhenius_rows, no_arrhenius, NO_PARTS)
 
@@ -51,7 +51,7 @@ static const flow_law_text wlf_text = {.prefix = "wlf:",
 static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
                                              .name = "law of Arrhenius",
                                              .what = "the law of Arrhenius",
-                                             .example = "activation-energy=80e3",
+                                             .example = "activation-energy=80kJ/mol",
                                              .params = arrhenius_params};
 
 static void advise_law(const char *text, wt_error *err)

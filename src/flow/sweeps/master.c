@@ -46,7 +46,7 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
      .help = "law that gives all horizontal shifts of the DMA: "
              "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
-             "arrhenius:activation-energy=80e3 (J/mol); its errors are in no interval",
+             "arrhenius:activation-energy=80kJ/mol; its errors are in no interval",
      .check = check_law},
 };
 PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,

@@ -103,6 +103,12 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_input *input = NULL;
         wt_error failure = WT_ERROR_INIT;
+        const wt_progress *progress = &work->progress;
+        if (progress->report != NULL &&
+            !progress->report(progress->user, "DMA file", i + 1, files.n)) {
+            status = wt_fail(err, WT_E_CANCELLED, "cancelled");
+            continue;
+        }
         status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
         if (status == WT_OK) {
             const wt_read_options options = flow_read_options(&files.file[i]);

@@ -163,7 +163,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
         }
         if (*found != paths[i]) {
             wt_parselog_add(work->log, WT_WARNING, paths[i], NULL,
-                            "named more than once; its curves are taken once");
+                            "named more than once; it is taken once");
             continue;
         }
         status = files_add(files, paths[i], pattern, set, err);

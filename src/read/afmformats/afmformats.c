@@ -58,16 +58,20 @@ static wt_status print_rows(FILE *out, const curve_text *curve, const double *se
     return WT_OK;
 }
 
-/* A column of the right length and unit; NULL if there is none. */
+/* A column of the right length and unit; NULL if there is none. One whose numbers are damaged is
+ * not left out: what follows from it would be missing without a word. */
 static double *column(hid_t group, const char *name, const char *unit, size_t size, size_t n,
-                      bool *wrong)
+                      const char **wrong)
 {
     char text[HDF5_TEXT];
     size_t own = 0;
     const hid_t data = hdf5_open_data(group, name);
     double *values = data >= 0 ? hdf5_values(data, size, &own) : NULL;
-    if (values != NULL && (own != n || (hdf5_text(data, "unit", text) && strcmp(text, unit) != 0)))
-        *wrong = true;
+    if (values == NULL && H5Lexists(group, name, H5P_DEFAULT) > 0)
+        *wrong = "the numbers of a column cannot be read";
+    else if (values != NULL &&
+             (own != n || (hdf5_text(data, "unit", text) && strcmp(text, unit) != 0)))
+        *wrong = "a column has another length or unit";
     hdf5_close(data);
     return values;
 }
@@ -81,7 +85,7 @@ static wt_status print_curve(hid_t group, const char *name, size_t number, size_
                         .cantilever = {.spring_constant = hdf5_number(group, "spring constant", 0),
                                        .sensitivity = hdf5_number(group, "sensitivity", 0)}};
     double *values[COLUMNS] = {NULL};
-    bool wrong = false;
+    const char *wrong = NULL;
     size_t n = 0;
     const hid_t data = hdf5_open_data(group, "segment");
     double *segments = data >= 0 ? hdf5_values(data, size, &n) : NULL;
@@ -94,11 +98,8 @@ static wt_status print_curve(hid_t group, const char *name, size_t number, size_
         curve.columns[curve.n_columns++].values = values[i];
     }
     wt_status status = WT_OK;
-    if (segments == NULL || wrong) {
-        status = bad_curve(name,
-                           wrong ? "a column has another length or unit"
-                                 : "there are no numbers of segments",
-                           err);
+    if (segments == NULL || wrong != NULL) {
+        status = bad_curve(name, wrong != NULL ? wrong : "there are no numbers of segments", err);
     } else {
         curve_text_begin(out, &curve);
         status = print_rows(out, &curve, segments, n, name, err);

@@ -85,6 +85,9 @@ void jpk_file_close(jpk_file *file); /* accepts a zero-initialised one */
 /* Position and place in the grid of the curve that refs[ref] belongs to; unknown ones are NaN and
  * -1. */
 void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve);
+/* Warns where the curve, whose position was asked for, has less segments than its header counts; n:
+ * how many there are, from refs[ref] on. */
+void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n);
 
 /* ---- a segment: jpk_segment.c ------------------------------------------------------------- */
 

@@ -206,5 +206,23 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
         if (place >= 0 && place < 1e9)
             number = (size_t)place;
     }
+    if (file->map && file->position.n > 0 && (isnan(curve->x) || isnan(curve->y)))
+        wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
+                        "the header of a curve says no position, as where it was cut");
     (void)force_place(file->columns, file->rows, file->back_and_forth, number, curve);
+}
+
+void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n)
+{
+    const property_list *const header = file->map ? &file->position : &file->header;
+    char key[192];
+    if (!root_key(header, "force-segments.", key, sizeof key))
+        return;
+    const double stated = properties_number(header, key, "count");
+    if (stated > (double)n)
+        wt_parselog_add(file->log, WT_WARNING, file->name,
+                        archive_name(file->archive, file->refs[ref].entry),
+                        "the curve has %zu of the %.0f segments that its header counts: entries of "
+                        "the archive are missing",
+                        n, stated);
 }

@@ -118,6 +118,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     source->next = end;
     curve->index = file->refs[first].curve;
     jpk_file_position(file, first, curve);
+    jpk_file_check_segments(file, first, end - first);
     return read_curve(source, first, end, curve, err);
 }
 

@@ -259,6 +259,10 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
         wt_error_place(err, "%s", folder);
         return status;
     }
+    if (segment->n_channels == 0) /* one of no duration lists them all the same */
+        wt_parselog_add(file->log, WT_WARNING, file->name, folder,
+                        "the header of the segment lists no channels: it was cut or damaged, and "
+                        "the segment is left out");
     read_settings(file, segment);
     common_length(file, segment, folder);
     return WT_OK;

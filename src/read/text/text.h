@@ -278,10 +278,10 @@ extern const struct force_stream text_force;
 /* The same without reading to the end first: how many curves there are is not known. Not for a
  * reader that makes a text (as_text). */
 extern const struct force_stream text_force_first;
-/* Warns where steps of time or height that are all equal have a gap within the rows of a segment.
- */
-void text_check_steps(const text_file *file, const text_table *t, wt_segment_kind kind,
-                      size_t first, size_t end, wt_parselog *log);
+/* Warns where steps of time or height that are all equal are broken within these rows, of a segment
+ * (negative: of none). */
+void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
+                      size_t end, wt_parselog *log);
 /* Curves of the tables at hand that have what a file of one of the kinds needs; kinds 0: of all, as
  * they are read, also those that turn out to be errors. */
 size_t text_count_curves(const text_file *file, unsigned kinds);

@@ -109,7 +109,7 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
     facts.n_points = rows.end - rows.first;
     facts.duration = duration_of(t, kind, rows);
     s->rows = rows;
-    text_check_steps(s->file, t, kind, rows.first, rows.end, s->base.log);
+    text_check_steps(s->file, t, (int)kind, rows.first, rows.end, s->base.log);
     return force_add_segment(&s->base, &facts, curve, err);
 }
 

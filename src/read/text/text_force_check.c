@@ -1,4 +1,4 @@
-/* What a segment of a text export says against itself: rows that are not there.
+/* What rows of a text export say against themselves: some are missing, there twice or elsewhere.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,50 +10,68 @@
 
 /* Steps that show which one is usual, and the fewest to say anything. */
 enum { FIRST = 5, STEPS_LEAST = 20 };
-/* Equal steps are printed with three digits at least; a row that is not there makes a step of two.
- */
-static const double equal = 0.01, gap_least = 1.5;
+/* Equal steps are printed with three digits at least; a row that is not there makes a step of two,
+ * one that is there twice or a wrong number a step that is none. */
+static const double equal = 0.01, gap_least = 1.5, wrong_most = 0.5;
+/* Of these at most, or the steps are another thing: a part that stands elsewhere makes three, two
+ * that changed places four. */
+enum { WRONG_MAX = 4 };
 
-/* The first step that is a gap between equal ones; 0 unless all others are equal: a ramp of two
- * rates, steps that scatter and a height that is measured are none of this. */
-static size_t find_gap(const text_table *t, size_t first, size_t end, const text_column *c,
-                       size_t *n_gaps)
+typedef struct broken_steps {
+    size_t first; /* row behind the first of them; 0: none, or the others are not equal */
+    size_t gaps;  /* with equal steps on both sides */
+    size_t wrong; /* others */
+} broken_steps;
+
+/* Breaks of steps that else are all equal: a ramp of two rates, steps that scatter and a height
+ * that is measured with noise are none of this. The first and the last step may be parts of one. */
+static broken_steps find_breaks(const text_table *t, size_t first, size_t end, const text_column *c)
 {
+    static const broken_steps none = {0, 0, 0};
     double start[FIRST];
-    size_t found = 0;
-    bool after_gap = true; /* a gap has equal steps on both sides */
+    broken_steps found = none;
+    bool after_gap = true;
     for (size_t i = 0; i < FIRST; i++)
         start[i] = text_table_value(t, first + i + 1, c) - text_table_value(t, first + i, c);
     const double usual = numbers_median(start, FIRST);
-    *n_gaps = 0;
     for (size_t row = first + 1; row < end; row++) {
         const double steps =
             (text_table_value(t, row, c) - text_table_value(t, row - 1, c)) / usual;
-        const bool even = fabs(steps - 1) <= equal,
-                   gap = steps >= gap_least && !after_gap && row + 1 < end;
-        if (!even && !(gap && isfinite(steps)))
-            return 0;
-        found = gap && found == 0 ? row : found;
-        *n_gaps += gap;
-        after_gap = gap;
+        const bool even = fabs(steps - 1) <= equal, inner = row > first + 1 && row + 1 < end;
+        const bool gap = steps >= gap_least && !after_gap && inner;
+        const bool wrong = !gap && (steps >= gap_least || steps <= wrong_most) && inner;
+        if (!isfinite(steps) || (!even && !gap && !wrong))
+            return none;
+        found.gaps += gap;
+        found.wrong += wrong;
+        found.first = !even && found.first == 0 ? row : found.first;
+        after_gap = !even;
     }
-    return found;
+    return found.wrong <= WRONG_MAX ? found : none;
 }
 
-void text_check_steps(const text_file *file, const text_table *t, wt_segment_kind kind,
-                      size_t first, size_t end, wt_parselog *log)
+void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
+                      size_t end, wt_parselog *log)
 {
-    static const wt_quantity even[] = {WT_Q_TIME, WT_Q_HEIGHT};
+    static const wt_quantity even[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT};
     for (size_t i = 0; i < COUNT_OF(even); i++) {
-        const text_column *const c = text_table_column(t, even[i], (int)kind);
-        size_t n_gaps = 0;
-        const size_t row =
-            c != NULL && end > first + STEPS_LEAST ? find_gap(t, first, end, c, &n_gaps) : 0;
-        if (row == 0)
+        const text_column *const c = text_table_column(t, even[i], segment);
+        const broken_steps broken = c != NULL && end > first + STEPS_LEAST
+                                        ? find_breaks(t, first, end, c)
+                                        : (broken_steps){0, 0, 0};
+        if (broken.first == 0)
             continue;
-        wt_parselog_add(log, WT_WARNING, file->name, line_place(t->row_lines[row]).words,
-                        "the equal steps of %s have %zu gap%s from here on: are rows missing?",
-                        c->name, n_gaps, n_gaps > 1 ? "s" : "");
+        const text_place place = line_place(t->row_lines[broken.first]);
+        if (broken.wrong == 0)
+            wt_parselog_add(log, WT_WARNING, file->name, place.words,
+                            "the equal steps of %s have %zu gap%s from here on: are rows missing?",
+                            c->name, broken.gaps, broken.gaps > 1 ? "s" : "");
+        else
+            wt_parselog_add(log, WT_WARNING, file->name, place.words,
+                            "the equal steps of %s are broken at %zu place%s from here on: are "
+                            "rows missing, there twice, moved or changed?",
+                            c->name, broken.gaps + broken.wrong,
+                            broken.gaps + broken.wrong > 1 ? "s" : "");
         return;
     }
 }

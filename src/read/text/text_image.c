@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/array.h"
 #include "read/images.h"
 #include "read/text/text.h"
 #include "read/text/text_axis.h"
@@ -119,12 +120,6 @@ static wt_status add_profile(const imaging *m, const text_column *x, const text_
     return status;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The axis of the distinct places of a column. */
 static wt_status column_axis(const imaging *m, const text_column *column, text_axis *axis)
 {
@@ -139,7 +134,7 @@ static wt_status column_axis(const imaging *m, const text_column *column, text_a
         if (!isfinite(places[row]))
             status = no_place(m, column, row);
     }
-    qsort(places, t->n_rows, sizeof *places, by_value);
+    numbers_sort(places, t->n_rows);
     for (size_t i = 0; i < t->n_rows; i++)
         if (n == 0 || places[i] > places[n - 1])
             places[n++] = places[i];

@@ -84,7 +84,9 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
             wt_error_advice(err, "for example --units \"E'=MPa\"");
             return WT_E_ARG;
         }
-        if (!p->has_unit[u])
+        if (p->options.unit_used != NULL && p->has_unit[u])
+            __atomic_store_n(&p->options.unit_used[u], true, __ATOMIC_RELAXED);
+        else if (p->options.unit_used == NULL && !p->has_unit[u])
             wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
                             "a unit is given for \"%.*s\", but there is no such column",
                             (int)(equal - unit), unit);

@@ -128,6 +128,25 @@ static void turn_load(const text_file *file, wt_record *record, wt_parselog *log
                     "the normal force is negative when it presses; it is turned round");
 }
 
+/* Without a column that is not needed there is a record, but not what the user thinks it holds. */
+static void log_problems(const text_file *file, const text_table *t, wt_parselog *log)
+{
+    for (size_t i = 0; i < t->n_problems; i++) {
+        const text_column *const c = &t->problems[i];
+        const char *const quantity = wt_quantity_id(c->rule->quantity);
+        if (c->problem == COLUMN_BAD_UNIT)
+            wt_parselog_add(log, WT_WARNING, file->name, NULL,
+                            "column \"%s\" is not read: \"%s\" is no unit of %s", c->name, c->unit,
+                            quantity);
+        else if (c->problem == COLUMN_NO_UNIT)
+            wt_parselog_add(
+                log, WT_WARNING, file->name, NULL,
+                "column \"%s\" is not read: the file does not say its unit (%s; give it "
+                "with --units)",
+                c->name, quantity);
+    }
+}
+
 static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log, wt_error *err)
 {
     size_t step = 0, left_out = 0;
@@ -138,6 +157,7 @@ static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log
         status = text_table_require(t, WT_KIND_RECORD, err);
         if (status == WT_OK)
             add_table(t, record, &step, &left_out);
+        log_problems(file, t, log);
         if (isnan(record->radius))
             record->radius = t->header.value[HEADER_RADIUS];
         step += record->n > before;
@@ -149,6 +169,19 @@ static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log
                         "%zu row%s without friction or without a time left out", left_out,
                         left_out == 1 ? "" : "s");
     return status;
+}
+
+/* A step of a recipe may count its time anew. */
+static void check_steps(const text_file *file, wt_parselog *log)
+{
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const text_table *const t = &file->tables[i];
+        for (size_t first = 0, end = 0; first < t->n_rows; first = end) {
+            while (end < t->n_rows && t->blocks[end] == t->blocks[first])
+                end++;
+            text_check_steps(file, t, -1, first, end, log);
+        }
+    }
 }
 
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
@@ -171,6 +204,7 @@ wt_status text_read_record(const file_reader *self, wt_input *input, const wt_re
         status = run_on(&file, &made, WT_RECORD_LAPS, "the number of laps", err);
     if (status == WT_OK) {
         turn_load(&file, &made, log);
+        check_steps(&file, log);
         *record = made;
     } else {
         wt_record_clear(&made);

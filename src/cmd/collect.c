@@ -1,0 +1,73 @@
+/* weartrack collect: results of cases side by side. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/tables.h"
+
+/* The results that can be read; the call goes on without the others. */
+static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **results)
+{
+    const wt_progress *progress = &s->work.progress;
+    size_t n = 0;
+    for (size_t i = 0; i < s->n_files; i++) {
+        const char *path = s->files[i];
+        wt_result *result = NULL;
+        if (progress->report != NULL)
+            (void)progress->report(progress->user, "result", i + 1, s->n_files);
+        wt_status read = wt_tables_read(
+            path, path, &s->work, (wt_tables_role){"result", "result", "what weartrack run wrote"},
+            &result, &s->err);
+        if (read == WT_OK && wt_result_find(result, "answer") == NULL) {
+            read = wt_fail(&s->err, WT_E_NOT_FOUND, "this is no result of a case");
+            wt_error_file(&s->err, path);
+            wt_error_advice(&s->err, "give what weartrack run wrote");
+        }
+        if (read != WT_OK) {
+            wt_error_file(&s->err, path);
+            cmd_fail_one(s);
+            wt_result_free(result);
+            continue;
+        }
+        cmd_tables_remarks(s, path, result);
+        results[n] = result;
+        cases[n++] = (wt_collected){result, path};
+    }
+    return n;
+}
+
+int cmd_collect(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "collect",
+        .arguments = "[OPTION]... RESULT...",
+        .what = "Sets the results of cases side by side by their <sample> and <condition>: modulus "
+                "of bulk and track against the indentation rate, friction against velocity, and "
+                "whether the track of one condition or sample is more different from its bulk than "
+                "that of another, corrected for the number of pairs.",
+        .common = "output files-from provenance",
+        .notes = "The tables collection, collected_modulus, collected_friction and ratio_pairs "
+                 "follow one another; weartrack report draws them.",
+        .n_files = CMD_SOME,
+        .files = "no result given"};
+    wt_collect_job job = wt_collect_job_defaults();
+    cmd_part part = {wt_collect_job_params(), &job, NULL, 0};
+    cmd_session s = cmd_session_defaults();
+    wt_collection_tables tables = {0};
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin(&s))
+        return cmd_session_free(&s);
+    wt_collected *cases = calloc(s.n_files, sizeof *cases);
+    wt_result **results = calloc(s.n_files, sizeof *results);
+    const bool room = cases != NULL && results != NULL;
+    const size_t n = room ? read_cases(&s, cases, results) : 0;
+    wt_status made = room ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    if (made == WT_OK && n == 0)
+        s.status = CMD_FAILED;
+    else if (made == WT_OK)
+        made = wt_collect(cases, n, &job, &tables, &s.err);
+    wt_table **const made_tables[] = {&tables.collection, &tables.collected_modulus,
+                                      &tables.collected_friction, &tables.ratio_pairs};
+    if (n > 0 || made != WT_OK)
+        cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+    for (size_t i = 0; i < n; i++)
+        wt_result_free(results[i]);
+    free(results);
+    free(cases);
+    return cmd_session_free(&s);
+}

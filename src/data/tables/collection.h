@@ -1,0 +1,80 @@
+/* The columns and keys of the tables that set the results of cases side by side, by sample and
+ * condition. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_COLLECTION_H
+#define WT_DATA_TABLES_COLLECTION_H
+
+#define OF_CASE(X, ID)                                                                             \
+    X(ID##_SAMPLE, AS(sample), "rubber", TEXT, LABEL("Sample"))                                    \
+    X(ID##_CONDITION, AS(condition), "what made the wear track", TEXT, LABEL("Condition"))
+
+/* A row for each case. */
+#define COLLECTION_COLUMNS(X)                                                                      \
+    OF_CASE(X, COLLECTION)                                                                         \
+    VALUE_AND_INTERVAL(X, COLLECTION_RATIO, "modulus_ratio",                                       \
+                       "modulus of the track over that of the bulk", NUMBER, SHOWS(ratio),         \
+                       LABEL("Track / bulk"), SPARSE)                                              \
+    X(COLLECTION_DIFFERS, AS(differs), "does the wear track differ: yes, no or cannot say", TEXT,  \
+      LABEL("Differs"))                                                                            \
+    VALUE_AND_INTERVAL(X, COLLECTION_THICKNESS, "balance_thickness",                               \
+                       "thickness of the layer where formation balances wear", SI(LENGTH),         \
+                       SHOWS(thickness), LABEL("Layer thickness"), SPARSE)                         \
+    VALUE_AND_INTERVAL(X, COLLECTION_CHANGE, "friction_change",                                    \
+                       "relative change of the friction by the layer", NUMBER, SHOWS(change),      \
+                       LABEL("Change of friction"), SPARSE)                                        \
+    X(COLLECTION_FILE, AS(file), "result", TEXT, LABEL("File"))
+#define COLLECTION_KEYS(X)                                                                         \
+    X(COLLECTION_KEY_CASES, AS(cases), NUMBER, LABEL("Cases"))                                     \
+    X(COLLECTION_KEY_SAMPLES, AS(samples), NUMBER, LABEL("Samples"))                               \
+    X(COLLECTION_KEY_CONDITIONS, AS(conditions), NUMBER, LABEL("Conditions"))
+
+/* A block for each group of each case. */
+#define COLLECTED_MODULUS_COLUMNS(X)                                                               \
+    OF_CASE(X, COLLECTED_MODULUS)                                                                  \
+    X(COLLECTED_MODULUS_PLACE, AS(place), "bulk, or the condition of the track", TEXT)             \
+    X(COLLECTED_MODULUS_RATE, "indentation_rate", "geometric mean of the indentation rate",        \
+      SI(VELOCITY), SHOWS(rate))                                                                   \
+    VALUE_AND_INTERVAL(X, COLLECTED_MODULUS_MODULUS, "modulus", "geometric mean of the modulus",   \
+                       SI(MODULUS), SHOWS(modulus))
+#define COLLECTED_MODULUS_KEYS(X)
+
+/* A block for each case. */
+#define COLLECTED_FRICTION_COLUMNS(X)                                                              \
+    OF_CASE(X, COLLECTED_FRICTION)                                                                 \
+    X(COLLECTED_FRICTION_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                 \
+    X(COLLECTED_FRICTION_FRICTION, AS(friction),                                                   \
+      "friction coefficient, or its hysteresis part where no shear stress is given", NUMBER,       \
+      STANDARD_ERROR(COLLECTED_FRICTION_FRICTION))                                                 \
+    X(COLLECTED_FRICTION_FRICTION_STANDARD_ERROR, "friction_standard_error", "its standard error", \
+      NUMBER, SHOWS(standard_error))                                                               \
+    X(COLLECTED_FRICTION_WITH_LAYER, AS(with_layer),                                               \
+      "friction coefficient with the modified layer", NUMBER, SPARSE)
+#define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), TEXT)
+
+/* Of every two cases of one sample or of one condition: by how much more the track of the first
+ * differs from its bulk. */
+#define RATIO_PAIRS_COLUMNS(X)                                                                     \
+    X(RATIO_PAIRS_OF, AS(of), "sample or condition that both have", TEXT, LABEL("Of"))             \
+    X(RATIO_PAIRS_FIRST, AS(first), "condition or sample of the first", TEXT, LABEL("First"))      \
+    X(RATIO_PAIRS_SECOND, AS(second), "that of the second", TEXT, LABEL("Second"))                 \
+    VALUE_AND_INTERVAL(X, RATIO_PAIRS_RATIO, "ratio",                                              \
+                       "modulus ratio of the first over that of the second", NUMBER, SHOWS(ratio), \
+                       LABEL("Ratio of the ratios"), SPARSE)                                       \
+    X(RATIO_PAIRS_DF, AS(df), "degrees of freedom of its error; nan: a normal one", NUMBER,        \
+      LABEL("Degrees of freedom"), SPARSE)                                                         \
+    X(RATIO_PAIRS_P, AS(p), "two-sided p of Welch's test of their logarithms", NUMBER, LABEL("p"), \
+      DIGITS(2), SPARSE)                                                                           \
+    X(RATIO_PAIRS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of pairs", NUMBER, \
+      LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
+    X(RATIO_PAIRS_DIFFER, AS(differ), "do they differ: yes, no within the margin, cannot say",     \
+      TEXT, LABEL("Differ"))
+#define RATIO_PAIRS_KEYS(X)                                                                        \
+    X(RATIO_PAIRS_KEY_PAIRS, AS(pairs), NUMBER, LABEL("Pairs compared"))                           \
+    X(RATIO_PAIRS_KEY_DIFFERENT, "pairs_that_differ", NUMBER, SHOWS(different),                    \
+      LABEL("Pairs that differ"), HEADLINE("Pairs that differ"))                                   \
+    X(RATIO_PAIRS_KEY_UNDECIDED, AS(undecided), NUMBER, LABEL("Pairs of which it cannot be said")) \
+    X(RATIO_PAIRS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))                \
+    X(RATIO_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),     \
+      OPTIONAL)                                                                                    \
+    X(RATIO_PAIRS_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin))
+
+#endif

@@ -1,0 +1,228 @@
+/* Results of cases side by side, by sample and condition.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/collection/collect.h"
+#include "flow/comparison/margin.h"
+
+#include "base/array.h"
+#include "data/tables/rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+wt_collect_job wt_collect_job_defaults(void)
+{
+    return (wt_collect_job){.margin = 0.2};
+}
+
+static const wt_param rows[] = {EQUIVALENCE_MARGIN(wt_collect_job)};
+PARAM_TABLE(wt_collect_job_params, wt_collect_job, rows, wt_collect_job_defaults, NO_PARTS)
+
+void wt_collection_tables_clear(wt_collection_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->collection);
+    wt_table_free(tables->collected_modulus);
+    wt_table_free(tables->collected_friction);
+    wt_table_free(tables->ratio_pairs);
+    *tables = (wt_collection_tables){0};
+}
+
+TABLE_ROW(collection, COLLECTION, const char *sample, *condition; wt_interval ratio;
+          const char *differs; wt_interval thickness, change; const char *file;)
+TABLE_KEYS(collection, COLLECTION, double cases, samples, conditions;)
+TABLE_ROW(collected_modulus, COLLECTED_MODULUS, const char *sample, *condition, *place; double rate;
+          wt_interval modulus;)
+TABLE_ROW(collected_friction, COLLECTED_FRICTION, const char *sample, *condition;
+          double velocity, friction, standard_error, with_layer;)
+TABLE_KEYS(collected_friction, COLLECTED_FRICTION, const char *part;)
+
+/* ---- one case -------------------------------------------------------------------------------- */
+
+static const char *text_or(const char *text, const char *other)
+{
+    return text != NULL && text[0] != '\0' ? text : other;
+}
+
+static wt_status take_case(const wt_collected *from, collected_case *c, wt_error *err)
+{
+    table_view answer;
+    wt_status status = table_bind_of(from->result, &answer_schema, "", &answer, err);
+    if (status == WT_OK)
+        status = findings_bind(from->result, &c->tables, err);
+    if (status != WT_OK) {
+        wt_error_file(err, from->file);
+        return status;
+    }
+    const wt_estimate ratio = comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO);
+    c->file = from->file;
+    c->sample = text_or(answer_words(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
+    c->condition = text_or(answer_words(&answer, ANSWER_KEY_CASE_CONDITION), "");
+    c->ratio = (wt_log_ratio){
+        log(ratio.value), ratio.standard_error / ratio.value,
+        comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value};
+    return WT_OK;
+}
+
+static int by_sample(const void *a, const void *b)
+{
+    const collected_case *p = a, *q = b;
+    const int order = strcmp(p->sample, q->sample);
+    return order != 0 ? order : strcmp(p->condition, q->condition);
+}
+
+static wt_status check_names(const collected_case *cases, size_t n, wt_error *err)
+{
+    for (size_t i = 1; i < n; i++)
+        if (by_sample(&cases[i - 1], &cases[i]) == 0) {
+            wt_fail(err, WT_E_AMBIGUOUS, "two cases of sample \"%s\" and condition \"%s\"",
+                    cases[i].sample, cases[i].condition);
+            wt_error_file(err, cases[i].file);
+            wt_error_found(err, "%s too", cases[i - 1].file);
+            wt_error_advice(err, "name what tells them apart with <sample> and <condition> in the "
+                                 "case files");
+            return WT_E_AMBIGUOUS;
+        }
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static wt_interval interval_of(const finding *f)
+{
+    return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
+}
+
+/* "yes", "no" or "cannot say" of what the verdict says at length. */
+static const char *short_verdict(const char *verdict)
+{
+    static const char *const words[] = {"yes", "no", "cannot say"};
+    for (size_t i = 0; verdict != NULL && i < COUNT_OF(words); i++)
+        if (strncmp(verdict, words[i], strlen(words[i])) == 0)
+            return words[i];
+    return "not asked";
+}
+
+static size_t count_different(const collected_case *cases, size_t n, bool condition)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i && !seen; k++)
+            seen = strcmp(condition ? cases[k].condition : cases[k].sample,
+                          condition ? cases[i].condition : cases[i].sample) == 0;
+        found += !seen;
+    }
+    return found;
+}
+
+static wt_status list_cases(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
+{
+    table_writer w = table_begin(&collection_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const finding ratio = finding_of_ratio(&c->tables),
+                      thickness = finding_of_thickness(&c->tables),
+                      change = finding_of_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
+        TABLE_ADD(collection, &w, c->sample, c->condition, interval_of(&ratio),
+                  short_verdict(comparison_words(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
+                  interval_of(&thickness), interval_of(&change), c->file);
+    }
+    TABLE_SET(collection, &w, (double)n, (double)count_different(cases, n, false),
+              (double)count_different(cases, n, true));
+    return table_end(&w, table);
+}
+
+/* Rows of a rate, or one for all of a case that has none. */
+static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
+{
+    size_t n_rows = 0;
+    table_writer w = table_begin(&collected_modulus_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const table_view *rates = &c->tables.rates;
+        const char *before = "";
+        for (size_t row = 0; row < rates->n_rows; row++) {
+            const char *group = modulus_rate_text(rates, row, MODULUS_RATE_GROUP);
+            const bool bulk = strcmp(group, "bulk") == 0;
+            if (strcmp(group, before) != 0)
+                table_block(&w);
+            before = group;
+            TABLE_ADD(collected_modulus, &w, c->sample, c->condition,
+                      bulk ? "bulk" : text_or(c->condition, "track"),
+                      modulus_rate_get(rates, row, MODULUS_RATE_RATE),
+                      (wt_interval){modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
+                                    (double)NAN, modulus_rate_get(rates, row, MODULUS_RATE_LOW),
+                                    modulus_rate_get(rates, row, MODULUS_RATE_HIGH)});
+            n_rows++;
+        }
+    }
+    const wt_status status = table_end(&w, table);
+    if (status == WT_OK && n_rows == 0) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
+    return status;
+}
+
+static wt_status list_friction(const collected_case *cases, size_t n, wt_table **table,
+                               wt_error *err)
+{
+    bool total = true, any = false;
+    for (size_t i = 0; i < n; i++) {
+        const table_view *t = &cases[i].tables.friction;
+        any = any || t->n_rows > 0;
+        total = total && (t->n_rows == 0 || isfinite(friction_get(t, 0, FRICTION_TOTAL)));
+    }
+    if (!any)
+        return WT_OK;
+    table_writer w = table_begin(&collected_friction_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const table_view *t = &c->tables.friction;
+        if (t->n_rows > 0)
+            table_block(&w);
+        for (size_t row = 0; row < t->n_rows; row++) {
+            TABLE_ADD(collected_friction, &w, c->sample, c->condition,
+                      friction_get(t, row, FRICTION_VELOCITY),
+                      friction_get(t, row, total ? FRICTION_TOTAL : FRICTION_HYSTERESIS),
+                      friction_get(t, row,
+                                   total ? FRICTION_TOTAL_STANDARD_ERROR
+                                         : FRICTION_HYSTERESIS_STANDARD_ERROR),
+                      friction_get(t, row, FRICTION_WITH_LAYER));
+        }
+    }
+    TABLE_SET(collected_friction, &w, total ? "friction" : "hysteresis");
+    return table_end(&w, table);
+}
+
+wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *job,
+                     wt_collection_tables *tables, wt_error *err)
+{
+    *tables = (wt_collection_tables){0};
+    if (n == 0)
+        return wt_fail(err, WT_E_EMPTY, "there is no case");
+    wt_status status = param_check(wt_collect_job_params(), job, err);
+    collected_case *cases = status == WT_OK ? calloc(n, sizeof *cases) : NULL;
+    if (status == WT_OK && cases == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = take_case(&from[i], &cases[i], err);
+    if (status == WT_OK) {
+        qsort(cases, n, sizeof *cases, by_sample);
+        status = check_names(cases, n, err);
+    }
+    if (status == WT_OK)
+        status = list_cases(cases, n, &tables->collection, err);
+    if (status == WT_OK)
+        status = list_moduli(cases, n, &tables->collected_modulus, err);
+    if (status == WT_OK)
+        status = list_friction(cases, n, &tables->collected_friction, err);
+    if (status == WT_OK)
+        status = collect_pairs(cases, n, job->margin, &tables->ratio_pairs, err);
+    free(cases);
+    if (status != WT_OK)
+        wt_collection_tables_clear(tables);
+    return status;
+}

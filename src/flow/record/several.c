@@ -1,0 +1,26 @@
+/* One number of several measurements of it. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/record/record.h"
+
+#include <math.h>
+
+void several_add(several *s, wt_estimate e)
+{
+    s->n++;
+    const double off = e.value - s->mean;
+    s->mean += off / s->n;
+    s->squares += off * (e.value - s->mean);
+    s->own += e.standard_error * e.standard_error;
+}
+
+wt_estimate several_mean(const several *s, const char *unit)
+{
+    if (!(s->n > 0))
+        return (wt_estimate){(double)NAN, (double)NAN, 0, unit};
+    const double by_scatter = s->n > 1 ? s->squares / (s->n * (s->n - 1)) : 0,
+                 by_errors = s->own / (s->n * s->n);
+    /* an error that is not known leaves the scatter alone, which one measurement has none of */
+    if (isnan(by_errors) && s->n > 1)
+        return (wt_estimate){s->mean, sqrt(by_scatter), 0, unit};
+    return (wt_estimate){s->mean, isnan(by_errors) ? by_errors : sqrt(fmax(by_errors, by_scatter)),
+                         0, unit};
+}

@@ -1,0 +1,110 @@
+/* Heights that stand out alone, of which a damaged file has some: they rule every number of slopes.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/images.h"
+
+#include <math.h>
+
+/* How many times the rms step from point to point: noise does not stand so far beyond all its
+ * neighbours, nor does an edge beyond those along it. */
+static const double spike_steps = 4.0;
+/* Of the mean square step, which those few make: less does not rule the slopes. */
+static const double spike_share = 0.5;
+/* Fewer points have no usual step. */
+enum { POINTS_LEAST = 64 };
+
+typedef struct neighbours {
+    double low, high;
+    size_t n; /* that are not missing */
+} neighbours;
+
+static void add_neighbour(neighbours *all, double height)
+{
+    if (isnan(height))
+        return;
+    all->low = fmin(all->low, height);
+    all->high = fmax(all->high, height);
+    all->n++;
+}
+
+static neighbours neighbours_of(const wt_image *image, size_t column, size_t row)
+{
+    const double *const at = image->values + row * image->n_columns + column;
+    neighbours all = {HUGE_VAL, -HUGE_VAL, 0};
+    if (column > 0)
+        add_neighbour(&all, at[-1]);
+    if (column + 1 < image->n_columns)
+        add_neighbour(&all, at[1]);
+    if (row > 0)
+        add_neighbour(&all, *(at - image->n_columns));
+    if (row + 1 < image->n_rows)
+        add_neighbour(&all, at[image->n_columns]);
+    return all;
+}
+
+/* How far a height lies beyond all of its neighbours; 0: between them, or there are too few. */
+static double excess_of(double height, const neighbours *all)
+{
+    return all->n < 2 || isnan(height) ? 0 : fmax(0, fmax(height - all->high, all->low - height));
+}
+
+/* Sum of the squares of all steps to the next point, in units of `scale`, which no square leaves
+ * the range of numbers for; *n: how many. */
+static double sum_steps(const wt_image *image, double scale, size_t *n)
+{
+    double sum = 0;
+    *n = 0;
+    for (size_t row = 0; row < image->n_rows; row++)
+        for (size_t column = 0; column < image->n_columns; column++) {
+            const double *const at = image->values + row * image->n_columns + column;
+            const double right = column + 1 < image->n_columns ? at[1] : (double)NAN;
+            const double above = row + 1 < image->n_rows ? at[image->n_columns] : (double)NAN;
+            const double steps[] = {right / scale - *at / scale, above / scale - *at / scale};
+            for (size_t i = 0; i < 2; i++) {
+                sum += isnan(steps[i]) ? 0 : steps[i] * steps[i];
+                *n += isnan(steps[i]) ? 0 : 1;
+            }
+        }
+    return sum;
+}
+
+static double largest_of(const wt_image *image)
+{
+    double largest = 0;
+    for (size_t i = 0; i < image->n_columns * image->n_rows; i++)
+        largest = fmax(largest, fabs(image->values[i])); /* of one that is missing the other */
+    return largest;
+}
+
+void images_warn_of_spikes(const wt_image *image, const char *file, wt_parselog *log)
+{
+    const size_t n = image->n_columns * image->n_rows;
+    const double scale = largest_of(image);
+    size_t n_steps = 0, n_spikes = 0, at = 0;
+    double of_spikes = 0, largest = 0;
+    if (n < POINTS_LEAST || !(scale > 0))
+        return;
+    const double sum = sum_steps(image, scale, &n_steps);
+    const double least = spike_steps * scale * sqrt(sum / (double)n_steps);
+    for (size_t i = 0; i < n; i++) {
+        const neighbours all = neighbours_of(image, i % image->n_columns, i / image->n_columns);
+        const double excess = excess_of(image->values[i], &all);
+        if (!(excess > least))
+            continue;
+        n_spikes++;
+        of_spikes += (double)all.n * (excess / scale) * (excess / scale);
+        at = excess > largest ? i : at;
+        largest = fmax(largest, excess);
+    }
+    if (n_spikes == 0 || !(of_spikes > spike_share * sum))
+        return;
+    char by[32];
+    wt_format_si(largest, "m", 3, by, sizeof by);
+    wt_parselog_add(
+        log, WT_WARNING, file, image->name,
+        "%zu of %zu heights stand out alone, the farthest, in column %zu and row %zu from "
+        "below, by %s, and make most of the slopes: spikes, or a damaged file; take them "
+        "out before",
+        n_spikes, n, at % image->n_columns, at / image->n_columns, by);
+}

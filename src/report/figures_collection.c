@@ -1,0 +1,182 @@
+/* Figures of cases side by side: a panel for each sample with the moduli of its bulk and tracks
+ * against the rate, a panel for each condition with the friction of the samples.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "base/array.h"
+
+#include <math.h>
+#include <string.h>
+
+/* In each of which all groups may have a section. */
+enum { PANELS = 9 };
+
+typedef struct panels {
+    const char *name[PANELS];
+    size_t n;
+    bool too_many;
+} panels;
+
+/* The texts of a column, in the order of the table, which is that of the samples. */
+static panels find_panels(const table_view *table, const char *(*text)(const table_view *, size_t))
+{
+    panels found = {.n = 0};
+    for (size_t row = 0; row < table->n_rows; row++) {
+        const char *name = text(table, row);
+        bool seen = false;
+        for (size_t i = 0; i < found.n && !seen; i++)
+            seen = strcmp(found.name[i], name) == 0;
+        found.too_many = found.too_many || (!seen && found.n == PANELS);
+        if (!seen && found.n < PANELS)
+            found.name[found.n++] = name;
+    }
+    return found;
+}
+
+static const char *sample_of(const table_view *table, size_t row)
+{
+    return collected_modulus_text(table, row, COLLECTED_MODULUS_SAMPLE);
+}
+
+static const char *condition_of(const table_view *table, size_t row)
+{
+    return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
+}
+
+/* What is the same in both figures: panels beside one another with one scale. */
+typedef struct grid {
+    panels of;
+    unsigned panel, group; /* columns of the table */
+    unsigned data[4];
+    size_t n_data;
+    bool joined; /* points with their intervals, joined */
+    int section[PANELS][DRAWING_GROUPS];
+} grid;
+
+/* False if there is nothing to draw. */
+static bool find_sections(figure_drawing *d, grid *g)
+{
+    d->x = d->y[0] = SPAN_EMPTY;
+    for (size_t i = 0; i < g->of.n; i++)
+        for (size_t k = 0; k < d->n_groups; k++) {
+            const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, false};
+            g->section[i][k] =
+                drawing_section(d, d->table, d->groups[k], &rows, g->data, g->n_data, 2);
+            span_add_section(&d->x, d, g->section[i][k], 0, true);
+            for (size_t c = 1; c < g->n_data; c++)
+                span_add_section(&d->y[0], d, g->section[i][k], c, g->joined);
+        }
+    return d->status == WT_OK && !span_empty(&d->x) && !span_empty(&d->y[0]);
+}
+
+static void begin_grid(figure_drawing *d, const grid *g)
+{
+    const size_t columns = g->of.n < 3 ? g->of.n : g->of.n == 4 ? 2 : 3;
+    const size_t lines = (g->of.n + columns - 1) / columns;
+    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
+    d->height = 0.85 * (double)lines;
+    /* room for the key above the first, and as much above the others, so that all are of one size
+     */
+    text_format(&d->script, "set tmargin 4\nset multiplot layout %zu,%zu\n", lines, columns);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+}
+
+/* A group that the first panel lacks stands in its key all the same. */
+static void draw_panel(figure_drawing *d, const grid *g, size_t i)
+{
+    if (g->of.name[i][0] != '\0')
+        plot_heading(d, g->of.name[i]);
+    text_add(&d->script, i == 0 ? "" : "unset key\n");
+    for (size_t k = 0; k < d->n_groups; k++) {
+        const int section = g->section[i][k];
+        if (section < 0 && i > 0)
+            continue;
+        if (section < 0)
+            plot_other(d, g->joined ? "NaN with yerrorlines ls %zu" : "NaN with lines ls %zu",
+                       k + 1);
+        else if (g->joined)
+            plot_item(d, section,
+                      "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorlines ls %zu",
+                      k + 1);
+        else
+            plot_item(d, section, "($1*x_unit):($2*y_unit) with lines ls %zu", k + 1);
+        if (i == 0)
+            plot_title(d, d->groups[k]);
+        else
+            text_add(&d->script, " notitle");
+    }
+    plot_end(d);
+}
+
+static void draw_grid(figure_drawing *d, grid *g)
+{
+    if (!find_sections(d, g))
+        return;
+    begin_grid(d, g);
+    for (size_t i = 0; i < g->of.n; i++)
+        draw_panel(d, g, i);
+    text_add(&d->script, "unset multiplot\n");
+    if (g->of.too_many)
+        text_format(&d->caption, " The first %d only.", PANELS);
+}
+
+static void draw_moduli(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, sample_of),
+              .panel = COLLECTED_MODULUS_SAMPLE,
+              .group = COLLECTED_MODULUS_PLACE,
+              .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
+                       COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
+              .n_data = 4,
+              .joined = true};
+    draw_grid(d, &g);
+}
+
+static void draw_friction(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, condition_of),
+              .panel = COLLECTED_FRICTION_CONDITION,
+              .group = COLLECTED_FRICTION_SAMPLE,
+              .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
+              .n_data = 2};
+    draw_grid(d, &g);
+}
+
+static void caption_friction(figure_drawing *d)
+{
+    const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
+    if (part != NULL && strcmp(part, "hysteresis") == 0)
+        text_add(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
+}
+
+const figure_description figures_collection[] = {
+    {.name = "collected_modulus",
+     .title = "Modulus of bulk and wear tracks against the indentation rate",
+     .table = &collected_modulus_schema,
+     .by_group = true,
+     .group = COLLECTED_MODULUS_PLACE,
+     .x = {COLLECTED_MODULUS_RATE, AXIS_LOG, "Indentation rate"},
+     .y = {{COLLECTED_MODULUS_MODULUS, AXIS_LOG, "Modulus E"}},
+     .curves = {CURVE(COLLECTED_MODULUS_MODULUS, OWN, .with_errors = true)},
+     .nothing = "no case has moduli at known indentation rates",
+     .words = "Geometric mean of the modulus at each indentation rate, a panel for each sample "
+              "(bars: 95 % intervals).",
+     .draw = draw_moduli},
+    {.name = "collected_friction",
+     .title = "Friction of all samples against velocity",
+     .table = &collected_friction_schema,
+     .by_group = true,
+     .group = COLLECTED_FRICTION_SAMPLE,
+     .x = {COLLECTED_FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{COLLECTED_FRICTION_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(COLLECTED_FRICTION_FRICTION, OWN)},
+     .nothing = "no case has friction",
+     .words = "Friction coefficient of every sample without the modified layer, a panel for each "
+              "condition.",
+     .draw = draw_friction,
+     .caption = caption_friction},
+    {.name = NULL},
+};

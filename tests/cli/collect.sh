@@ -1,0 +1,66 @@
+#!/bin/sh
+# Two compounds at two severities, made with known softening of the track: collect finds which differ,
+# and says so of no pair that does not. Usage: collect.sh PROGRAM GENERATOR FIXTURES WORK [SEEDS]; with
+# SEEDS (such as "1 2 3") it counts instead how often the intervals of all pairs hold the truth.
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+program=$1 generator=$2 fixtures=$3 work=$4 seeds=${5:-}
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+# A case of its own folder: sample, condition, softening, variant of the errors of measurement.
+make_case() {
+  mkdir -p "$1-$2"
+  sed -e "s#</title>#</title><sample>$1</sample><condition>$2</condition>#" -e '/<roughness>/,$d' \
+    "$fixtures/case.xml" >"$1-$2/case.xml"
+  echo '<compare><track-to-bulk/><by-rate/></compare></case>' >>"$1-$2/case.xml"
+  "$generator" "$1-$2" "$fixtures/case.xml" "$4" "$3"
+  "$program" run -q --no-report "$1-$2/case.xml" -o "$1-$2.h5" >/dev/null
+}
+make_study() {
+  make_case HC mild 0.85 $(($1 * 4))
+  make_case HC severe 0.64 $(($1 * 4 + 1))
+  make_case HS mild 1 $(($1 * 4 + 2))
+  make_case HS severe 0.64 $(($1 * 4 + 3))
+  "$program" collect -q HC-mild.h5 HC-severe.h5 HS-mild.h5 HS-severe.h5 -o study.h5
+  "$program" table study.h5 ratio_pairs >pairs.tsv
+}
+# "HC mild severe yes"; what is true of each pair: 0.85/0.64, 1/0.64, 0.85/1, 1
+verdicts() { awk -F '\t' 'NR > 1 { print $1, $2, $3, $10 }' pairs.tsv | sort; }
+
+if [ -n "$seeds" ]; then
+  for seed in $seeds; do
+    make_study "$seed"
+    awk -F '\t' 'NR > 1 {
+      truth = $1 == "HC" ? 0.85 / 0.64 : $1 == "HS" ? 1 / 0.64 : $1 == "mild" ? 0.85 : 1
+      print $1, $5 <= truth && truth <= $6 ? "holds" : "misses", $10 }' pairs.tsv
+  done | sort | uniq -c
+  exit 0
+fi
+
+make_study 1
+expected='HC mild severe yes
+HS mild severe yes
+mild HC HS yes
+severe HC HS no'
+if [ "$(verdicts)" != "$expected" ]; then
+  echo "the pairs are judged:" >&2
+  cat pairs.tsv >&2
+  exit 1
+fi
+# every row of the cases, and a figure that draws them
+"$program" table study.h5 collection --as csv | cut -d , -f 1,2,6 >cases.csv
+printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv
+"$program" report study.h5 -o page >/dev/null 2>&1
+test -s page/plots/collected_modulus.tsv
+! test -e page/plots/collected_friction.tsv
+# of files that are none the others stand; two of a kind are named
+status=0
+"$program" collect HC-mild.h5 pairs.tsv HS-mild.h5 -o two.h5 2>words || status=$?
+test $status -eq 3
+grep -q 'pairs.tsv: .*weartrack run' words
+status=0
+"$program" collect HC-mild.h5 HC-mild.h5 -o none.h5 2>words || status=$?
+test $status -eq 1 -a ! -e none.h5
+grep -q 'sample "HC" and condition "mild"' words
