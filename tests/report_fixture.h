@@ -380,6 +380,32 @@ static inline void fixture_record(void)
     wt_formats_free(formats);
 }
 
+/* All curves of the first bulk file of the case, to look at. */
+static inline void fixture_curves(void)
+{
+    static const char *const file[] = {"bulk-1.jpk-force-map"}, *const all[] = {"all"};
+    const wt_file_set set = {.patterns = file,
+                             .n_patterns = 1,
+                             .folder = WT_SOURCE_DIR "/fixtures/case",
+                             .read = wt_read_defaults()};
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_indent_tables tables = {0};
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.curves = all;
+    job.n_curves = 1;
+    fixture_check(wt_tip_parse("pyramid:half-angle=20deg,radius=20nm", &job.tip, NULL));
+    fixture_check(wt_indent_group(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.curves, NULL));
+    tables.curves = NULL;
+    wt_indent_tables_clear(&tables);
+    wt_formats_free(formats);
+}
+
 /* Adds a table of one of the other cases. */
 static inline void fixture_of_case(const char *name, const char *asked)
 {
@@ -500,6 +526,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
         fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
         fixture_accuracy(read);
+        fixture_curves();
         fixture_ramp();
         fixture_materials();
         fixture_collection();

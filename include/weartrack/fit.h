@@ -37,6 +37,7 @@ extern "C" {
  *   doubtful           deeper than one radius of a sphere, or than the law of a thin sample holds;
  * a punch that loses work; a misfit (least_chance) that gives the modulus an error of more than
  * doubtful_error; a wave on the baseline of more than 10 % of the largest force, peak to peak
+ * And, said by no fit: excluded, unreadable.
  */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
@@ -54,6 +55,7 @@ extern "C" {
     X(WT_CURVE_RIGID, "rigid", "no indentation: sample too stiff, or calibration wrong")           \
     X(WT_CURVE_ADHESIVE, "adhesive", "adhesion that the contact law does not describe")            \
     X(WT_CURVE_IMPRECISE, "imprecise", "the modulus is too uncertain")                             \
+    X(WT_CURVE_EXCLUDED, "excluded", "left out by hand")                                           \
     X(WT_CURVE_UNREADABLE, "unreadable", "the curve could not be read")
 
 typedef enum wt_curve_verdict {

@@ -123,6 +123,9 @@ WT_API const wt_params *wt_file_set_params(void);
 typedef struct wt_convert_job {
     unsigned kind; /* WT_KIND_* of a file that holds several; 0: the first that has data, in the
                       order force, sweep, spectrum, image */
+    const char *contact; /* result of weartrack indent: force curves are given from the contact
+                            points and above the baselines there, with their indentation; NULL =
+                            as measured */
     wt_read_options read;
 } wt_convert_job;
 WT_API wt_convert_job wt_convert_job_defaults(void);
@@ -160,8 +163,13 @@ typedef struct wt_indent_job {
     wt_estimate spring_constant, sensitivity;
     /* relative standard errors where the values state none, 0 = none (default) */
     double lever_error, sensitivity_error;
-    bool rates;                     /* decode what tells the time (piezo and indentation rate) */
-    bool curves;                    /* representative curves for the figures */
+    bool rates;        /* decode what tells the time (piezo and indentation rate) */
+    bool median_curve; /* the representative curve for the figures */
+    /* Curves to look at, in words: "median" (which sets median_curve), "rejected", "worst:N",
+     * "all", "FILE:N". */
+    const char *const *curves;
+    size_t n_curves;
+    const char *choices; /* file of what was chosen by hand for files and curves; NULL = none */
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL = none (default) */
     wt_estimate temperature;        /* of the curves [K]; NaN = the rubber's reference */
     struct wt_curve_set *keep;      /* takes the accepted curves; NULL (default) */
@@ -182,6 +190,8 @@ typedef struct wt_indent_tables {
     wt_table *indentation;        /* indentation/GROUP, one row per curve, rejected ones included */
     wt_table *force_displacement; /* NULL unless curves are asked for */
     wt_table *force_indentation;
+    wt_table *curves;        /* samples of the curves to look at; NULL if there are none */
+    wt_table *choices;       /* what was chosen by hand and applied; NULL without choices */
     wt_table *modulus_depth; /* NULL if no group has the curves for it */
     size_t n_files, n_curves, n_accepted, n_failed;
 } wt_indent_tables;

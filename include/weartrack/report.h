@@ -52,6 +52,13 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
                                  const wt_report_options *options, const wt_progress *progress,
                                  wt_error *err) WT_NODISCARD;
 
+/* One self-contained page, the file `path`, to go through the curves of all groups of a result with
+ * their fits, which hands back what is chosen by hand for wt_indent_job.choices. WT_E_EMPTY if the
+ * result has no table "curves"; WT_E_TOOL if the library was built without dygraphs, which draws on
+ * it. */
+WT_API wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
+                                 wt_error *err) WT_NODISCARD;
+
 /* The figures this library knows, in the order of the page. */
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */

@@ -75,9 +75,11 @@ int cmd_indent(int argc, char **argv)
     wt_table **const made_tables[] = {&tables.indentation,
                                       &groups,
                                       &budget,
+                                      &tables.choices,
                                       &tables.modulus_depth,
                                       &tables.force_displacement,
-                                      &tables.force_indentation};
+                                      &tables.force_indentation,
+                                      &tables.curves};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     wt_rubber_clear(&rubber);
     wt_result_free(dma);

@@ -6,19 +6,24 @@
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
-     .unset = "required, but with --methods standard output",
+     .unset = "required, but with --methods standard output and with --browse none",
      .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
 PARAM_LOCAL_TABLE(place_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
 
 typedef struct own_options {
     bool methods;
+    const char *browse;
 } own_options;
 
 static const wt_param own_rows[] = {
     {PARAM_FLAG_OF("methods", own_options, methods),
      .help = "write no page, but the text of a section on methods with the numbers of this result "
              "and its references"},
+    {PARAM_TEXT_OF("browse", own_options, browse), .value = "FILE.html", .unset = "",
+     .flags = PARAM_WRITTEN,
+     .help = "write one page to go through the force curves of the result, of weartrack indent "
+             "--curves all, with their fits; choices made on it are for indent --choices"},
 };
 CMD_OPTIONS(own_params, own_options, own_rows)
 
@@ -89,12 +94,16 @@ static wt_status write_methods(cmd_session *s)
 
 /* ---- the page -------------------------------------------------------------------------------- */
 
-static wt_status write_page(cmd_session *s, const wt_report_options *options)
+/* What was asked for: the page or folder, the page with the curves, or both. */
+static wt_status write_pages(cmd_session *s, const wt_report_options *options, const char *browse)
 {
+    wt_status status = WT_OK;
     const wt_progress progress = cmd_progress_start(s);
     cmd_catch_interruptions();
-    const wt_status status =
-        wt_report_write(s->result, s->common.output, options, &progress, &s->err);
+    if (s->common.output != NULL)
+        status = wt_report_write(s->result, s->common.output, options, &progress, &s->err);
+    if (status == WT_OK && browse != NULL)
+        status = wt_browse_write(s->result, browse, s->common.provenance, &s->err);
     cmd_progress_end(s);
     return status;
 }
@@ -103,7 +112,7 @@ int cmd_report(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "report",
-        .arguments = "RESULT -o PLACE [OPTION]...",
+        .arguments = "RESULT -o PLACE|--browse FILE.html|--methods [OPTION]...",
         .what = "Writes one page that needs no other file and can be mailed, or a folder with that "
                 "page, index.html, and for each figure its data, script and picture; the figures "
                 "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
@@ -119,21 +128,27 @@ int cmd_report(int argc, char **argv)
                         {wt_report_params(), &report_options, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
-    if (s.common.output == NULL && !own.methods) {
-        (void)cmd_usage_error(&s, "-o is required: NAME.html or a folder");
+    if (s.common.output == NULL && !own.methods && own.browse == NULL) {
+        (void)cmd_usage_error(&s, "-o is required: NAME.html or a folder, or --browse FILE.html");
+        return cmd_session_free(&s);
+    }
+    if (own.methods && own.browse != NULL) {
+        (void)cmd_usage_error(&s, "--methods and --browse are two calls");
         return cmd_session_free(&s);
     }
     report_options.with_provenance = s.common.provenance;
     wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (made == WT_OK)
-        made = own.methods ? write_methods(&s) : write_page(&s, &report_options);
+        made = own.methods ? write_methods(&s) : write_pages(&s, &report_options, own.browse);
     if ((made == WT_E_MISSING || made == WT_E_UNIT) && s.err.file[0] == '\0')
         wt_error_file(&s.err, s.files[0]); // what a table of it lacks
     if (made != WT_OK)
         cmd_fail(&s);
     else
         cmd_tables_remarks(&s, s.files[0], s.result);
-    if (made == WT_OK && !s.common.quiet && !own.methods)
+    if (made == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
         cmd_say_page(s.common.output);
+    if (made == WT_OK && !s.common.quiet && own.browse != NULL)
+        cmd_say("page of curves: %s\n", own.browse);
     return cmd_session_free(&s);
 }

@@ -47,6 +47,7 @@ static const struct {
     {"tip", "sphere:radius=5um", NULL, NULL},
     {"kind", "sweep", NULL, NULL}, /* which that file does not hold */
     {"group", "track", NULL, NULL},
+    {"curves", "worst:1", NULL, NULL},
     {"spot", "s1", NULL, NULL},
     {"spring-constant", "0.5N/m", NULL, NULL},
     {"sensitivity", "70nm/V", NULL, NULL},
@@ -153,6 +154,8 @@ static const struct {
     {NULL, "master", "the base has it"},
     {"master", "shifts", "a file of shifts: tests/cli/shifts.txt"},
     {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
+    {NULL, "contact", "a result with contact points: tests/cli/choices.txt"},
+    {NULL, "choices", "a file of choices: tests/cli/choices.txt"},
     {"record", "profile", "files of profiles: unit_flow_record"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},

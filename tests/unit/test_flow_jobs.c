@@ -135,7 +135,7 @@ static wt_table *fit(const wt_file_set *sets, size_t n, unsigned threads, bool r
     wt_error err = WT_ERROR_INIT;
     common.threads = threads;
     job.rates = rates;
-    job.curves = true;
+    job.median_curve = true;
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s: %s", err.file, err.message);
     wt_table *table = tables.indentation;

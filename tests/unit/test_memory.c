@@ -175,7 +175,7 @@ static wt_status indent(FILE **out, wt_error *err)
         status = wt_tip_parse(HERTZ_TIP, &j.tip, err);
     j.sets = &set;
     j.n_sets = 1;
-    j.curves = true;
+    j.median_curve = true;
     common.formats = formats;
     common.threads = 1;
     if (status == WT_OK)

@@ -226,6 +226,26 @@ static void test_segments_with_their_contact(void **state)
     end_sections(&s);
 }
 
+/* On the sheet of curves those that were refused come before the others, which are in their order.
+ */
+static void test_refused_curves_come_first(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const char *const titles[] = {":4, poor_fit", ":0, accepted", ":1, accepted"};
+    char *script = read_plot("out", "curves", "gp");
+    const char *at = script;
+    size_t n = 0;
+    for (; (at = strstr(at, "set title ")) != NULL; at++, n++) {
+        char line[128] = "";
+        (void)snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
+        if (n < 3 && strstr(line, titles[n]) == NULL)
+            fail_msg("panel %zu: %s", n, line);
+    }
+    assert_int_equal(n, 12);
+    free(script);
+}
+
 /* The colour of the next bars of a budget: what is measured, what the model leaves open, the rest.
  */
 static void next_bars(const char **script, const char *kind)
@@ -697,6 +717,7 @@ int main(void)
         cmocka_unit_test(test_whole_tables),
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_segments_with_their_contact),
+        cmocka_unit_test(test_refused_curves_come_first),
         cmocka_unit_test(test_error_budget),
         cmocka_unit_test(test_work_precision),
         cmocka_unit_test(test_what_if),

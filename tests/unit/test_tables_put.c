@@ -13,6 +13,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define CASE WT_SOURCE_DIR "/fixtures/case/"
 #define FORMATS WT_SOURCE_DIR "/fixtures/formats/"
@@ -493,6 +494,25 @@ static void test_spring_constants(void **state)
     see(tables.indentation);
     see(tables.modulus_depth);
     wt_indent_tables_clear(&tables);
+    static const char *const looked_at[] = {"worst:2"};
+    FILE *by_hand = fopen("put-choices.tsv", "w");
+    assert_non_null(by_hand);
+    (void)fputs("# file[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n"
+                "bulk-1.jpk-force-map\t0\texclude\t-\tan edge\n"
+                "bulk-2.jpk-force-map\tnan\tsensitivity\t60nm/V\t-\n",
+                by_hand);
+    assert_int_equal(fclose(by_hand), 0);
+    job.curves = looked_at;
+    job.n_curves = 1;
+    job.choices = "put-choices.tsv";
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.curves);
+    see(tables.choices);
+    wt_indent_tables_clear(&tables);
+    assert_int_equal(unlink("put-choices.tsv"), 0);
+    job.n_curves = 0;
+    job.choices = NULL;
     job.options.fit_force_fraction = 0.9;
     job.options.contact_estimators = true;
     job.options.fit_retract = true;

@@ -9,7 +9,7 @@
 
 /* clang-format off */
 #define ROWS(X) \
-    X(indentation) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
+    X(indentation) X(curves) X(choices) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
     X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
     X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(friction) X(directions) \
     X(softening) X(contact_area) X(layer) X(materials) X(material_ratio) X(coverage) \

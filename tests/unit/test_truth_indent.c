@@ -36,7 +36,7 @@ static int indent(void **state)
     job.sets = &set;
     job.n_sets = 1;
     job.group = "track";
-    job.curves = true;
+    job.median_curve = true;
     job.spring_constant = (wt_estimate){10, 0.5, 0, "N/m"};
     common.formats = formats;
     common.threads = 1;
@@ -281,7 +281,7 @@ static void test_memory(void **state)
         job.sets = &set;
         job.n_sets = 1;
         job.group = "track";
-        job.curves = true;
+        job.median_curve = true;
         job.rubber = &rubber;
         assert_int_equal(wt_tip_parse(HERTZ_TIP, &job.tip, NULL), WT_OK);
         if (wt_indent_group(&job, &common, &known, &err) != WT_OK)

@@ -174,6 +174,38 @@
       SI(FORCE))
 #define FORCE_INDENTATION_KEYS(X)
 
+/* One block for each curve. */
+#define CURVES_COLUMNS(X)                                                                          \
+    X(CURVES_GROUP, AS(group), "bulk or track", TEXT)                                              \
+    X(CURVES_FILE, AS(file), "file of the curve", TEXT)                                            \
+    X(CURVES_CURVE, AS(curve), "number of the curve in its file", NUMBER)                          \
+    X(CURVES_SEGMENT, AS(segment), "approach or retract", TEXT)                                    \
+    X(CURVES_DISPLACEMENT, AS(displacement),                                                       \
+      "piezo displacement from the contact point; of a curve without one from its first sample",   \
+      SI(LENGTH))                                                                                  \
+    X(CURVES_FORCE, AS(force),                                                                     \
+      "force above the baseline; of a curve without a contact point as measured", SI(FORCE))       \
+    X(CURVES_INDENTATION, AS(indentation), "displacement less the bending of the lever",           \
+      SI(LENGTH))                                                                                  \
+    X(CURVES_FITTED_FORCE, AS(fitted_force), "fit to the approach at the same indentation",        \
+      SI(FORCE))                                                                                   \
+    X(CURVES_RESIDUAL, AS(residual), "force less the fit", SI(FORCE))
+#define CURVES_KEYS(X)
+
+/* As a file: what was chosen by hand. As a result: of it what was applied. */
+#define CHOICES_COLUMNS(X)                                                                         \
+    X(CHOICES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)            \
+    X(CHOICES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))                 \
+    X(CHOICES_CURVE, AS(curve), "number of the curve in its file; nan: all of the file", NUMBER,   \
+      LABEL("Curve"), OPTIONAL)                                                                    \
+    X(CHOICES_CHOICE, AS(choice), "exclude, contact-point, spring-constant, sensitivity or tip",   \
+      TEXT, LABEL("Choice"))                                                                       \
+    X(CHOICES_VALUE, AS(value), "with its unit", TEXT, LABEL("Value"), OPTIONAL)                   \
+    X(CHOICES_NOTE, AS(note), "why, in words", TEXT, LABEL("Why"), OPTIONAL)                       \
+    X(CHOICES_APPLIED, AS(applied), "curves that it was applied to", NUMBER, LABEL("Curves"),      \
+      OPTIONAL)
+#define CHOICES_KEYS(X)
+
 /* The rows of a group have the same numbers of curves and units. */
 #define MODULUS_DEPTH_COLUMNS(X)                                                                   \
     X(MODULUS_DEPTH_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                       \

@@ -61,6 +61,8 @@
       "Force against piezo displacement", "indent")                                                \
     X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
       "indent")                                                                                    \
+    X(curves, CURVES, "curves", "Curves to look at", "indent")                                     \
+    X(choices, CHOICES, "choices", "What was chosen by hand", "indent")                            \
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
     X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
     X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \

@@ -9,6 +9,7 @@
 #include "report/files.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- indentation ----------------------------------------------------------------------------- */
@@ -32,9 +33,27 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
     return WT_OK;
 }
 
+/* The file of the choices, relative to the case. */
+static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *node = case_child(section, "choices");
+    const char *name = NULL;
+    if (node == NULL)
+        return WT_OK;
+    const wt_status status = case_node_text(c, node, &name, err);
+    if (status != WT_OK)
+        return status;
+    char *path = wt_path_join(c->folder, name);
+    c->indent.choices = path != NULL ? pool_text(&c->memory, path, strlen(path)) : NULL;
+    free(path);
+    return c->indent.choices != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
 wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_params(c, section, wt_indent_job_params(), &c->indent, err);
+    if (status == WT_OK)
+        status = read_choices(c, section, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_compare_job_params(), &c->compare, err);
     if (status == WT_OK)

@@ -61,6 +61,13 @@ void wt_curve_set_free(wt_curve_set *set)
     free(set);
 }
 
+wt_status curve_set_give_up(wt_curve_set *set)
+{
+    clear_curves(set);
+    set->useless = true;
+    return WT_OK;
+}
+
 size_t curve_set_size(const wt_curve_set *set)
 {
     return set != NULL && !set->useless ? set->n : 0;

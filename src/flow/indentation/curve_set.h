@@ -11,6 +11,9 @@ void curve_set_begin(wt_curve_set *set, const wt_indent_job *job);
 wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt_indent_fit *fit,
                         wt_error *err) WT_NODISCARD;
 
+/* A curve that the generator cannot make has come: the set is useless. WT_OK. */
+wt_status curve_set_give_up(wt_curve_set *set) WT_NODISCARD;
+
 /* Number of curves, 0 if they cannot be drawn anew. */
 size_t curve_set_size(const wt_curve_set *set);
 const wt_tip *curve_set_tip(const wt_curve_set *set);

@@ -5,8 +5,7 @@
 
 #include "data/force_curve.h"
 #include "data/tables/rows.h"
-#include "fit/indentation/curve.h"
-#include "model/hereditary.h"
+#include "flow/indentation/fitted_force.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,62 +53,6 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
                   fit->direction * height[i] - fit->contact_point.value,
                   force[i] - fit->baseline_offset.value);
     }
-}
-
-/* Turns elastic forces over modulus into those of rubber with memory. */
-static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
-                              wt_error *err)
-{
-    hereditary law = {0};
-    double before = 0, shortest = (double)INFINITY;
-    wt_status status = hereditary_reserve(&law, spectrum->n, err);
-    for (size_t i = 1; i < n; i++)
-        shortest = fmin(shortest, time[i] - time[i - 1]);
-    if (status == WT_OK && n > 1 && shortest > 0) {
-        hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
-        for (size_t i = 0; i < n; i++) {
-            const double f = force[i];
-            hereditary_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
-            force[i] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
-            hereditary_add(&law, law.memory[0], f - before);
-            before = f;
-        }
-    }
-    hereditary_clear(&law);
-    return status;
-}
-
-/* Fitted forces of the n samples in contact, whose indentations are `delta`. */
-static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
-                               const wt_contact_table *contact, const wt_segment *approach,
-                               const double *delta, size_t n, double *time, double *model,
-                               wt_error *err)
-{
-    const double *height = segment_height(approach), *all = segment_time(approach, time);
-    const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
-    const bool known = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
-                       !isnan(fit->spectrum_factor.value);
-    curve_power power;
-    double modulus = fit->modulus.value;
-    wt_status status = WT_OK;
-    wt_contact_table_eval(contact, delta, n, model, NULL);
-    if (all != NULL && (known || fit->loss_power > 0)) {
-        size_t m = 0; /* those that wt_indent_curve takes */
-        for (size_t i = 0; i < approach->n_points && m < n; i++)
-            if (fit->direction * height[i] >= fit->contact_point.value)
-                time[m++] = all[i];
-        if (known) {
-            modulus = fit->spectrum_factor.value;
-        } else {
-            curve_power_make(&power, fit->loss_power, fit->load_time);
-            modulus /=
-                (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
-        }
-        status = apply_memory(known ? options->spectrum : &power.series, time, m, model, err);
-    }
-    for (size_t i = 0; i < n; i++)
-        model[i] *= modulus / reduced;
-    return status;
 }
 
 wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,

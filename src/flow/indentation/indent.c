@@ -1,11 +1,9 @@
-/* The indentation job: every curve of every file of a group, streamed, fitted in parallel, written
- * in order.
+/* The indentation job: the curves of a group, what all of them say together, and its tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/indentation/indent.h"
 #include "base/param.h"
-#include "flow/indentation/common_errors.h"
 #include "flow/indentation/curve_set.h"
 #include "flow/indentation/curve_tables.h"
+#include "flow/indentation/indent_task.h"
 #include "flow/materials/rubber.h"
 #include "flow/work/cost.h"
 #include "flow/work/draws.h"
@@ -17,321 +15,12 @@
 #include "read/force_source.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Curves at once for each thread: those that are done wait for one before them that takes long. */
 #define CURVES_EACH 8
 #define MOST_WORKERS 64
-/* Of curves at once, if every thread has one: it bounds memory. */
-#define MOST_SAMPLES ((size_t)1 << 18)
-
-typedef enum item_state { ITEM_FREE, ITEM_TAKEN, ITEM_DONE } item_state;
-
-typedef struct item {
-    item_state state;
-    size_t order; /* of all curves of the file */
-    size_t samples;
-    wt_force_curve curve;
-    wt_status status;
-    wt_error error;
-    wt_indent_fit fit;
-} item;
-
-typedef struct accepted {
-    double modulus;
-    const flow_file *file;
-    size_t curve, order;
-} accepted;
-
-typedef struct indent_task {
-    const wt_indent_job *job;
-    wt_indent_options options; /* of the job, with the spectrum */
-    wt_prony spectrum;
-    const wt_job *work;
-    flow_file *file;
-    const char *spot; /* of the set, or the file */
-    wt_contact_table *contact;
-    wt_indent_workspace **scratch; /* [n_workers] */
-    unsigned n_workers;
-    /* Each thread takes a curve, fits it, and writes what is done and next in order; all but the
-     * fit under the lock. */
-    pthread_mutex_t lock;
-    pthread_cond_t written;
-    wt_force_source *source; /* NULL: nothing is left to read */
-    wt_input *beside; /* the file for its digest, which one of them makes first; NULL: made */
-    wt_error *beside_err;
-    item *items;              /* [n_items] */
-    size_t n_items, n_taken;  /* of them, those that are not free */
-    size_t n_samples;         /* in those */
-    size_t n_read, n_written; /* curves of the file */
-    size_t n_of_file;         /* as many as it says, 0 if it does not */
-    size_t n_files, file_number;
-    wt_status status;
-    wt_error *err;
-    table_writer rows;
-    size_t n_curves, n_accepted, n_doubtful, n_failed; /* accepted: doubtful ones, too */
-    /* equal failures of one file make one row */
-    wt_error failure;
-    size_t n_equal, first_equal;
-    /* accepted moduli with the curve they are of, for the representative curve */
-    accepted *moduli;
-    size_t n_moduli;
-    indent_together together;
-    common_errors common;
-    indent_depths depths;
-    double k_low, k_high; /* spring constants of the accepted curves [N/m] */
-    bool by_sensitivity;  /* that of the job made a force */
-    double squares;       /* of relative standard errors of their moduli */
-} indent_task;
-
-/* What the fit uses, and nothing else. */
-static wt_read_options wanted_channels(const flow_file *file, const wt_indent_job *job, bool time)
-{
-    wt_read_options options = flow_read_options(file);
-    if (!isnan(job->spring_constant.value))
-        options.spring_constant = job->spring_constant.value;
-    if (!isnan(job->sensitivity.value))
-        options.sensitivity = job->sensitivity.value;
-    options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
-                    (time ? WT_Q_BIT(WT_Q_TIME) : 0);
-    options.one_height = true;
-    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
-    return options;
-}
-
-/* ---- failures of curves ---------------------------------------------------------------------- */
-
-static wt_status flush_failures(indent_task *task, wt_error *err)
-{
-    if (task->n_equal == 0)
-        return WT_OK;
-    wt_error failure = task->failure;
-    if (task->n_equal > 1)
-        wt_error_place(&failure, "curve %zu and %zu more", task->first_equal, task->n_equal - 1);
-    else
-        wt_error_place(&failure, "curve %zu", task->first_equal);
-    task->n_equal = 0;
-    task->n_failed++;
-    return wt_job_failed(task->work, task->file->name, failure.status, &failure, err);
-}
-
-static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
-                              wt_error *err)
-{
-    if (task->n_equal > 0 && strcmp(failure->message, task->failure.message) == 0) {
-        task->n_equal++;
-        return WT_OK;
-    }
-    wt_status status = flush_failures(task, err);
-    task->failure = *failure;
-    task->first_equal = curve;
-    task->n_equal = 1;
-    return status;
-}
-
-/* ---- one curve ------------------------------------------------------------------------------- */
-
-static bool has_room(const indent_task *task)
-{
-    return task->n_taken < task->n_items &&
-           (task->n_taken < task->n_workers || task->n_samples < MOST_SAMPLES);
-}
-
-/* Reads the next curve; NULL if there is none. */
-static item *take_curve(indent_task *task)
-{
-    while (task->status == WT_OK && task->source != NULL && !has_room(task))
-        (void)pthread_cond_wait(&task->written, &task->lock);
-    if (task->status != WT_OK || task->source == NULL)
-        return NULL;
-    item *it = task->items;
-    while (it->state != ITEM_FREE)
-        it++;
-    it->error = (wt_error)WT_ERROR_INIT;
-    it->status = wt_force_next(task->source, &it->curve, &it->error);
-    if (it->status == WT_END) {
-        wt_force_close(task->source);
-        task->source = NULL;
-        return NULL;
-    }
-    it->samples = 0;
-    for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
-        it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
-    it->state = ITEM_TAKEN;
-    it->order = task->n_read++;
-    task->n_taken++;
-    task->n_samples += it->samples;
-    return it;
-}
-
-static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
-{
-    curve_fit_empty(fit);
-    fit->verdict = WT_CURVE_UNREADABLE;
-    snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
-}
-
-static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
-{
-    accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
-    if (moduli == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->moduli = moduli;
-    task->moduli[task->n_moduli] = (accepted){.modulus = it->fit.modulus.value,
-                                              .file = task->file,
-                                              .curve = it->curve.index,
-                                              .order = task->n_moduli};
-    task->n_moduli++;
-    return indent_together_add(&task->together, &it->fit, &task->options, err);
-}
-
-static wt_status write_item(indent_task *task, item *it, wt_error *err)
-{
-    wt_status status = WT_OK;
-    if (it->status != WT_OK) {
-        if (!flow_goes_on(task->work, it->status))
-            return wt_job_failed(task->work, task->file->name, it->status, &it->error, err);
-        mark_unreadable(&it->fit, &it->error);
-        status = note_failure(task, it->curve.index, &it->error, err);
-    }
-    if (status != WT_OK)
-        return status;
-    task->rows.err = err;
-    flow_indentation_row(&task->rows, task->job, task->file->name, task->spot, &it->curve,
-                         &it->fit);
-    task->n_curves++;
-    if ((task->work->left_out & WT_EXTRA_MODULUS_DEPTH) == 0)
-        status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
-    if (status != WT_OK)
-        return status;
-    if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))
-        return task->rows.status;
-    task->n_accepted++;
-    task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
-    task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
-    task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
-    task->by_sensitivity = task->by_sensitivity || it->curve.cantilever.sensitivity_given;
-    const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
-    task->squares += error * error;
-    status = common_errors_keep(&task->common, &it->curve, err);
-    if (status == WT_OK && task->job->keep != NULL)
-        status = curve_set_add(task->job->keep, &it->curve, &it->fit, err);
-    return status == WT_OK ? keep_modulus(task, it, err) : status;
-}
-
-static bool is_cancelled(const indent_task *task)
-{
-    const wt_progress *progress = &task->work->progress;
-    char what[64] = "indentation: curve";
-    if (progress->report == NULL)
-        return false;
-    if (task->n_files > 1)
-        snprintf(what, sizeof what, "indentation: file %zu of %zu, curve", task->file_number,
-                 task->n_files);
-    return !progress->report(progress->user, what, task->n_written + 1, task->n_of_file);
-}
-
-/* Those that are next in order. */
-static void write_done(indent_task *task)
-{
-    for (size_t i = 0; task->status == WT_OK && i < task->n_items; i++) {
-        item *it = &task->items[i];
-        if (it->state != ITEM_DONE || it->order != task->n_written)
-            continue;
-        task->status = write_item(task, it, task->err);
-        if (task->status == WT_OK && is_cancelled(task))
-            task->status = wt_fail(task->err, WT_E_CANCELLED, "cancelled");
-        it->state = ITEM_FREE;
-        task->n_written++;
-        task->n_taken--;
-        task->n_samples -= it->samples;
-        i = (size_t)-1; /* the next may stand before it */
-    }
-    (void)pthread_cond_broadcast(&task->written);
-}
-
-static wt_status fit_curves(void *user, size_t i, unsigned worker)
-{
-    indent_task *task = user;
-    item *it;
-    if (i == 0 && task->beside != NULL)
-        return flow_record(task->work, task->beside, task->file, task->job->group,
-                           task->beside_err);
-    (void)pthread_mutex_lock(&task->lock);
-    while ((it = take_curve(task)) != NULL) {
-        (void)pthread_mutex_unlock(&task->lock);
-        if (it->status == WT_OK)
-            it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
-                                               task->scratch[worker], &it->fit, &it->error);
-        (void)pthread_mutex_lock(&task->lock);
-        it->state = ITEM_DONE;
-        write_done(task);
-    }
-    (void)pthread_mutex_unlock(&task->lock);
-    return WT_OK; /* that of the task says more */
-}
-
-/* ---- one file -------------------------------------------------------------------------------- */
-
-static wt_status read_file(indent_task *task, wt_error *err)
-{
-    wt_input *input = NULL;
-    wt_error failure = WT_ERROR_INIT;
-    wt_status status = flow_open_beside(task->work, task->file, task->job->group, WT_KIND_FORCE,
-                                        &input, task->n_workers > 1 ? &task->beside : NULL, err);
-    const wt_read_options options =
-        wanted_channels(task->file, task->job, task->job->rates || task->options.spectrum != NULL);
-    if (status == WT_OK)
-        status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
-                               err);
-    if (status == WT_OK) {
-        const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
-        for (size_t i = 0; i < task->n_items; i++) /* a file before may have failed half-way */
-            task->items[i].state = ITEM_FREE;
-        task->n_of_file = count;
-        task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
-        task->status = WT_OK;
-        task->err = err;
-        task->beside_err = &failure;
-        const size_t fits = n < task->n_workers ? n : task->n_workers;
-        status = wt_parallel_for(fits + (task->beside != NULL), task->n_workers, fit_curves, task,
-                                 NULL, "fitting curves");
-        if (status == WT_OK || task->status != WT_OK)
-            status = task->status;
-        else
-            *err = failure;
-    }
-    if (status == WT_OK)
-        status = flush_failures(task, err);
-    wt_force_close(task->source);
-    task->source = NULL;
-    wt_input_close(task->beside);
-    task->beside = NULL;
-    wt_input_close(input);
-    return status;
-}
-
-static wt_status read_files(indent_task *task, const flow_files *files, wt_error *err)
-{
-    wt_status status = WT_OK;
-    task->n_files = files->n;
-    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        task->file = &files->file[i];
-        task->file_number = i + 1;
-        task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
-        status = read_file(task, &failure);
-        if (status == WT_OK || flow_leave_out(task->work, task->file, &failure)) {
-            status = WT_OK;
-            continue;
-        }
-        task->n_failed++;
-        status = wt_job_failed(task->work, task->file->name, status, &failure, err);
-    }
-    return status;
-}
 
 /* ---- the representative curve ---------------------------------------------------------------- */
 
@@ -355,8 +44,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve *curve = &task->items[0].curve;
-    const wt_read_options options =
-        wanted_channels(file, task->job, task->options.spectrum != NULL);
+    const wt_read_options options = indent_read_options(task, file, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, NULL, &source, err);
@@ -372,11 +60,12 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
         if (next != WT_OK || curve->index != median->curve)
             continue;
         wt_indent_fit fit;
-        status = wt_indent_force_curve(task->contact, &task->options, curve, task->scratch[0], &fit,
-                                       err);
+        const wt_indent_options fit_options = indent_curve_options(task, &median->choice);
+        status = wt_indent_force_curve(task->file_contact, &fit_options, curve, task->scratch[0],
+                                       &fit, err);
         if (status == WT_OK)
             status = flow_curve_tables_add(tables, task->job->group, file->name, curve, &fit,
-                                           task->contact, &task->options, err);
+                                           task->file_contact, &fit_options, err);
         break;
     }
     wt_force_close(source);
@@ -457,11 +146,15 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
 {
     wt_status status = indent_job_check(task->job, err);
     if (status == WT_OK)
+        status = shown_curves_begin(task->job, &task->shown, err);
+    if (status == WT_OK)
         status = param_check(wt_job_params(), task->work, err);
     if (status == WT_OK)
         status = find_spectrum(task, err);
     if (status == WT_OK)
         status = indent_contact_table(&task->job->tip, &task->contact, err);
+    if (status == WT_OK)
+        status = choices_read(task->job, task->work, &task->choices, err);
     if (status == WT_OK && (task->work->left_out & WT_EXTRA_COMMON) == 0)
         status = common_errors_begin(task->job, &task->common, err);
     if (status != WT_OK)
@@ -504,6 +197,8 @@ static void release_task(indent_task *task)
     indent_depths_clear(&task->depths);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
+    choices_clear(&task->choices);
+    shown_curves_clear(&task->shown);
     wt_table_free(task->rows.table);
     (void)pthread_cond_destroy(&task->written);
     (void)pthread_mutex_destroy(&task->lock);
@@ -541,7 +236,9 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = read_files(&task, &files, err);
+        status = choices_bind(&task.choices, &files, err);
+    if (status == WT_OK)
+        status = indent_read_files(&task, &files, err);
     if (status == WT_OK && task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
         flow_tell_files(&files, task.n_failed, err);
@@ -556,8 +253,12 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
-    if (status == WT_OK && job->curves && task.n_moduli > 0)
+    if (status == WT_OK)
+        status = choices_table(&task.choices, work, &tables->choices, err);
+    if (status == WT_OK && task.shown.median && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
+    if (status == WT_OK)
+        status = shown_curves_table(&task.shown, job->group, &tables->curves, err);
     if (status == WT_OK) {
         status = table_end(&task.rows, &tables->indentation);
         task.rows.table = NULL;
@@ -579,6 +280,8 @@ void wt_indent_tables_clear(wt_indent_tables *tables)
     wt_table_free(tables->indentation);
     wt_table_free(tables->force_displacement);
     wt_table_free(tables->force_indentation);
+    wt_table_free(tables->curves);
+    wt_table_free(tables->choices);
     wt_table_free(tables->modulus_depth);
     *tables = (wt_indent_tables){0};
 }

@@ -57,6 +57,9 @@ void indent_depths_clear(indent_depths *depths);
 
 /* Of a wt_estimate, for records: its error is below it. */
 wt_status indent_error_check(const void *estimate, wt_error *err);
+/* A tip in words, for records; what is known of the sample stays. */
+wt_status indent_read_tip(const char *text, void *tip, wt_error *err);
+wt_status indent_check_tip(const void *tip, wt_error *err);
 /* The parameters, and what they say together. */
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
 /* The limits of the fit in words; false if there are none. */

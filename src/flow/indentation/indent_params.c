@@ -2,9 +2,11 @@
 #include "base/param.h"
 #include "fit/indentation/curve.h"
 #include "flow/indentation/indent.h"
+#include "flow/indentation/shown_curves.h"
 #include "read/params.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,7 +25,7 @@ wt_indent_job wt_indent_job_defaults(void)
     };
 }
 
-static wt_status read_tip(const char *text, void *tip, wt_error *err)
+wt_status indent_read_tip(const char *text, void *tip, wt_error *err)
 {
     wt_tip made, *to = tip;
     const wt_status status = wt_tip_parse(text, &made, err);
@@ -35,7 +37,7 @@ static wt_status read_tip(const char *text, void *tip, wt_error *err)
     return WT_OK;
 }
 
-static wt_status check_tip(const void *tip, wt_error *err)
+wt_status indent_check_tip(const void *tip, wt_error *err)
 {
     return wt_tip_check(tip, err);
 }
@@ -46,6 +48,16 @@ static wt_status check_group(const void *member, wt_error *err)
     if (*group != '\0' && group[strspn(group, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0')
         return WT_OK;
     return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
+}
+
+static wt_status check_curves(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_indent_job *job = (const void *)(at - offsetof(wt_indent_job, curves));
+    shown_curves shown;
+    const wt_status status = shown_curves_begin(job, &shown, err);
+    shown_curves_clear(&shown);
+    return status;
 }
 
 wt_status indent_error_check(const void *estimate, wt_error *err)
@@ -62,8 +74,8 @@ wt_status indent_error_check(const void *estimate, wt_error *err)
 }
 
 static const wt_param rows[] = {
-    {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
-     .flags = PARAM_REQUIRED,
+    {PARAM_OTHER_OF("tip", wt_indent_job, tip, indent_read_tip), .check = indent_check_tip,
+     .value = "TIP", .flags = PARAM_REQUIRED,
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
              "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
              "punch:radius=2um; half-angle and radius with their standard errors, as "
@@ -85,8 +97,15 @@ static const wt_param rows[] = {
     {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
-    {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
-     .help = "also the representative (median) curve and its fit"},
+    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curves,
+     .value = "WHICH", .unset = "",
+     .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
+             "error of the modulus), all or FILE:N; median is the representative one, whole, as "
+             "force_displacement and force_indentation"},
+    {PARAM_TEXT_OF("choices", wt_indent_job, choices), .value = "FILE", .unset = "",
+     .flags = PARAM_NO_CASE,
+     .help = "what was chosen by hand: curves left out, contact points of curves, spring constant, "
+             "sensitivity and tip of files"},
 };
 PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
             PARAM_PART(wt_indent_params, wt_indent_job, options))

@@ -185,11 +185,14 @@ static wt_status publish_stages(conduct *d, wt_error *err)
 {
     flow_run *r = &d->run;
     const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+    const flow_things fits = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
     const struct {
         const table_schema *schema;
         flow_things things;
         wt_table **table;
-    } of_both[] = {{&force_displacement_schema, curves, &r->curves.force_displacement},
+    } of_both[] = {{&choices_schema, fits, &r->curves.choices},
+                   {&curves_schema, fits, &r->curves.curves},
+                   {&force_displacement_schema, curves, &r->curves.force_displacement},
                    {&force_indentation_schema, curves, &r->curves.force_indentation},
                    {&modulus_depth_schema, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK),
                     &r->curves.modulus_depth}};

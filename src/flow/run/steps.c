@@ -179,7 +179,7 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
         files->sensitivity_error > 0 ? files->sensitivity_error : run->c->compare.sensitivity_error;
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
-    job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
+    job.median_curve = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     job.rubber = run->level > 0 ? &run->rubber : NULL;
     job.temperature = indented_at(run->c, g);
     if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {

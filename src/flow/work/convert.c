@@ -1,5 +1,6 @@
 /* The convert job: an instrument file to tables in SI units.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/work/from_contact.h"
 #include "flow/work/inputs.h"
 
 #include "base/array.h"
@@ -16,6 +17,7 @@ typedef struct conversion {
     wt_read_options read;
     wt_table_sink sink;
     wt_curve_sink curves; /* or NULL */
+    contact_points contact;
     void *user;
 } conversion;
 
@@ -91,26 +93,33 @@ static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt
 static wt_status convert_force(const conversion *c, wt_error *err)
 {
     wt_force_source *source = NULL;
-    wt_force_curve curve = {0};
+    wt_force_curve curve = {0}, moved = {0};
+    const bool moves = c->contact.tables != NULL;
     size_t n = 0, n_failed = 0;
     wt_status status =
         wt_force_open(c->work->formats, c->input, &c->read, c->work->log, &source, err);
     while (status == WT_OK) {
         wt_error failure = WT_ERROR_INIT;
-        const wt_status got = wt_force_next(source, &curve, &failure);
+        wt_status got = wt_force_next(source, &curve, &failure);
         if (got == WT_END)
             break;
+        if (got == WT_OK && moves) {
+            got = from_contact(&c->contact, &c->file, &curve, c->work, &moved, &failure);
+            wt_error_place(got != WT_OK ? &failure : NULL, "curve %zu", curve.index);
+        }
         if (got != WT_OK) {
             n_failed++;
             status = wt_job_failed(c->work, wt_input_name(c->input), got, &failure, err);
             continue;
         }
-        status = c->curves != NULL ? c->curves(c->user, &curve, err) : send_curve(c, &curve, err);
+        const wt_force_curve *sent = moves ? &moved : &curve;
+        status = c->curves != NULL ? c->curves(c->user, sent, err) : send_curve(c, sent, err);
         n++;
     }
     if (status == WT_OK && n == 0)
         status = wt_fail(err, n_failed > 0 ? WT_E_CORRUPT : WT_E_EMPTY, "no curve could be read");
     wt_force_curve_clear(&curve);
+    wt_force_curve_clear(&moved);
     wt_force_close(source);
     return status;
 }
@@ -348,6 +357,10 @@ static const wt_param rows[] = {
     {PARAM_OTHER_OF("kind", wt_convert_job, kind, read_kind), .value = KIND_WORDS,
      .unset = "the first of these that the file has", .flags = PARAM_NO_CASE,
      .help = "which data of a file that holds several kinds"},
+    {PARAM_TEXT_OF("contact", wt_convert_job, contact), .value = "RESULT", .unset = "",
+     .flags = PARAM_NO_CASE,
+     .help = "force curves from their contact points and above their baselines, with the "
+             "indentation of every sample, as the result of weartrack indent has them"},
 };
 PARAM_TABLE(wt_convert_job_params, wt_convert_job, rows, wt_convert_job_defaults,
             PARAM_PART(wt_read_params, wt_convert_job, read))
@@ -366,10 +379,18 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
     if (status != WT_OK)
         return status;
     c.read = flow_read_options(&c.file);
+    if (job->contact != NULL)
+        status = contact_points_read(job->contact, work, &c.contact, err);
+    if (status != WT_OK) {
+        contact_points_clear(&c.contact);
+        wt_input_close(c.input);
+        return status;
+    }
     /* An .nid file may hold images and curves: the first kind that has data counts. */
     status = WT_E_EMPTY;
     for (size_t k = 0; k < COUNT_OF(kinds) && status == WT_E_EMPTY; k++) {
         if ((c.file.format->kinds & kinds[k].kind) == 0 ||
+            (job->contact != NULL && kinds[k].kind != WT_KIND_FORCE) ||
             (job->kind != 0 && job->kind != kinds[k].kind))
             continue;
         failure = (wt_error)WT_ERROR_INIT;
@@ -384,6 +405,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
         if (err != NULL)
             *err = failure;
     }
+    contact_points_clear(&c.contact);
     wt_input_close(c.input);
     return status;
 }

@@ -203,6 +203,23 @@ void flow_files_clear(flow_files *files)
     *files = (flow_files){NULL, 0, NULL};
 }
 
+static bool is_end_of(const char *end, size_t n_end, const char *path, size_t n)
+{
+    return n_end > 0 && n > n_end && path[n - n_end - 1] == '/' &&
+           memcmp(path + n - n_end, end, n_end) == 0;
+}
+
+flow_naming flow_file_is(const flow_file *file, const char *named, size_t length)
+{
+    const size_t n = strlen(file->path);
+    if ((strlen(file->name) == length && memcmp(file->name, named, length) == 0) ||
+        (n == length && memcmp(file->path, named, length) == 0))
+        return FLOW_SAME_NAME;
+    const bool same_end =
+        is_end_of(named, length, file->path, n) || is_end_of(file->path, n, named, length);
+    return same_end ? FLOW_SAME_END : FLOW_OTHER_FILE;
+}
+
 /* ---- opening --------------------------------------------------------------------------------- */
 
 static wt_status read_piece(void *user, size_t from, void *to, size_t n, wt_error *err)

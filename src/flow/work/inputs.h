@@ -38,6 +38,11 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err) WT_NODISCARD;
 void flow_files_clear(flow_files *files);
 
+/* How so many characters name a file: they are its name or path, or one of the two paths is the end
+ * of the other behind a '/', as where a result was made in another folder. */
+typedef enum flow_naming { FLOW_OTHER_FILE, FLOW_SAME_END, FLOW_SAME_NAME } flow_naming;
+flow_naming flow_file_is(const flow_file *file, const char *named, size_t length);
+
 /* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;

@@ -1,0 +1,115 @@
+/* One self-contained page to go through the curves of a result.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/browse.h"
+
+#include "report/files.h"
+#include "weartrack/report.h"
+
+#include <string.h>
+
+/* Parts of the page by the marks that browse.html has for them. */
+typedef struct page_part {
+    const char *mark, *text;
+} page_part;
+
+static wt_status find_drawing(const char **script, const char **style, const char **licence,
+                              wt_error *err)
+{
+    *script = file_of_library("dygraph.min.js");
+    *style = file_of_library("dygraph.min.css");
+    *licence = file_of_library("copyright");
+    if (*script != NULL && *style != NULL && *licence != NULL)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_TOOL, "this build has no dygraphs, which draws on the page");
+    wt_error_advice(err, "install the Debian package libjs-dygraphs and build weartrack again");
+    return status;
+}
+
+static wt_status check_curves(const bound_tables *tables, wt_error *err)
+{
+    if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
+        return WT_OK;
+    const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
+    wt_error_expected(err, "the tables indentation/... and curves");
+    wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
+                         "<indentation> of a case");
+    return status;
+}
+
+static void add_page(const page_part *parts, size_t n, growing_text *page)
+{
+    const char *p = file_of_library("browse.html");
+    for (const char *mark; (mark = strstr(p, "@@")) != NULL;) {
+        text_bytes(page, p, (size_t)(mark - p));
+        size_t k = 0;
+        while (k < n && strncmp(mark + 2, parts[k].mark, strlen(parts[k].mark)) != 0)
+            k++;
+        p = mark + 2;
+        if (k == n)
+            continue;
+        text_add(page, parts[k].text);
+        p += strlen(parts[k].mark) + 2;
+    }
+    text_add(page, p);
+}
+
+static void add_source(const wt_result *result, bool with_provenance, growing_text *to)
+{
+    text_html(to, "weartrack %s", wt_version());
+    const char *command = wt_provenance_command(wt_result_provenance_const(result));
+    if (with_provenance && command[0] != '\0')
+        text_html(to, "<details><summary>Command</summary><code>%s</code></details>", command);
+}
+
+static wt_status write_page(const char *path, const growing_text *page, wt_error *err)
+{
+    wt_outfile *out = NULL;
+    wt_status status = wt_outfile_open(path, &out, err);
+    if (status != WT_OK)
+        return status;
+    if (fwrite(text_string(page), 1, page->length, wt_outfile_stream(out)) == page->length)
+        return wt_outfile_commit(out, err);
+    wt_outfile_discard(out);
+    status = wt_fail(err, WT_E_IO, "cannot be written");
+    wt_error_file(err, path);
+    return status;
+}
+
+wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
+                          wt_error *err)
+{
+    bound_tables tables = {0};
+    growing_text data = {0}, licence = {0}, source = {0}, page = {0};
+    const char *script = NULL, *style = NULL, *copyright = NULL;
+    wt_status status = find_drawing(&script, &style, &copyright, err);
+    if (status == WT_OK)
+        status = bound_make(result, &tables, err);
+    if (status == WT_OK)
+        status = check_curves(&tables, err);
+    if (status == WT_OK)
+        status = browse_data(&tables, &data, err);
+    if (status == WT_OK) {
+        text_html(&licence, "%s", copyright);
+        add_source(result, with_provenance, &source);
+        const page_part parts[] = {{"dygraph.css", style},
+                                   {"browse.css", file_of_library("browse.css")},
+                                   {"data", text_string(&data)},
+                                   {"dygraph.js", script},
+                                   {"browse.js", file_of_library("browse.js")},
+                                   {"licence", text_string(&licence)},
+                                   {"source", text_string(&source)}};
+        add_page(parts, sizeof parts / sizeof parts[0], &page);
+        page.failed = page.failed || data.failed || licence.failed || source.failed;
+        status =
+            page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : write_page(path, &page, err);
+    }
+    text_free(&data);
+    text_free(&licence);
+    text_free(&source);
+    text_free(&page);
+    bound_clear(&tables);
+    return status;
+}

@@ -1,0 +1,15 @@
+/* The page to go through the curves of a result: what it is made of.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_BROWSE_H
+#define WT_REPORT_BROWSE_H
+
+#include "report/bound.h"
+#include "report/text.h"
+
+/* Appends the curves of all groups, their samples and the choices made before as JSON that may
+ * stand in a script element. */
+wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *err) WT_NODISCARD;
+
+#endif

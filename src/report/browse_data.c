@@ -1,0 +1,257 @@
+/* The data of the page to go through curves: JSON, with the samples of each curve as 16-bit numbers
+ * in base64, which is a tenth of their decimals and finer than any screen.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/browse.h"
+
+#include "base/utf8.h"
+#include "report/curve_finder.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The largest 16-bit number; the one that means no value. */
+enum { PACKED_MOST = 65534, PACKED_NONE = 65535 };
+
+/* ---- words and numbers ----------------------------------------------------------------------- */
+
+/* A string. Neither '<' nor what else markup has can stand in it, and what is no UTF-8 becomes
+ * U+FFFD. */
+static void add_text(growing_text *to, const char *text)
+{
+    static const char escaped[] = "\"\\<>&\x7f";
+    size_t left = strlen(text);
+    text_add(to, "\"");
+    for (const char *c = text; left > 0;) {
+        const size_t length = utf8_character(c, left), step = length > 0 ? length : 1;
+        const unsigned char byte = (unsigned char)*c;
+        if (length == 0)
+            text_add(to, "\\ufffd");
+        else if (byte < ' ' || strchr(escaped, byte) != NULL)
+            text_format(to, "\\u%04x", byte);
+        else
+            text_bytes(to, c, length);
+        c += step;
+        left -= step;
+    }
+    text_add(to, "\"");
+}
+
+static void add_number(growing_text *to, double value)
+{
+    if (isfinite(value))
+        text_format(to, "%.6g", value);
+    else
+        text_add(to, "null");
+}
+
+/* Contact points are differences of large numbers, and are handed back. */
+static void add_exact(growing_text *to, double value)
+{
+    char number[64];
+    if (!isfinite(value)) {
+        text_add(to, "null");
+        return;
+    }
+    wt_number_format(value, number);
+    text_add(to, number);
+}
+
+static void add_base64(growing_text *to, const uint8_t *bytes, size_t n)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    text_add(to, "\"");
+    for (size_t i = 0; i < n; i += 3) {
+        const unsigned a = bytes[i], b = i + 1 < n ? bytes[i + 1] : 0,
+                       c = i + 2 < n ? bytes[i + 2] : 0;
+        const char four[4] = {digits[a >> 2], digits[(a << 4 | b >> 4) & 63],
+                              i + 1 < n ? digits[(b << 2 | c >> 6) & 63] : '=',
+                              i + 2 < n ? digits[c & 63] : '='};
+        text_bytes(to, four, sizeof four);
+    }
+    text_add(to, "\"");
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+typedef struct range {
+    double low, high;
+} range;
+
+static range range_of(const table_view *view, curve_block b, curves_column column, range r)
+{
+    for (size_t i = b.from; i < b.to; i++) {
+        const double value = curves_get(view, i, column);
+        if (!isfinite(value))
+            continue;
+        r.low = fmin(r.low, value);
+        r.high = fmax(r.high, value);
+    }
+    return r;
+}
+
+static unsigned packed(double value, range r)
+{
+    if (!isfinite(value) || !(r.high > r.low))
+        return isfinite(value) ? 0 : PACKED_NONE;
+    return (unsigned)lrint((value - r.low) / (r.high - r.low) * PACKED_MOST);
+}
+
+static uint8_t *put_packed(uint8_t *to, unsigned value)
+{
+    enum { BYTE = 8, LOW = 255 };
+    to[0] = (uint8_t)(value & LOW);
+    to[1] = (uint8_t)(value >> BYTE);
+    return to + 2;
+}
+
+/* Compliance of the lever: what displacement and indentation differ by at the largest force. */
+static double compliance(const table_view *view, curve_block b)
+{
+    double largest = 0, per_force = (double)NAN;
+    for (size_t i = b.from; i < b.to; i++) {
+        const double force = curves_get(view, i, CURVES_FORCE);
+        const double bent =
+            curves_get(view, i, CURVES_DISPLACEMENT) - curves_get(view, i, CURVES_INDENTATION);
+        if (!(fabs(force) > largest) || !isfinite(bent))
+            continue;
+        largest = fabs(force);
+        per_force = bent / force;
+    }
+    return per_force;
+}
+
+/* [samples, of them approach, first with a fit above the baseline, displacement from, to, force
+ * from, to, compliance of the lever, base64: displacements, forces, fitted forces of the contact]
+ */
+static wt_status add_samples(const table_view *view, curve_block b, growing_text *to, wt_error *err)
+{
+    const size_t n = b.to - b.from;
+    size_t approach = 0, contact = 0;
+    while (approach < n &&
+           strcmp(curves_text(view, b.from + approach, CURVES_SEGMENT), "approach") == 0)
+        approach++;
+    while (contact < approach &&
+           !(curves_get(view, b.from + contact, CURVES_DISPLACEMENT) >= 0 &&
+             isfinite(curves_get(view, b.from + contact, CURVES_FITTED_FORCE))))
+        contact++;
+    const range none = {(double)INFINITY, -(double)INFINITY};
+    const range z = range_of(view, b, CURVES_DISPLACEMENT, none);
+    const range f = range_of(view, b, CURVES_FITTED_FORCE, range_of(view, b, CURVES_FORCE, none));
+    const size_t length = 2 * (2 * n + approach - contact);
+    uint8_t *bytes = malloc(length > 0 ? length : 1), *end = bytes;
+    if (bytes == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = b.from; i < b.to; i++)
+        end = put_packed(end, packed(curves_get(view, i, CURVES_DISPLACEMENT), z));
+    for (size_t i = b.from; i < b.to; i++)
+        end = put_packed(end, packed(curves_get(view, i, CURVES_FORCE), f));
+    for (size_t i = b.from + contact; i < b.from + approach; i++)
+        end = put_packed(end, packed(curves_get(view, i, CURVES_FITTED_FORCE), f));
+    text_format(to, "[%zu,%zu,%zu", n, approach, contact);
+    const double numbers[] = {z.low, z.high, f.low, f.high, compliance(view, b)};
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        text_add(to, ",");
+        add_number(to, numbers[k]);
+    }
+    text_add(to, ",");
+    add_base64(to, bytes, length);
+    text_add(to, "]");
+    free(bytes);
+    return WT_OK;
+}
+
+/* ---- curves ---------------------------------------------------------------------------------- */
+
+/* [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null]; a file
+ * is a number in the list of files. */
+static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_finder *f,
+                         growing_text *to, wt_error *err)
+{
+    static const indentation_column numbers[] = {INDENTATION_MODULUS,
+                                                 INDENTATION_MODULUS_STANDARD_ERROR};
+    text_format(to, "%s[%zu,%.0f,", row > 0 ? ",\n" : "", file,
+                indentation_get(rows, row, INDENTATION_CURVE));
+    add_text(to, indentation_text(rows, row, INDENTATION_VERDICT));
+    text_add(to, ",");
+    add_text(to, indentation_text(rows, row, INDENTATION_REASON));
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        text_add(to, ",");
+        add_number(to, indentation_get(rows, row, numbers[k]));
+    }
+    text_add(to, ",");
+    add_exact(to, indentation_get(rows, row, INDENTATION_CONTACT_POINT));
+    text_add(to, ",");
+    add_number(to, indentation_get(rows, row, INDENTATION_X));
+    text_add(to, ",");
+    add_number(to, indentation_get(rows, row, INDENTATION_Y));
+    text_add(to, ",");
+    const curve_block *b = curve_finder_next(f, rows, row);
+    wt_status status = WT_OK;
+    if (b != NULL)
+        status = add_samples(f->view, *b, to, err);
+    else
+        text_add(to, "null");
+    text_add(to, "]");
+    return status;
+}
+
+static wt_status add_group(const table_view *rows, curve_finder *f, growing_text *to, wt_error *err)
+{
+    growing_text files = {0};
+    wt_status status = WT_OK;
+    const char *last = NULL;
+    size_t n_files = 0;
+    text_add(to, "{\"name\":");
+    add_text(to, rows->suffix);
+    text_add(to, ",\"curves\":[");
+    for (size_t row = 0; status == WT_OK && row < rows->n_rows; row++) {
+        const char *file = indentation_text(rows, row, INDENTATION_FILE);
+        if (last == NULL || strcmp(file, last) != 0) {
+            text_add(&files, n_files++ > 0 ? "," : "");
+            add_text(&files, file);
+            last = file;
+        }
+        status = add_row(rows, row, n_files - 1, f, to, err);
+    }
+    text_add(to, "],\"files\":[");
+    text_add(to, text_string(&files));
+    text_add(to, "]}");
+    text_done(&files, to);
+    return status;
+}
+
+/* Those of before, which are handed back with those that are made on the page. */
+static void add_choices(const table_view *choices, growing_text *to)
+{
+    static const choices_column texts[] = {CHOICES_GROUP, CHOICES_FILE, CHOICES_CHOICE,
+                                           CHOICES_VALUE, CHOICES_NOTE};
+    for (size_t row = 0; row < choices->n_rows; row++) {
+        text_add(to, row > 0 ? ",[" : "[");
+        for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+            add_text(to, choices_text(choices, row, texts[k]));
+            text_add(to, ",");
+        }
+        add_exact(to, choices_get(choices, row, CHOICES_CURVE));
+        text_add(to, "]");
+    }
+}
+
+wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *err)
+{
+    curve_finder f = {.view = &tables->curves};
+    wt_status status = curve_finder_make(&f, err);
+    text_add(to, "{\"groups\":[");
+    for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
+        text_add(to, i > 0 ? "," : "");
+        status = add_group(&tables->indentation[i], &f, to, err);
+    }
+    text_add(to, "],\"choices\":[");
+    add_choices(&tables->choices, to);
+    text_add(to, "]}");
+    curve_finder_clear(&f);
+    return status;
+}
