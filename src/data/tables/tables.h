@@ -28,6 +28,7 @@
 #include "data/tables/strain.h"
 #include "data/tables/sweeps.h"
 #include "data/tables/topography.h"
+#include "data/tables/validation.h"
 #include "data/tables/what_if.h"
 #include "data/tables/work_precision.h"
 
@@ -119,6 +120,12 @@
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
+    X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
+      "validate")                                                                                  \
+    X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
+      "What the record says of the choices of the model", "validate")                              \
+    X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
+      "Where the error of measured over predicted comes from", "validate")                         \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
     X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \
     X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \

@@ -557,6 +557,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&roughness_schema, "", &story->roughness},
         {&power_spectrum_schema, "", &story->power_spectrum},
         {&surfaces_schema, "", &story->surfaces},
+        {&validation_schema, "", &story->validation},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -582,6 +583,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_difference(&story);
     answer_thickness(&story);
     answer_friction(&story);
+    answer_validation(&story);
     answer_surface(&story);
     answer_caveats(&story);
     answer_put_caveats(&story);

@@ -381,6 +381,18 @@ static void say_friction(sentence *s, const table_view *v)
         words_of_finding(&area).text);
 }
 
+static void say_validation(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_verdict(&s->told, v);
+    if (!isnan(validation_value(v, VALIDATION_KEY_NEEDED).value)) {
+        next(s);
+        tell_needed(&s->told, v);
+    }
+}
+
 static void say_layer(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -412,7 +424,8 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&record_schema, say_record},
                  {&wear_schema, say_wear},
                  {&friction_schema, say_friction},
-                 {&layer_schema, say_layer}};
+                 {&layer_schema, say_layer},
+                 {&validation_schema, say_validation}};
     sentence s = {.told = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

@@ -34,6 +34,7 @@ typedef struct answer_story {
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
+    table_view validation;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
@@ -49,6 +50,8 @@ void answer_caveat(answer_story *story, caveat_of of, const char *format, ...) W
 void answer_put_caveats(answer_story *story);
 /* What a measured counter surface is like. */
 void answer_surface(const answer_story *story);
+/* Whether the theory explains the friction that was measured. */
+void answer_validation(const answer_story *story);
 void answer_story_clear(answer_story *story);
 
 #endif

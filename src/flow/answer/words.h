@@ -59,6 +59,10 @@ void tell_rates(telling *t, const finding_tables *tables);
 void tell_thickness(telling *t, const finding_tables *tables);
 /* "open whether the layer lowers or raises friction: -18 % (...)" */
 void tell_change(telling *t, const finding_tables *tables, bool with_choices);
+/* "the theory (friction with the layer) against the record: explains: ..." */
+void tell_verdict(telling *t, const table_view *validation);
+/* "the record asks for a shear stress of 5.01 MPa (...); plausible: yes: ...", where it is known */
+void tell_needed(telling *t, const table_view *validation);
 /* "predicted from a given U_c" */
 const char *words_of_origin(const finding_tables *tables);
 

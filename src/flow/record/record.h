@@ -30,6 +30,16 @@ typedef struct wear_rates {
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
                    wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err);
+/* One that is there already. */
+void wear_count(wear_rates *rates, double rate, double standard_error);
 void wear_set_keys(const wear_rates *rates, table_writer *t);
+
+/* Whether a file is a result of weartrack: a text stream or HDF5. */
+bool stored_record_begins(wt_input *input);
+/* Its rows of a table, if it has that, go to the table that is written as they are; each is shown.
+ */
+typedef void stored_row(void *user, const table_view *view, size_t row);
+wt_status stored_record_rows(const wt_result *result, const table_schema *schema, table_writer *t,
+                             stored_row *each, void *user, wt_error *err) WT_NODISCARD;
 
 #endif

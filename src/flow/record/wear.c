@@ -157,10 +157,15 @@ static void put(const wt_record_job *job, const char *of, wt_estimate volume, we
     wear_add_row(t, r);
     if (isnan(r->rate.value))
         return;
+    wear_count(rates, r->rate.value, r->rate.standard_error);
+}
+
+void wear_count(wear_rates *rates, double rate, double standard_error)
+{
     rates->n++;
-    rates->sum += r->rate.value;
-    rates->squares += r->rate.value * r->rate.value;
-    rates->own += r->rate.standard_error * r->rate.standard_error;
+    rates->sum += rate;
+    rates->squares += rate * rate;
+    rates->own += standard_error * standard_error;
 }
 
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
