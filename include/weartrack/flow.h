@@ -869,6 +869,25 @@ WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_lay
                                          const wt_job *work, wt_table **table,
                                          wt_error *err) WT_NODISCARD;
 
+typedef struct wt_identify_job {
+    wt_estimate observed_thickness; /* [m], at balance */
+    wt_estimate specific_wear_rate; /* k [m^2/N]; value NaN: not measured */
+    wt_estimate running_in_time;    /* [s] from bare rubber; value NaN: not measured */
+    double running_in_share;        /* of the thickness that the layer had then; default 0.95 */
+    double damage, duty;            /* as in wt_layer_job */
+    wt_depth_profile profile;
+    double local_friction;
+    double wear_low, wear_high;     /* k by the literature [m^2/N] */
+    double energy_low, energy_high; /* U_c by the literature [J/m^3] */
+} wt_identify_job;
+WT_API wt_identify_job wt_identify_job_defaults(void);
+WT_API const wt_params *wt_identify_job_params(void);
+/* Table "identification": U_c and k from the thickness with the wear rate, with the running-in time
+ * by either closure, and what the thickness alone leaves of them; intervals of 95 % and correlation
+ * from the replicates and the stated errors. */
+WT_API wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
+                                  const wt_job *work, wt_table **table, wt_error *err) WT_NODISCARD;
+
 /* ---- what if ----------------------------------------------------------------------------------
  */
 

@@ -45,6 +45,7 @@ int cmd_layer(int argc, char **argv);
 int cmd_new_case(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
+int cmd_identify(int argc, char **argv);
 int cmd_validate(int argc, char **argv);
 int cmd_table(int argc, char **argv);
 int cmd_summary(int argc, char **argv);

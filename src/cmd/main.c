@@ -31,6 +31,7 @@ const cmd_command cmd_commands[] = {
     {"record", cmd_record, "friction and wear as a tribometer measured them"},
     {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
     {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
+    {"identify", cmd_identify, "critical energy and wear rate from a layer of known thickness"},
     {"Everything", NULL, NULL},
     {"new-case", cmd_new_case, "a commented case file from the files that there are"},
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},

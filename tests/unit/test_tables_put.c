@@ -1123,6 +1123,28 @@ static void test_validation(void **state)
     (void)remove(path);
 }
 
+/* ---- identification -------------------------------------------------------------------------- */
+
+static void test_identification(void **state)
+{
+    (void)state;
+    static const double slow[] = {0.1};
+    wt_identify_job job = wt_identify_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(slow, 1);
+    work.replicates = 120;
+    sliding.pressure.standard_error = 1e4;
+    job.observed_thickness = (wt_estimate){2e-6, 3e-7, 0, "m"};
+    job.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
+    job.running_in_time = (wt_estimate){500, 50, 0, "s"};
+    if (wt_identify_make(&sliding, &job, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(table);
+    assert_int_equal(wt_table_n_rows(table), 4);
+    wt_table_free(table);
+}
+
 /* ---- what was not put ------------------------------------------------------------------------ */
 
 /* Every fit of isotherms that was tried ends settled; the key warns of one that does not. */
@@ -1189,6 +1211,7 @@ int main(void)
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_record),
         cmocka_unit_test(test_validation),
+        cmocka_unit_test(test_identification),
         cmocka_unit_test(test_dwell),
         cmocka_unit_test(test_thermal),
         cmocka_unit_test(test_directions),

@@ -17,6 +17,7 @@
 #include "data/tables/dwell.h"
 #include "data/tables/error_budget.h"
 #include "data/tables/friction_maps.h"
+#include "data/tables/identification.h"
 #include "data/tables/indentation.h"
 #include "data/tables/materials.h"
 #include "data/tables/measured.h"
@@ -119,6 +120,8 @@
     X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(identification, IDENTIFICATION, "identification",                                            \
+      "Critical energy and wear rate of a layer", "identify")                                      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
       "validate")                                                                                  \

@@ -20,9 +20,6 @@ static const char how_thick[] = "How thick is it?";
 static const char what_friction[] = "What does it do to friction?";
 static const char not_asked[] = "What was not asked?";
 
-/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
-#define MM3_PER_N_M 1e9
-
 /* The message of a stage that failed, or that failed to take more into account. */
 static const char *why_failed(const answer_story *story, const char *stage)
 {

@@ -12,6 +12,9 @@
 /* A share of the friction below this is not worth a remark. */
 #define ANSWER_ODD_SHARE 0.01
 
+/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
+#define MM3_PER_N_M 1e9
+
 /* A text that grows in a buffer, cut where that ends. */
 typedef struct telling {
     char *text;
