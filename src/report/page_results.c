@@ -130,6 +130,7 @@ void page_results(page_writer *page)
     page_keys(page, &t->validation, "Measured against predicted friction");
     page_whole_table(page, &t->validation,
                      "Measured against predicted friction, by the steps of the records", NULL, 0);
+    page_keys(page, &t->validation_sources, "What would narrow measured over predicted most");
     page_whole_table(page, &t->validation_sources,
                      "Where the error of measured over predicted comes from", NULL, 0);
     page_keys(page, &t->validation_choices, "Choices of the model, by the record");

@@ -555,6 +555,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&power_spectrum_schema, "", &story->power_spectrum},
         {&surfaces_schema, "", &story->surfaces},
         {&validation_schema, "", &story->validation},
+        {&validation_sources_schema, "", &story->validation_sources},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)

@@ -34,7 +34,7 @@ typedef struct answer_story {
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
-    table_view validation;
+    table_view validation, validation_sources;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;

@@ -76,6 +76,10 @@ void answer_validation(const answer_story *story)
     answer_say(story, question, "validation", "%s.", text);
     if (settled != NULL)
         answer_say(story, question, "validation", "What would settle it: %s.", settled);
+    if (story->validation_sources.table != NULL)
+        answer_say(
+            story, question, "validation", "What would narrow it most: %s.",
+            validation_sources_words(&story->validation_sources, VALIDATION_SOURCES_KEY_ADVICE));
     say_needed(story, v);
     say_narrowed(story, v);
     if (wear != NULL)
