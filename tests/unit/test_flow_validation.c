@@ -14,6 +14,7 @@ enum { STEPS = 13 };
 static double velocity[STEPS];
 static wt_layer_known known;
 static wt_table *record, *what_if;
+static size_t at_rest = SIZE_MAX; /* row of the record */
 
 static void set_up(void)
 {
@@ -64,7 +65,7 @@ static void make_record(double shear, double q1, double power, double error, boo
     for (size_t i = 0; i < STEPS; i++) {
         const double mu = number_cell(f.friction, i, layered ? "friction_with_layer" : "friction") *
                           pow(velocity[i], power) * (shear < 0 ? 0.8 : 1);
-        const double row[][2] = {{RECORD_VELOCITY, velocity[i]},
+        const double row[][2] = {{RECORD_VELOCITY, i == at_rest ? 0 : velocity[i]},
                                  {RECORD_FRICTION, mu},
                                  {RECORD_FRICTION_STANDARD_ERROR, error * mu},
                                  {RECORD_FRICTION_LOW, mu * (1 - 2 * error)},
@@ -270,6 +271,23 @@ static void test_threads(void **state)
     wt_validation_tables_clear(&three);
 }
 
+/* A step at rest is told and not compared. */
+static void test_rest(void **state)
+{
+    (void)state;
+    set_up();
+    at_rest = 2;
+    make_record(8e6, surface.q1, 0, 0.003, false);
+    at_rest = SIZE_MAX;
+    const wt_validation_job job = job_of(false);
+    wt_validation_tables t = made(&job);
+    assert_int_equal(wt_table_n_rows(t.validation), STEPS);
+    assert_string_equal(wt_table_key(t.validation, "n_left_out"), "1");
+    assert_string_equal(text_cell(t.validation, STEPS - 1, "note"), "nothing slides in it");
+    assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 8e6 - 1) < 1e-6);
+    wt_validation_tables_clear(&t);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -298,10 +316,15 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needed),           cmocka_unit_test(test_cutoff),
-        cmocka_unit_test(test_verdicts),         cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_choices),          cmocka_unit_test(test_no_shear),
-        cmocka_unit_test(test_below_hysteresis), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_needed),
+        cmocka_unit_test(test_cutoff),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_no_shear),
+        cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_rest),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

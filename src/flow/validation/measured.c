@@ -18,6 +18,8 @@ static const double same_load = 1.1;
 
 static const char *why_not(const measured_step *s)
 {
+    if (!(s->velocity > 0))
+        return "nothing slides in it";
     if (!(s->friction > 0))
         return "no friction coefficient above 0";
     if (!(s->error > 0) || !isfinite(s->error))
@@ -104,13 +106,13 @@ wt_status measured_make(const table_view *record, const wt_sliding *sliding, mea
                      temperature = record_get(record, i, RECORD_TEMPERATURE),
                      pressure = record_get(record, i, RECORD_PRESSURE);
         measured_step *const s = &m->step[m->n_all++];
-        *s = (measured_step){.velocity = velocity > 0 ? velocity : flow_reference_velocity(sliding),
-                             .temperature =
-                                 temperature > 0 ? temperature : sliding->temperature.value,
-                             .pressure = pressure > 0 ? pressure : sliding->pressure.value,
-                             .friction = record_get(record, i, RECORD_FRICTION),
-                             .error = record_get(record, i, RECORD_FRICTION_STANDARD_ERROR),
-                             .file = record_text(record, i, RECORD_FILE)};
+        *s = (measured_step){
+            .velocity = isnan(velocity) ? flow_reference_velocity(sliding) : velocity,
+            .temperature = temperature > 0 ? temperature : sliding->temperature.value,
+            .pressure = pressure > 0 ? pressure : sliding->pressure.value,
+            .friction = record_get(record, i, RECORD_FRICTION),
+            .error = record_get(record, i, RECORD_FRICTION_STANDARD_ERROR),
+            .file = record_text(record, i, RECORD_FILE)};
         s->measured =
             (wt_interval){s->friction, s->error, record_get(record, i, RECORD_FRICTION_LOW),
                           record_get(record, i, RECORD_FRICTION_HIGH)};
