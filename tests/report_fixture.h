@@ -406,6 +406,26 @@ static inline void fixture_curves(void)
     wt_formats_free(formats);
 }
 
+/* The bundled case against the same disc. */
+static inline void fixture_validation(wt_case *read)
+{
+    static const char *const names[] = {"validation", "validation_choices", "validation_sources"};
+    const char *const file[] = {WT_SOURCE_DIR "/fixtures/record/steps.csv"};
+    const fixture_change no_change = {.table = NULL};
+    const wt_validation_job job = wt_validation_job_defaults();
+    wt_run_options few = wt_run_defaults();
+    wt_result *result = NULL;
+    size_t failed = 0;
+    few.replicates = 20;
+    fixture_check(wt_case_ask(read, "validation validation_choices validation_sources", NULL));
+    fixture_check(wt_case_validate(read, file, 1, &job, 0, NULL));
+    fixture_check(wt_run(read, &few, NULL, &result, &failed, NULL));
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        fixture_check(wt_result_add(
+            fixture_case, fixture_copy(wt_result_find(result, names[i]), &no_change), NULL));
+    wt_result_free(result);
+}
+
 /* Adds a table of one of the other cases. */
 static inline void fixture_of_case(const char *name, const char *asked)
 {
@@ -532,6 +552,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_collection();
         fixture_payne();
         fixture_record();
+        fixture_validation(read);
         fixture_common_law();
         fixture_softening();
         fixture_flash();

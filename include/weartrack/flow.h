@@ -910,6 +910,25 @@ WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_lay
                                          const wt_job *work, wt_table **table,
                                          wt_error *err) WT_NODISCARD;
 
+typedef struct wt_identify_job {
+    wt_estimate observed_thickness; /* [m], at balance */
+    wt_estimate specific_wear_rate; /* k [m^2/N]; value NaN: not measured */
+    wt_estimate running_in_time;    /* [s] from bare rubber; value NaN: not measured */
+    double running_in_share;        /* of the thickness that the layer had then; default 0.95 */
+    double damage, duty;            /* as in wt_layer_job */
+    wt_depth_profile profile;
+    double local_friction;
+    double wear_low, wear_high;     /* k by the literature [m^2/N] */
+    double energy_low, energy_high; /* U_c by the literature [J/m^3] */
+} wt_identify_job;
+WT_API wt_identify_job wt_identify_job_defaults(void);
+WT_API const wt_params *wt_identify_job_params(void);
+/* Table "identification": U_c and k from the thickness with the wear rate, with the running-in time
+ * by either closure, and what the thickness alone leaves of them; intervals of 95 % and correlation
+ * from the replicates and the stated errors. */
+WT_API wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
+                                  const wt_job *work, wt_table **table, wt_error *err) WT_NODISCARD;
+
 /* ---- what if ----------------------------------------------------------------------------------
  */
 
@@ -920,6 +939,34 @@ WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_lay
 WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
                                  const wt_layer_known *known, const wt_job *work, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
+
+/* ---- validation ------------------------------------------------------------------------------
+ */
+
+typedef struct wt_validation_job {
+    const wt_sliding *sliding;
+    const wt_layer_job *layer;   /* NULL, as above */
+    const wt_layer_known *known; /* likewise; its thickness is that of the layer as used */
+    const wt_table *record;      /* table "record" */
+    const wt_table *wear;        /* table "wear", or NULL */
+    const wt_table *what_if; /* table "what_if" of the same, or NULL: no likelihood of choices */
+    double margin;           /* of measured over predicted; default 0.2 */
+    double plausible_low, plausible_high; /* of the shear stress [Pa]; default 1 MPa, 10 MPa */
+} wt_validation_job;
+WT_API wt_validation_job wt_validation_job_defaults(void); /* the last two members and margin */
+WT_API const wt_params *wt_validation_job_params(void);
+
+typedef struct wt_validation_tables {
+    wt_table *validation, *choices, *sources; /* choices NULL without what_if or shear stress */
+} wt_validation_tables;
+WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
+
+/* Friction as measured over friction as predicted at every step of the records, with both errors;
+ * the verdict "explains", "does not" or "cannot say" by the test that the key `test` states; the
+ * shear stress and the largest wavenumber that the record asks for; where the error comes from; and
+ * the likelihood of each choice of the model. */
+WT_API wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
+                                    wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- error budget ----------------------------------------------------------------------------
  */
@@ -992,6 +1039,11 @@ WT_API void wt_case_free(wt_case *c);
 /* From now on the case asks for these tables (their names in a result, parted by blanks) and
  * nothing else. */
 WT_API wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
+/* Records (files, folders or patterns, relative to the current folder) instead of those of the
+ * case; and of the validation what is in `given`, as wt_params_set sets it for `job`. */
+WT_API wt_status wt_case_validate(wt_case *c, const char *const *records, size_t n,
+                                  const wt_validation_job *job, uint64_t given,
+                                  wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
 WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */

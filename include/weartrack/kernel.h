@@ -260,6 +260,27 @@ WT_API double wt_layer_exponential(double start_thickness, double kappa, double 
 WT_API double wt_layer_calibrate(const wt_energy_source *source,
                                  const wt_layer_parameters *parameters, double thickness);
 
+/* ---- identification of a layer --------------------------------------------------------------- */
+
+typedef struct wt_layer_identified {
+    double critical_energy;    /* U_c [J/m^3] */
+    double specific_wear_rate; /* k [m^2/N] */
+    double ratio;              /* R = Qf(0)/Qw */
+} wt_layer_identified;
+/* U_c of a layer of this thickness at balance under a wear rate. Of the parameters pressure,
+ * velocity and damage matter. WT_E_RANGE if there can be none. */
+WT_API wt_status wt_layer_identify_wear(const wt_energy_source *source,
+                                        const wt_layer_parameters *parameters, double thickness,
+                                        double specific_wear_rate, wt_layer_identified *found,
+                                        wt_error *err) WT_NODISCARD;
+/* U_c and k of a layer of this thickness at balance that took `time` from bare rubber to a share of
+ * it: by the rate balance, or with `incubation` by damage transport to its deepest edge. The duty
+ * matters, too. */
+WT_API wt_status wt_layer_identify_time(const wt_energy_source *source,
+                                        const wt_layer_parameters *parameters, double thickness,
+                                        double time, double share, wt_layer_identified *found,
+                                        wt_error *err) WT_NODISCARD;
+
 #ifdef __cplusplus
 }
 #endif

@@ -350,6 +350,15 @@ wt_status wt_params_set(const wt_params *params, const char *name, void *structu
     return status == WT_OK && s.param->check != NULL ? s.param->check(s.member, err) : status;
 }
 
+void param_copy(const wt_params *params, const void *from, uint64_t given, void *to)
+{
+    for (size_t i = 0; i < params->n_own; i++) {
+        const wt_param *const p = &params->own[i];
+        if ((given & UINT64_C(1) << i) != 0)
+            memcpy((char *)to + p->offset, (const char *)from + p->offset, p->size);
+    }
+}
+
 const char *param_missing(const wt_params *params, uint64_t given)
 {
     const size_t n = wt_params_count(params);

@@ -160,6 +160,9 @@ wt_status range_error(const char *name, double value, const char *expected, wt_e
 enum { PARAM_WORD = 32 };
 void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
                 size_t size);
+/* The members of those of its own rows that are given, from one structure to another; not of lists
+ * and texts, which have an owner. */
+void param_copy(const wt_params *params, const void *from, uint64_t given, void *to);
 /* Name of the first required parameter that is not given; NULL if there is none. */
 const char *param_missing(const wt_params *params, uint64_t given);
 

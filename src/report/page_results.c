@@ -88,7 +88,8 @@ void page_results(page_writer *page)
                                        &t->directions,     &t->softening,      &t->common_law,
                                        &t->modulus_budget, &t->record,         &t->wear,
                                        &t->anisotropy,     &t->friction_map,   &t->friction_decades,
-                                       &t->flash,          &t->collection,     &t->ratio_pairs};
+                                       &t->flash,          &t->collection,     &t->ratio_pairs,
+                                       &t->validation};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -132,6 +133,15 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->record, "Friction as measured, by the steps of the records", NULL,
                      0);
     page_whole_table(page, &t->wear, "Wear as measured", NULL, 0);
+    page_keys(page, &t->validation, "Measured against predicted friction");
+    page_whole_table(page, &t->validation,
+                     "Measured against predicted friction, by the steps of the records", NULL, 0);
+    page_keys(page, &t->validation_sources, "What would narrow measured over predicted most");
+    page_whole_table(page, &t->validation_sources,
+                     "Where the error of measured over predicted comes from", NULL, 0);
+    page_keys(page, &t->validation_choices, "Choices of the model, by the record");
+    page_whole_table(page, &t->validation_choices,
+                     "What the record says of each choice of the model", NULL, 0);
     page_keys(page, &t->directions, "What the directions of the material do");
     page_keys(page, &t->softening, "What softening with strain does");
     page_keys(page, &t->flash, "What the flash temperature does");

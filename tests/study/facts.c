@@ -37,4 +37,7 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_RUNNING_IN] = {"running_in", false},
     [Q_DRIFT] = {"drift", false},
     [Q_WEAR_RATE] = {"wear_rate", true},
+    [Q_CRITICAL_ENERGY] = {"critical_energy", true},
+    [Q_FRICTION_RATIO] = {"friction_ratio", true},
+    [Q_NEEDED_SHEAR] = {"needed_shear", true},
 };

@@ -44,6 +44,9 @@ typedef enum quantity {
     Q_RUNNING_IN, /* cycles before it */
     Q_DRIFT,
     Q_WEAR_RATE,
+    Q_CRITICAL_ENERGY, /* of a layer */
+    Q_FRICTION_RATIO,  /* measured over predicted */
+    Q_NEEDED_SHEAR,    /* stress that a record asks for */
     Q_COUNT
 } quantity;
 

@@ -53,6 +53,14 @@ const place place_drift = {record, "drift", NULL, "drift_low", "drift_high"};
 const place place_wear_rate = {"wear", "specific_wear_rate", NULL, "specific_wear_rate_low",
                                "specific_wear_rate_high"};
 
+const place place_energy = {"identification", "critical_energy", NULL, "critical_energy_low",
+                            "critical_energy_high"};
+const place place_energy_wear = {"identification", "specific_wear_rate", NULL,
+                                 "specific_wear_rate_low", "specific_wear_rate_high"};
+const place place_friction_ratio = {PLACE_VALIDATION, "ratio", NULL, "ratio_low", "ratio_high"};
+const place place_needed_shear = {PLACE_VALIDATION, "shear_stress_needed", NULL,
+                                  "shear_stress_needed_low", "shear_stress_needed_high"};
+
 static const double normal95 = 1.959963984540054;
 
 /* Low and high where they stand, else the standard error to both sides. */

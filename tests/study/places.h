@@ -30,6 +30,10 @@ extern const place place_anisotropy, place_texture;
 extern const place place_steady, place_running_in, place_drift; /* of a record, a row for a step */
 extern const place place_wear_rate;                             /* a row for each way to tell it */
 
+extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
+extern const place place_friction_ratio, place_needed_shear; /* of validation */
+#define PLACE_VALIDATION "validation"
+#define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */
 #define PLACE_SOURCE "source"               /* likewise: where a row is from */

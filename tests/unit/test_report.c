@@ -473,6 +473,7 @@ static void test_nothing_to_draw(void **state)
                                            "record_velocity",
                                            "record_load",
                                            "record_temperature",
+                                           "validation",
                                            "friction_collapse",
                                            "friction_temperature_map",
                                            "friction_pressure_map"};

@@ -1100,6 +1100,105 @@ static void test_surface(void **state)
     see_surfaces(profile, 1);
 }
 
+/* ---- measured against predicted -------------------------------------------------------------- */
+
+/* A disc of three velocities, one of which stands still, whose friction is `friction` times a power
+ * of the velocity. */
+static void write_disc(const char *path, double friction, double power, uint64_t seed)
+{
+    FILE *const out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(out, "laps,velocity (mm/s),T (degC),Fn (N),mu\n");
+    for (int i = 0; i < 3 * 60 * 25; i++) {
+        const double velocity = pow(10, i / (60 * 25)), lap = i / 25.0;
+        fprintf(out, "%g,%g,20,%g,%.5f\n", lap, velocity, 5.0 + (i > 60 * 25),
+                friction * pow(velocity, power) * (1 + 0.01 * truth_normal(&seed)));
+    }
+    fclose(out);
+}
+
+/* Held against a record with and without what wears, with a shear stress (0: none) and a layer. */
+static void see_validation(const char *path, double shear, double wear, bool with_layer)
+{
+    static const double slow[] = {1e-3, 1e-2, 1e-1};
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    const wt_layer_known known = {.thickness = {1e-6, 1e-7, 0, "m"},
+                                  .modulus_ratio = {0.6, 0.05, 0, "1"}};
+    wt_layer_job layer = wt_layer_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_record_job records = wt_record_job_defaults();
+    wt_record_tables measured = {0};
+    wt_validation_job job = wt_validation_job_defaults();
+    wt_validation_tables tables = {0};
+    wt_table *what_if = NULL;
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    common.replicates = 40;
+    records.sets = &set;
+    records.n_sets = 1;
+    records.track_radius.value = 12e-3;
+    records.track_area = (wt_estimate){3e-11, wear * 3e-11, 0, "m^2"};
+    sliding_set_up(slow, 3);
+    sliding.shear_stress =
+        (wt_estimate){shear > 0 ? shear : (double)NAN, 0.1 * fmax(shear, 0), 0, "Pa"};
+    layer.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
+    layer.critical_energy.value = 2e10;
+    if (wt_record_make(&records, &common, &measured, &err) != WT_OK ||
+        wt_what_if_make(&sliding, &layer, with_layer ? &known : NULL, &common, &what_if, &err) !=
+            WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    job.sliding = &sliding;
+    job.layer = &layer;
+    job.known = with_layer ? &known : NULL;
+    job.record = measured.record;
+    job.wear = measured.wear;
+    job.what_if = what_if;
+    if (wt_validation_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.validation);
+    see(tables.sources);
+    if (tables.choices != NULL)
+        see(tables.choices);
+    wt_validation_tables_clear(&tables);
+    wt_record_tables_clear(&measured);
+    wt_table_free(what_if);
+}
+
+static void test_validation(void **state)
+{
+    (void)state;
+    static const char path[] = "test_tables_put_validation.csv";
+    write_disc(path, 0.95, 0, 5);
+    see_validation(path, 5e6, 0.2, true);
+    see_validation(path, 0, 0, false);
+    write_disc(path, 0.05, 0.3, 6);
+    see_validation(path, 5e6, 0.2, false);
+    (void)remove(path);
+}
+
+/* ---- identification -------------------------------------------------------------------------- */
+
+static void test_identification(void **state)
+{
+    (void)state;
+    static const double slow[] = {0.1};
+    wt_identify_job job = wt_identify_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(slow, 1);
+    work.replicates = 120;
+    sliding.pressure.standard_error = 1e4;
+    job.observed_thickness = (wt_estimate){2e-6, 3e-7, 0, "m"};
+    job.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
+    job.running_in_time = (wt_estimate){500, 50, 0, "s"};
+    if (wt_identify_make(&sliding, &job, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(table);
+    assert_int_equal(wt_table_n_rows(table), 4);
+    wt_table_free(table);
+}
+
 /* ---- what was not put ------------------------------------------------------------------------ */
 
 /* Every fit of isotherms that was tried ends settled; the key warns of one that does not. */
@@ -1158,6 +1257,7 @@ int main(void)
         cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
         cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
         cmocka_unit_test(test_calibration),   cmocka_unit_test(test_record),
+        cmocka_unit_test(test_validation),    cmocka_unit_test(test_identification),
         cmocka_unit_test(test_dwell),         cmocka_unit_test(test_thermal),
         cmocka_unit_test(test_directions),    cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),       cmocka_unit_test(test_accuracy),

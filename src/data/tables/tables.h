@@ -17,6 +17,7 @@
 #include "data/tables/dwell.h"
 #include "data/tables/error_budget.h"
 #include "data/tables/friction_maps.h"
+#include "data/tables/identification.h"
 #include "data/tables/indentation.h"
 #include "data/tables/materials.h"
 #include "data/tables/collection.h" /* with its intervals */
@@ -29,6 +30,7 @@
 #include "data/tables/strain.h"
 #include "data/tables/sweeps.h"
 #include "data/tables/topography.h"
+#include "data/tables/validation.h"
 #include "data/tables/what_if.h"
 #include "data/tables/work_precision.h"
 
@@ -132,7 +134,15 @@
     X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(identification, IDENTIFICATION, "identification",                                            \
+      "Critical energy and wear rate of a layer", "identify")                                      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
+    X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
+      "validate")                                                                                  \
+    X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
+      "What the record says of the choices of the model", "validate")                              \
+    X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
+      "Where the error of measured over predicted comes from", "validate")                         \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
     X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \
     X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \

@@ -19,9 +19,6 @@ static const char how_thick[] = "How thick is it?";
 static const char what_friction[] = "What does it do to friction?";
 static const char not_asked[] = "What was not asked?";
 
-/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
-#define MM3_PER_N_M 1e9
-
 /* The message of a stage that failed, or that failed to take more into account. */
 static const char *why_failed(const answer_story *story, const char *stage)
 {
@@ -514,6 +511,8 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&surfaces_schema, "", &story->surfaces},
         {&record_schema, "", &story->record},
         {&wear_schema, "", &story->wear},
+        {&validation_schema, "", &story->validation},
+        {&validation_sources_schema, "", &story->validation_sources},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -539,6 +538,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_difference(&story);
     answer_thickness(&story);
     answer_friction(&story);
+    answer_validation(&story);
     answer_surface(&story);
     answer_record(&story);
     answer_caveats(&story);

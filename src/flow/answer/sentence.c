@@ -359,6 +359,39 @@ static void say_friction(sentence *s, const table_view *v)
         words_of_finding(&area).text);
 }
 
+/* The rows behind the first are the ways that need no range of the literature. */
+static void say_identification(sentence *s, const table_view *v)
+{
+    if (v->n_rows == 1) {
+        next(s);
+        say(s, "the thickness alone tells k U_c = %s and neither of them",
+            words_of_known(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
+    }
+    for (size_t i = 1; i < v->n_rows; i++) {
+        next(s);
+        say(s, "by %s U_c = %s (95 %%: %s to %s), k = %.3g mm^3/(N m) (%.3g to %.3g)",
+            identification_text(v, i, IDENTIFICATION_BY),
+            words_of(identification_get(v, i, IDENTIFICATION_ENERGY), "J/m^3").text,
+            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_LOW), "J/m^3").text,
+            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_HIGH), "J/m^3").text,
+            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR),
+            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_LOW),
+            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_HIGH));
+    }
+}
+
+static void say_validation(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_verdict(&s->told, v);
+    if (!isnan(validation_value(v, VALIDATION_KEY_NEEDED).value)) {
+        next(s);
+        tell_needed(&s->told, v);
+    }
+}
+
 static void say_layer(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -390,7 +423,9 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&record_schema, say_record},
                  {&wear_schema, say_wear},
                  {&friction_schema, say_friction},
-                 {&layer_schema, say_layer}};
+                 {&layer_schema, say_layer},
+                 {&identification_schema, say_identification},
+                 {&validation_schema, say_validation}};
     sentence s = {.told = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

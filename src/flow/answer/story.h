@@ -35,6 +35,7 @@ typedef struct answer_story {
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
+    table_view validation, validation_sources;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
@@ -55,6 +56,8 @@ void answer_rubber(const answer_story *story);
 void answer_surface(const answer_story *story);
 /* Friction and wear as measured. */
 void answer_record(const answer_story *story);
+/* Whether the theory explains the friction that was measured. */
+void answer_validation(const answer_story *story);
 void answer_story_clear(answer_story *story);
 
 #endif

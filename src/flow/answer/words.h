@@ -12,6 +12,9 @@
 /* A share of the friction below this is not worth a remark. */
 #define ANSWER_ODD_SHARE 0.01
 
+/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
+#define MM3_PER_N_M 1e9
+
 /* A text that grows in a buffer, cut where that ends. */
 typedef struct telling {
     char *text;
@@ -65,6 +68,10 @@ void tell_change(telling *t, const finding_tables *tables, bool with_choices);
  * "specific wear rate ..." */
 void tell_record(telling *t, const table_view *record);
 void tell_wear(telling *t, const table_view *wear);
+/* "the theory (friction with the layer) against the record: explains: ..." */
+void tell_verdict(telling *t, const table_view *validation);
+/* "the record asks for a shear stress of 5.01 MPa (...); plausible: yes: ...", where it is known */
+void tell_needed(telling *t, const table_view *validation);
 /* "predicted from a given U_c" */
 const char *words_of_origin(const finding_tables *tables);
 

@@ -5,6 +5,8 @@
 #include "flow/sliding/counter_surface.h"
 #include "flow/work/inputs.h"
 
+#include "base/param.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +36,7 @@ wt_case *case_new(void)
     c->sliding = wt_sliding_defaults();
     c->layer = wt_layer_job_defaults();
     c->records = wt_record_job_defaults();
+    c->validation = wt_validation_job_defaults();
     c->report = wt_report_defaults();
     return c;
 }
@@ -77,4 +80,36 @@ wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
     c->has_asked = true;
     c->asked = asked;
     return WT_OK;
+}
+
+static wt_status replace_records(wt_case *c, const char *const *records, size_t n, wt_error *err)
+{
+    const bool known = c->record.n > 0;
+    wt_file_set *const sets = pool_alloc(&c->memory, n, sizeof *sets);
+    const char **const patterns = pool_alloc(&c->memory, n, sizeof *patterns);
+    if (sets == NULL || patterns == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        patterns[i] = pool_text(&c->memory, records[i], strlen(records[i]));
+        if (patterns[i] == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        sets[i] =
+            (wt_file_set){.patterns = &patterns[i], .n_patterns = 1, .read = wt_read_defaults()};
+    }
+    c->record.sets = sets;
+    c->record.n = n;
+    if (!known) {
+        c->record.next = c->roles;
+        c->roles = &c->record;
+    }
+    return WT_OK;
+}
+
+wt_status wt_case_validate(wt_case *c, const char *const *records, size_t n,
+                           const wt_validation_job *job, uint64_t given, wt_error *err)
+{
+    if (c == NULL || job == NULL || (n > 0 && records == NULL))
+        return wt_fail(err, WT_E_ARG, "no case, or no validation job");
+    param_copy(wt_validation_job_params(), job, given, &c->validation);
+    return n > 0 ? replace_records(c, records, n, err) : WT_OK;
 }

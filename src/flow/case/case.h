@@ -78,6 +78,7 @@ struct wt_case {
     case_files record;
     wt_record_job records;
     bool has_wear; /* what is worn is given */
+    wt_validation_job validation;
 
     bool has_compare; /* the next three say what; else all that is possible */
     bool compare_groups, compare_rates, compare_dma;

@@ -278,6 +278,8 @@ wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_params(c, section, wt_record_job_params(), &c->records, err);
     if (status == WT_OK)
+        status = case_read_params(c, section, wt_validation_job_params(), &c->validation, err);
+    if (status == WT_OK)
         status = case_at_param(section, wt_record_job_check(&c->records, err), err);
     if (status == WT_OK)
         status = case_read_files(c, section, "files", &c->record, err);

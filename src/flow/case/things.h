@@ -89,6 +89,9 @@
     X(FRICTION_DECADES, "friction_decades", &friction_decades_schema, "")                          \
     X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
+    X(VALIDATION, "validation", &validation_schema, "")                                            \
+    X(VALIDATION_CHOICES, "validation_choices", &validation_choices_schema, "")                    \
+    X(VALIDATION_SOURCES, "validation_sources", &validation_sources_schema, "")                    \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")                                                  \
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")

@@ -1,7 +1,7 @@
 /* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
  * moved, how far and why is the list `choices`.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/errors/setting.h"
+#include "flow/errors/what_if.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
 
@@ -451,6 +451,36 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
     }
 }
 
+static void add_choices(what_if *w, const setting *used)
+{
+    add_outcome(w, NULL, used);
+    for (size_t i = 0; i < COUNT_OF(choices); i++)
+        if (choices[i].applies(used))
+            add_choice(w, &choices[i], used);
+}
+
+static outcome *new_outcomes(wt_error *err)
+{
+    outcome *const outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *outcomes);
+    if (outcomes == NULL)
+        wt_fail(err, WT_E_MEMORY, "out of memory");
+    return outcomes;
+}
+
+wt_status what_if_settings(const setting *used, setting **settings, size_t *n, wt_error *err)
+{
+    what_if w = {.outcomes = new_outcomes(err)};
+    if (w.outcomes == NULL)
+        return WT_E_MEMORY;
+    add_choices(&w, used);
+    *n = w.n;
+    *settings = malloc(w.n * sizeof **settings);
+    for (size_t i = 0; *settings != NULL && i < w.n; i++)
+        (*settings)[i] = w.outcomes[i].setting;
+    free(w.outcomes);
+    return *settings != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
 /* ---- table ----------------------------------------------------------------------------------- */
 
 static const struct {
@@ -569,13 +599,10 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     w.work.replicates = 0;
     w.work.log = NULL; /* what is to be said of the values as used has been said */
     w.work.progress = (wt_progress){0};
-    w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
+    w.outcomes = new_outcomes(err);
     if (w.outcomes == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    add_outcome(&w, NULL, &used);
-    for (size_t i = 0; i < COUNT_OF(choices); i++)
-        if (choices[i].applies(&used))
-            add_choice(&w, &choices[i], &used);
+        return WT_E_MEMORY;
+    add_choices(&w, &used);
     w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
     status = cover_all(&w, &used, err);
     if (status == WT_OK)

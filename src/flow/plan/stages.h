@@ -97,6 +97,9 @@ typedef enum flow_extra {
     X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
       flow_step_what_if)                                                                           \
+    X(VALIDATION, validation, "Measured friction against predicted friction",                      \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_AND_LAYER,          \
+      B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_AND_THICKNESS, B(ERROR_BUDGET), \
       flow_step_budget)                                                                            \

@@ -291,6 +291,65 @@ static wt_status measure_wear(const wt_record_job *job, const wt_job *work, cons
     return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
 }
 
+/* ---- a result of an earlier call ------------------------------------------------------------- */
+
+static void count_stored(void *user, const table_view *v, size_t row)
+{
+    const record_row r = {.at = {.velocity = record_get(v, row, RECORD_VELOCITY),
+                                 .rotation = record_get(v, row, RECORD_ROTATION),
+                                 .normal_force = record_get(v, row, RECORD_NORMAL_FORCE),
+                                 .pressure = record_get(v, row, RECORD_PRESSURE),
+                                 .temperature = record_get(v, row, RECORD_TEMPERATURE)},
+                          .steady.mean.value = record_get(v, row, RECORD_FRICTION),
+                          .steady.mean.standard_error =
+                              record_get(v, row, RECORD_FRICTION_STANDARD_ERROR)};
+    count_row(user, &r);
+}
+
+static void count_stored_wear(void *user, const table_view *v, size_t row)
+{
+    const double rate = wear_get(v, row, WEAR_RATE);
+    if (!isnan(rate))
+        several_add(user,
+                    (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
+}
+
+/* Its rows stand beside those that are measured now. */
+static wt_status take_stored(const wt_job *work, const flow_file *file, bool wear, writers *w,
+                             wt_error *err)
+{
+    const wt_tables_role role = {"record", "record", "what weartrack record wrote"};
+    wt_result *result = NULL;
+    wt_status status = wt_tables_read(file->path, file->name, work, role, &result, err);
+    if (status == WT_OK && wt_result_find(result, "record") == NULL) {
+        status = wt_fail(err, WT_E_EMPTY, "the result holds no record of friction");
+        wt_error_advice(err, "give what weartrack record wrote");
+    }
+    if (status == WT_OK)
+        status = stored_record_rows(result, &record_schema, &w->record, count_stored, &w->all, err);
+    if (status == WT_OK)
+        status = stored_record_rows(result, &record_cycles_schema, &w->cycles, NULL, NULL, err);
+    if (status == WT_OK && wear)
+        status =
+            stored_record_rows(result, &wear_schema, &w->wear, count_stored_wear, &w->rates, err);
+    wt_result_free(result);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    w->n_files += status == WT_OK;
+    return status;
+}
+
+/* A pipe can be read once only, and is taken for a measured record. */
+static bool is_stored(const flow_file *file)
+{
+    wt_input *input = NULL;
+    const bool stored = strcmp(file->path, "-") != 0 &&
+                        wt_input_open(file->path, &input, NULL) == WT_OK &&
+                        stored_record_begins(input);
+    wt_input_close(input);
+    return stored;
+}
+
 static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
                               writers *w, wt_error *err)
 {
@@ -359,7 +418,9 @@ static wt_status make_tables(const wt_record_job *job, const wt_job *work, const
                                                        : kind_words(job->cycle));
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = measure_file(job, work, &files->file[i], &w, &failure);
+        status = is_stored(&files->file[i])
+                     ? take_stored(work, &files->file[i], wear, &w, &failure)
+                     : measure_file(job, work, &files->file[i], &w, &failure);
         if (status != WT_OK && flow_leave_out(work, &files->file[i], &failure)) {
             status = WT_OK;
         } else if (status != WT_OK) {

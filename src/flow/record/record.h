@@ -40,4 +40,12 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
                    wt_estimate radius, const char *file, table_writer *t, several *rates,
                    wt_error *err);
 
+/* Whether a file is a result of weartrack: a text stream or HDF5. */
+bool stored_record_begins(wt_input *input);
+/* Its rows of a table, if it has that, go to the table that is written as they are; each is shown.
+ */
+typedef void stored_row(void *user, const table_view *view, size_t row);
+wt_status stored_record_rows(const wt_result *result, const table_schema *schema, table_writer *t,
+                             stored_row *each, void *user, wt_error *err) WT_NODISCARD;
+
 #endif

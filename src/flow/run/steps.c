@@ -565,6 +565,27 @@ wt_status flow_step_what_if(flow_run *run, wt_error *err)
                            : status;
 }
 
+wt_status flow_step_validation(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    wt_layer_known layer;
+    wt_validation_tables tables = {0};
+    wt_validation_job job = run->c->validation;
+    wt_status status = run->level > 0 ? known_layer(run, &layer, err) : WT_OK;
+    job.sliding = &sliding;
+    job.layer = run->c->has_layer ? &run->c->layer : NULL;
+    job.known = run->level > 0 ? &layer : NULL;
+    job.record = run->table[FLOW_RECORD];
+    job.wear = run->table[FLOW_WEAR];
+    job.what_if = run->table[FLOW_WHAT_IF];
+    if (status == WT_OK)
+        status = wt_validation_make(&job, &run->job, &tables, err);
+    keep_table(run, FLOW_VALIDATION, &tables.validation);
+    keep_table(run, FLOW_VALIDATION_CHOICES, &tables.choices);
+    keep_table(run, FLOW_VALIDATION_SOURCES, &tables.sources);
+    return status;
+}
+
 wt_status flow_step_budget(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = sliding_of(run);

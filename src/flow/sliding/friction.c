@@ -45,24 +45,7 @@ static double *numbers_of_kind(double *values, size_t n, int kind)
 
 static wt_layer_state layer_of(const friction_task *task, size_t replicate)
 {
-    wt_layer_state state = {.modulus_ratio = 1};
-    if (task->layer == NULL)
-        return state;
-    uint64_t seed = task->work->seed;
-    double thickness =
-        flow_draw_value(task->layer->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
-    state.thickness = thickness > 0 ? thickness : 0;
-    if (state.thickness > 0)
-        state.modulus_ratio =
-            flow_draw_positive_t(task->layer->modulus_ratio, task->layer->modulus_ratio_df, seed,
-                                 replicate, FLOW_DRAW_RATIO);
-    return state;
-}
-
-/* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
-static double shear_factor(const friction_task *task, wt_layer_state layer)
-{
-    return task->layer->bulk_shear ? 1 : layer.modulus_ratio;
+    return sliding_layer(task->layer, task->work->seed, replicate);
 }
 
 static wt_status compute_bulk(const friction_task *task, size_t replicate,
@@ -98,9 +81,10 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        double with = points[i].hysteresis.value +
-                      shear_factor(task, layer) * sliding_shear(task->sliding, &c, &points[i]) *
-                          points[i].area_ratio.value / c.pressure;
+        double with =
+            points[i].hysteresis.value + sliding_layer_shear(task->layer, layer) *
+                                             sliding_shear(task->sliding, &c, &points[i]) *
+                                             points[i].area_ratio.value / c.pressure;
         double without = numbers_of_kind(out, task->n, TOTAL)[i];
         numbers_of_kind(out, task->n, LAYERED)[i] = with;
         numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
@@ -404,8 +388,9 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK) {
-        task->numerical[1] = total_error(
-            &layered[last], shear * shear_factor(task, layer_of(task, WT_NO_REPLICATE)));
+        task->numerical[1] =
+            total_error(&layered[last],
+                        shear * sliding_layer_shear(task->layer, layer_of(task, WT_NO_REPLICATE)));
         note_not_reached(task, layered);
     }
     free(layered);

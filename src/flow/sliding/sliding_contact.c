@@ -205,6 +205,25 @@ double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
                                                    isnan(warm) ? contact->temperature : warm);
 }
 
+wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)
+{
+    wt_layer_state state = {.modulus_ratio = 1};
+    if (known == NULL)
+        return state;
+    const double thickness =
+        flow_draw_value(known->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+    state.thickness = thickness > 0 ? thickness : 0;
+    if (state.thickness > 0)
+        state.modulus_ratio = flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                   seed, replicate, FLOW_DRAW_RATIO);
+    return state;
+}
+
+double sliding_layer_shear(const wt_layer_known *known, wt_layer_state layer)
+{
+    return known->bulk_shear ? 1 : layer.modulus_ratio;
+}
+
 void sliding_contact_clear(sliding_contact *contact)
 {
     if (contact->workspace != NULL)

@@ -1,0 +1,35 @@
+/* weartrack identify: critical energy and wear rate from what is seen of a layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/sliding.h"
+
+int cmd_identify(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "identify",
+        .arguments = "--material FILE --roughness R --pressure P --velocity V --observed-thickness "
+                     "D [--specific-wear-rate K] [--running-in-time T] [OPTION]...",
+        .what = "Critical energy U_c and specific wear rate k that go with a layer of known "
+                "thickness: with a wear rate, with the time of its running-in, or both against one "
+                "another, at the velocity given (the middle one of a list); with intervals, their "
+                "correlation and the combination that the data do not determine.",
+        .common = "output formats columns files-from provenance cost"};
+    wt_identify_job job = wt_identify_job_defaults();
+    cmd_sliding s;
+    wt_table *table = NULL;
+    cmd_sliding_init(&s, (cmd_part){wt_identify_job_params(), &job, NULL, 0});
+    /* the energy knows nothing of the shear stress */
+    s.parts[CMD_CONDITIONS].only =
+        "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
+        "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
+        "heat-capacity heat-diffusivity macroscopic-area clip-heat";
+    if (!cmd_sliding_parse(&s, &usage, argc, argv))
+        return cmd_sliding_free(&s);
+    if (cmd_sliding_open(&s)) {
+        wt_cost_stage(s.session.cost, "identify");
+        wt_table **const parts[] = {&table};
+        cmd_finish(&s.session,
+                   wt_identify_make(&s.conditions, &job, &s.session.work, &table, &s.session.err),
+                   parts, COUNT_OF(parts));
+    }
+    return cmd_sliding_free(&s);
+}

@@ -1,0 +1,75 @@
+/* weartrack validate: measured friction held against what a case predicts.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+/* What is asked of the case, and told in the order of the tables. */
+static const char asked[] = "validation validation_choices validation_sources";
+
+static wt_status lacks_table(cmd_session *s)
+{
+    wt_fail(&s->err, WT_E_MISSING, "nothing could be held against the record");
+    wt_error_file(&s->err, s->files[0]);
+    wt_error_expected(&s->err, "a case with a material, a counter surface and sliding conditions, "
+                               "and a record");
+    wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
+    return WT_E_MISSING;
+}
+
+static wt_status validate_case(cmd_session *s, wt_run_options *run, cmd_part *job)
+{
+    wt_case *c = NULL;
+    size_t n_failed = 0;
+    wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
+    if (status == WT_OK)
+        status = wt_case_read(s->files[0], &c, &s->err);
+    if (status == WT_OK)
+        status = wt_case_ask(c, asked, &s->err);
+    if (status == WT_OK)
+        status =
+            wt_case_validate(c, s->files + 1, s->n_files - 1, job->structure, job->given, &s->err);
+    run->formats = s->common.formats;
+    run->columns = s->common.columns;
+    run->n_columns = s->common.n_columns;
+    run->progress = cmd_progress_start(s);
+    run->no_provenance = !s->common.provenance;
+    if (status == WT_OK)
+        status = wt_run(c, run, s->log, &s->result, &n_failed, &s->err);
+    cmd_progress_end(s);
+    wt_case_free(c);
+    if (s->result != NULL && n_failed > 0)
+        cmd_say_failures(s, wt_result_find(s->result, "failures"));
+    if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
+        status = lacks_table(s);
+    if (status == WT_OK)
+        status = cmd_provenance(s->result, &s->err);
+    return status == WT_OK ? cmd_write(s) : status;
+}
+
+int cmd_validate(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "validate",
+        .arguments = "[OPTION]... CASE.xml [RECORD]...",
+        .what = "Does the theory explain the friction that was measured? Records of a tribometer, "
+                "or results of weartrack record, are held against what a case predicts at their "
+                "velocities, with and without the layer: explains, does not, or cannot say; the "
+                "shear stress that the record asks for; where the error comes from; and which "
+                "choices of the model the record leaves.",
+        .common = "output formats columns provenance",
+        .notes = "Without a RECORD those of the case (<record>) are taken."};
+    cmd_session s = cmd_session_defaults();
+    wt_run_options run = wt_run_defaults();
+    wt_validation_job job = wt_validation_job_defaults();
+    cmd_part parts[] = {{wt_validation_job_params(), &job, NULL, 0},
+                        {wt_run_params(), &run, NULL, 0}};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        return cmd_session_free(&s);
+    bool good = s.n_files > 0 || cmd_usage_error(&s, "one case file is needed");
+    good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
+    if (good) {
+        s.log = wt_parselog_new();
+        cmd_end(&s, s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
+                                  : validate_case(&s, &run, &parts[0]));
+    }
+    return cmd_session_free(&s);
+}

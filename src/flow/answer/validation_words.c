@@ -1,0 +1,89 @@
+/* What the answer says of measured against predicted friction.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/answer/story.h"
+
+#include <ctype.h>
+#include <math.h>
+
+static const char question[] = "Does the theory explain the friction that was measured?";
+
+void tell_verdict(telling *t, const table_view *v)
+{
+    tell(t, "the theory (%s) against the record: %s", validation_words(v, VALIDATION_KEY_JUDGED),
+         validation_words(v, VALIDATION_KEY_VERDICT));
+}
+
+void tell_needed(telling *t, const table_view *v)
+{
+    const double needed = validation_value(v, VALIDATION_KEY_NEEDED).value;
+    if (isnan(needed))
+        return;
+    tell(t, "the record asks for a shear stress of %s (95 %%: %s to %s); plausible: %s",
+         words_of(needed, "Pa").text,
+         words_of(validation_value(v, VALIDATION_KEY_NEEDED_LOW).value, "Pa").text,
+         words_of(validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value, "Pa").text,
+         validation_words(v, VALIDATION_KEY_PLAUSIBLE));
+}
+
+static void say_needed(const answer_story *story, const table_view *v)
+{
+    char text[700] = "";
+    telling t = {text, sizeof text, 0};
+    const char *const shape = validation_words(v, VALIDATION_KEY_SHAPE);
+    tell_needed(&t, v);
+    if (t.used == 0)
+        return;
+    text[0] = (char)toupper((unsigned char)text[0]);
+    if (shape != NULL)
+        tell(&t, ". With it the theory %s", shape);
+    answer_say(story, question, "validation", "%s.", text);
+}
+
+static void say_narrowed(const answer_story *story, const table_view *v)
+{
+    const bool layer = !isnan(validation_value(v, VALIDATION_KEY_LAYERED_KEPT_LOW).value);
+    const double all[] = {validation_value(v, layer ? VALIDATION_KEY_LAYERED_ALL_LOW
+                                                    : VALIDATION_KEY_FRICTION_ALL_LOW)
+                              .value,
+                          validation_value(v, layer ? VALIDATION_KEY_LAYERED_ALL_HIGH
+                                                    : VALIDATION_KEY_FRICTION_ALL_HIGH)
+                              .value},
+                 kept[] = {validation_value(v, layer ? VALIDATION_KEY_LAYERED_KEPT_LOW
+                                                     : VALIDATION_KEY_FRICTION_KEPT_LOW)
+                               .value,
+                           validation_value(v, layer ? VALIDATION_KEY_LAYERED_KEPT_HIGH
+                                                     : VALIDATION_KEY_FRICTION_KEPT_HIGH)
+                               .value};
+    if (isnan(kept[0]))
+        return;
+    answer_say(story, question, "validation",
+               "Over the choices of the model the friction at the reference velocity is %.3g to "
+               "%.3g; over those that the record leaves, %.3g to %.3g.",
+               all[0], all[1], kept[0], kept[1]);
+}
+
+void answer_validation(const answer_story *story)
+{
+    const table_view *const v = &story->validation;
+    if (v->table == NULL)
+        return;
+    char text[400];
+    telling t = {text, sizeof text, 0};
+    const char *const settled = validation_words(v, VALIDATION_KEY_SETTLED_BY),
+                      *const wear = validation_words(v, VALIDATION_KEY_WEAR);
+    tell_verdict(&t, v);
+    text[0] = (char)toupper((unsigned char)text[0]);
+    answer_say(story, question, "validation", "%s.", text);
+    if (settled != NULL)
+        answer_say(story, question, "validation", "What would settle it: %s.", settled);
+    if (story->validation_sources.table != NULL)
+        answer_say(
+            story, question, "validation", "What would narrow it most: %s.",
+            validation_sources_words(&story->validation_sources, VALIDATION_SOURCES_KEY_ADVICE));
+    say_needed(story, v);
+    say_narrowed(story, v);
+    if (wear != NULL)
+        answer_say(story, question, "validation",
+                   "The specific wear rate as measured is %.3g times that of the layer: %s.",
+                   validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
+}

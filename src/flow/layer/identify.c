@@ -1,0 +1,384 @@
+/* The identification job: critical energy U_c and specific wear rate k of a layer from its
+ * thickness with a wear rate or a running-in time, jointly. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "flow/sliding/replicates.h"
+#include "flow/sliding/sliding_contact.h"
+#include "flow/work/cost.h"
+#include "flow/work/draws.h"
+#include "kernel/params.h"
+
+#include "base/clocale.h"
+#include "base/normal.h"
+#include "data/tables/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- parameters ------------------------------------------------------------------------------ */
+
+/* Orders of magnitude: k of tread rubber by Karger-Kocsis and others, which DIN abrasion bounds
+ * from above; U_c by what makes layers of micrometres at such k. */
+static const double wear_low = 1e-13, wear_high = 1e-11;  /* [m^2/N] */
+static const double energy_low = 1e9, energy_high = 1e12; /* [J/m^3] */
+/* Where an instrument sees no more change of friction. */
+static const double settled = 0.95;
+
+wt_identify_job wt_identify_job_defaults(void)
+{
+    return (wt_identify_job){.observed_thickness = {(double)NAN, 0, 0, "m"},
+                             .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
+                             .running_in_time = {(double)NAN, 0, 0, "s"},
+                             .running_in_share = settled,
+                             .damage = wt_layer_defaults().damage,
+                             .duty = wt_layer_defaults().duty,
+                             .profile = WT_PROFILE_PERSSON,
+                             .wear_low = wear_low,
+                             .wear_high = wear_high,
+                             .energy_low = energy_low,
+                             .energy_high = energy_high};
+}
+
+static const wt_param rows[] = {
+    {PARAM("observed-thickness", wt_identify_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
+     .value = "D", .flags = PARAM_REQUIRED,
+     .help = "of the layer at its balance, such as \"1.6um +- 20%\""},
+    {PARAM("specific-wear-rate", wt_identify_job, specific_wear_rate, WT_Q_WEAR_RATE, ABOVE(0)),
+     .value = "K", .unset = "", .help = "k as measured, such as \"1e-3mm^3/(N m) +- 15%\""},
+    {PARAM("running-in-time", wt_identify_job, running_in_time, WT_Q_TIME, ABOVE(0)), .value = "T",
+     .unset = "", .help = "that the layer took from bare rubber, such as \"900s +- 15%\""},
+    {PARAM("running-in-share", wt_identify_job, running_in_share, WT_Q_NONE, FROM_TO(0.05, 0.999)),
+     .value = "X", .help = "of its thickness that it had then"},
+    {PARAM("damage", wt_identify_job, damage, WT_Q_NONE, ABOVE(0)), .value = "L",
+     .help = "Lambda, at which the rubber counts as modified"},
+    {PARAM("duty", wt_identify_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",
+     .help = "share of the time in contact; with 1, times are contact times"},
+    ENERGY_PROFILE(wt_identify_job),
+    ENERGY_LOCAL_FRICTION(wt_identify_job),
+    {PARAM("prior-wear-from", wt_identify_job, wear_low, WT_Q_WEAR_RATE, ABOVE(0)), .value = "K",
+     .help = "where the thickness is all that is known: k is taken to be within this and the next "
+             "(literature, order of magnitude)"},
+    {PARAM("prior-wear-to", wt_identify_job, wear_high, WT_Q_WEAR_RATE, ABOVE(0)), .value = "K",
+     .help = "the other end"},
+    {PARAM("prior-energy-from", wt_identify_job, energy_low, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .help = "likewise of U_c"},
+    {PARAM("prior-energy-to", wt_identify_job, energy_high, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .help = "the other end"},
+};
+PARAM_TABLE(wt_identify_job_params, wt_identify_job, rows, wt_identify_job_defaults, NO_PARTS)
+
+/* ---- one set of values ----------------------------------------------------------------------- */
+
+typedef enum way { BY_WEAR, BY_RATES, BY_TRANSPORT, WAYS } way;
+
+static const char *const way_words[WAYS] = {
+    [BY_WEAR] = "thickness and wear rate",
+    [BY_RATES] = "thickness and running-in, by the balance of rates",
+    [BY_TRANSPORT] = "thickness and running-in, by the transport of damage"};
+
+/* Logarithms: those that do not apply are NaN. */
+enum {
+    LN_PRODUCT, /* of k U_c: not NaN */
+    LN_RATIO,
+    LN_ENERGY,
+    LN_WEAR = LN_ENERGY + WAYS,
+    LN_APART = LN_WEAR + WAYS, /* k of a way over that of the first */
+    NUMBERS = LN_APART + WAYS
+};
+
+typedef struct identify_task {
+    const wt_sliding *sliding;
+    const wt_identify_job *job;
+    const wt_job *work;
+    double velocity;
+    replicates replicates;
+} identify_task;
+
+static wt_status find_way(const identify_task *task, way by, const wt_energy_source *source,
+                          wt_layer_parameters p, size_t replicate, double *out, wt_error *err)
+{
+    const wt_identify_job *const job = task->job;
+    const uint64_t seed = task->work->seed;
+    const double thickness = flow_draw_positive(job->observed_thickness, seed, replicate,
+                                                FLOW_DRAW_OBSERVED),
+                 wear =
+                     flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR),
+                 /* a critical energy is not given here, so that its number is free */
+        time = flow_draw_positive(job->running_in_time, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
+    wt_layer_identified found = {0};
+    p.incubation = by == BY_TRANSPORT;
+    out[LN_ENERGY + by] = out[LN_WEAR + by] = out[LN_APART + by] = (double)NAN;
+    if (isnan(by == BY_WEAR ? wear : time))
+        return WT_OK;
+    const wt_status status = by == BY_WEAR
+                                 ? wt_layer_identify_wear(source, &p, thickness, wear, &found, err)
+                                 : wt_layer_identify_time(source, &p, thickness, time,
+                                                          job->running_in_share, &found, err);
+    if (status == WT_OK) {
+        out[LN_ENERGY + by] = log(found.critical_energy);
+        out[LN_WEAR + by] = log(found.specific_wear_rate);
+        out[LN_APART + by] = out[LN_WEAR + by] - log(wear);
+    }
+    return status;
+}
+
+static wt_status find_all(const identify_task *task, size_t replicate, double *out, wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_identify_job *const job = task->job;
+    wt_energy_source source = {.n = 0};
+    sliding_contact c = {0};
+    wt_layer_identified found = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, none, &c, err);
+    if (status == WT_OK)
+        status = wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &source, err);
+    wt_layer_parameters p = wt_layer_defaults();
+    p.damage = job->damage;
+    p.duty = job->duty;
+    p.pressure = c.pressure;
+    p.velocity = task->velocity;
+    source.profile = job->profile;
+    source.local_friction = job->local_friction;
+    if (status == WT_OK) /* with k = 1 the critical energy is the product */
+        status =
+            wt_layer_identify_wear(&source, &p,
+                                   flow_draw_positive(job->observed_thickness, task->work->seed,
+                                                      replicate, FLOW_DRAW_OBSERVED),
+                                   1, &found, err);
+    out[LN_PRODUCT] = log(found.critical_energy);
+    out[LN_RATIO] = log(found.ratio);
+    for (way by = 0; status == WT_OK && by < WAYS; by++)
+        status = find_way(task, by, &source, p, replicate, out, err);
+    wt_energy_source_clear(&source);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    return find_all(user, i, out, err);
+}
+
+/* ---- what the draws say ---------------------------------------------------------------------- */
+
+/* Numbers at the values themselves, what the draws scatter with the thickness and without it, and
+ * the numbers at either end of the interval of the thickness. */
+typedef struct identified {
+    double value[NUMBERS], at_end[2][NUMBERS];
+    double error[NUMBERS], rest[NUMBERS];
+} identified;
+
+/* exp of number k with its interval of 95 %. A thickness goes into an exponent, so that what its
+ * error does is not the same to both sides: its own ends are taken, and joined in squares with what
+ * all else scatters. */
+static wt_interval interval_of(const identified *found, size_t k)
+{
+    const double value = found->value[k], rest = NORMAL_95 * found->rest[k],
+                 one = found->at_end[0][k] - value, other = found->at_end[1][k] - value,
+                 up = fmax(fmax(one, other), 0), down = fmin(fmin(one, other), 0);
+    return (wt_interval){exp(value), exp(value) * found->error[k], exp(value - hypot(down, rest)),
+                         exp(value + hypot(up, rest))};
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW(identification, IDENTIFICATION, const char *by; wt_interval energy, wear;
+          double correlation; char loose[64]; double loose_error, tight_error; char note[256];)
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+/* Main axes of the covariance of ln U_c and ln k, of which that of their sum is known, too. */
+static void find_axes(double energy, double wear, double product, identification_row *r)
+{
+    const double a = energy * energy, b = wear * wear, c = 0.5 * (product * product - a - b);
+    const double middle = 0.5 * (a + b), apart = hypot(0.5 * (a - b), c),
+                 angle = 0.5 * atan2(2 * c, a - b);
+    r->correlation = energy > 0 && wear > 0 ? fmax(-1, fmin(1, c / (energy * wear))) : (double)NAN;
+    r->loose_error = sqrt(middle + apart);
+    r->tight_error = sqrt(fmax(middle - apart, 0));
+    if (fabs(cos(angle)) >= fabs(sin(angle)))
+        clocale_print(r->loose, sizeof r->loose, "U_c k^%.2f", tan(angle));
+    else
+        clocale_print(r->loose, sizeof r->loose, "k U_c^%.2f", 1 / tan(angle));
+}
+
+static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
+{
+    const wt_identify_job *const job = task->job;
+    const wt_estimate other = by == BY_WEAR ? job->specific_wear_rate : job->running_in_time;
+    identification_row row = {.by = way_words[by],
+                              .correlation = (double)NAN,
+                              .loose_error = (double)NAN,
+                              .tight_error = (double)NAN};
+    if (isnan(found->value[LN_ENERGY + by]))
+        return;
+    row.energy = interval_of(found, LN_ENERGY + by);
+    row.wear = interval_of(found, LN_WEAR + by);
+    if (!(job->observed_thickness.standard_error > 0) || !(other.standard_error > 0)) {
+        const double energy = row.energy.value, wear = row.wear.value;
+        row.energy = row.wear = not_known;
+        row.energy.value = energy;
+        row.wear.value = wear;
+        snprintf(row.note, sizeof row.note, "no interval: no error is stated of the %s",
+                 !(job->observed_thickness.standard_error > 0) ? "thickness"
+                 : by == BY_WEAR                               ? "wear rate"
+                                                               : "running-in time");
+    } else {
+        find_axes(found->error[LN_ENERGY + by], found->error[LN_WEAR + by],
+                  found->error[LN_PRODUCT], &row);
+    }
+    identification_add_row(t, &row);
+}
+
+/* Of the thickness alone: what the ranges of the literature leave of each. */
+static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
+{
+    const wt_identify_job *const job = task->job;
+    identification_row row = {.by = "thickness alone",
+                              .energy = not_known,
+                              .wear = not_known,
+                              .correlation = (double)NAN,
+                              .loose = "U_c k^-1.00",
+                              .loose_error = (double)INFINITY,
+                              .tight_error = product.standard_error / product.value * M_SQRT1_2};
+    row.energy.low = fmax(job->energy_low, product.low / job->wear_high);
+    row.energy.high = fmin(job->energy_high, product.high / job->wear_low);
+    row.wear.low = fmax(job->wear_low, product.low / job->energy_high);
+    row.wear.high = fmin(job->wear_high, product.high / job->energy_low);
+    if (!(row.energy.low <= row.energy.high)) {
+        row.energy = row.wear = not_known;
+        snprintf(row.note, sizeof row.note,
+                 "the product contradicts the ranges of the literature for k and U_c");
+    } else {
+        snprintf(row.note, sizeof row.note,
+                 "no estimate: the ends are those of the literature's ranges for k and U_c (order "
+                 "of magnitude), as far as the product leaves them");
+    }
+    identification_add_row(t, &row);
+}
+
+/* Two ways that both hold ask for one k. */
+static void say_agreement(const identified *found, table_writer *t)
+{
+    char text[400] = "";
+    for (way by = BY_RATES; by < WAYS; by++) {
+        const size_t used = strlen(text);
+        if (isnan(found->value[LN_APART + by]))
+            return;
+        const wt_interval apart = interval_of(found, LN_APART + by);
+        const bool known = apart.high > apart.low;
+        clocale_print(text + used, sizeof text - used,
+                      "%s%s the running-in asks for %.3g times the wear rate that was measured "
+                      "(95 %%: %.3g to %.3g), %s",
+                      used > 0 ? "; " : "",
+                      by == BY_RATES ? "by the balance of rates" : "by the transport of damage",
+                      apart.value, apart.low, apart.high,
+                      !known                              ? "cannot say"
+                      : apart.low <= 1 && apart.high >= 1 ? "which agrees"
+                                                          : "which contradicts it");
+    }
+    identification_set_text(t, IDENTIFICATION_KEY_AGREES, text);
+}
+
+static wt_status make_table(const identify_task *task, const identified *found, wt_table **table,
+                            wt_error *err)
+{
+    const replicates *const r = &task->replicates;
+    table_writer t = table_begin(&identification_schema, err);
+    const wt_interval product = interval_of(found, LN_PRODUCT);
+    const double ratio = exp(found->value[LN_RATIO]);
+    add_thickness_alone(task, product, &t);
+    for (way by = 0; by < WAYS; by++)
+        add_way(task, by, found, &t);
+    identification_set_value(&t, IDENTIFICATION_KEY_PRODUCT, product.value, product.standard_error,
+                             (double)NAN);
+    identification_set_value(&t, IDENTIFICATION_KEY_RATIO, ratio, ratio * found->error[LN_RATIO],
+                             (double)NAN);
+    say_agreement(found, &t);
+    identification_set_value(&t, IDENTIFICATION_KEY_VELOCITY, task->velocity, 0, 0);
+    identification_set(&t, IDENTIFICATION_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
+    identification_set(&t, IDENTIFICATION_KEY_THICKNESS,
+                       flow_as_stated(task->job->observed_thickness));
+    identification_set_text(&t, IDENTIFICATION_KEY_INCLUDES, replicates_include(r));
+    if (r->lacks[0] != '\0')
+        identification_set_text(&t, IDENTIFICATION_KEY_LACKS, r->lacks);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* With or without what the thickness scatters. */
+static identify_task task_of(const wt_sliding *sliding, const wt_identify_job *job,
+                             const wt_job *work)
+{
+    identify_task task = {.sliding = sliding,
+                          .job = job,
+                          .work = work,
+                          .velocity = flow_reference_velocity(sliding),
+                          .replicates = replicates_of(sliding, work, "identification")};
+    task.replicates.velocity = task.velocity;
+    replicates_add(&task.replicates, job->observed_thickness.standard_error, FLOW_DRAW_OBSERVED,
+                   "observed thickness");
+    if (!isnan(job->specific_wear_rate.value))
+        replicates_add(&task.replicates, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR,
+                       "specific wear rate");
+    if (!isnan(job->running_in_time.value))
+        replicates_add(&task.replicates, job->running_in_time.standard_error,
+                       FLOW_DRAW_CRITICAL_ENERGY, "running-in time");
+    return task;
+}
+
+static wt_status draw_errors(identify_task *task, double error[NUMBERS], wt_error *err)
+{
+    const wt_status status = replicates_draw(&task->replicates, NUMBERS, one_replicate, task, err);
+    for (size_t k = 0; status == WT_OK && k < NUMBERS; k++)
+        error[k] = task->replicates.error[k];
+    return status;
+}
+
+/* The same with the thickness held: at its value, then at the ends of its interval. */
+static wt_status hold_thickness(const identify_task *task, identified *found, wt_error *err)
+{
+    wt_identify_job job = *task->job;
+    const wt_estimate thickness = job.observed_thickness;
+    const double factor = exp(NORMAL_95 * thickness.standard_error / thickness.value);
+    job.observed_thickness.standard_error = 0;
+    identify_task held = task_of(task->sliding, &job, task->work);
+    wt_status status = draw_errors(&held, found->rest, err);
+    replicates_clear(&held.replicates);
+    for (size_t k = 0; k < NUMBERS; k++) /* nothing else scatters */
+        if (held.replicates.n == 0)
+            found->rest[k] = 0;
+    for (int end = 0; status == WT_OK && end < 2; end++) {
+        job.observed_thickness.value =
+            end == 0 ? thickness.value / factor : thickness.value * factor;
+        status = find_all(&held, WT_NO_REPLICATE, found->at_end[end], err);
+    }
+    return status;
+}
+
+wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
+                           const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no identification job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = param_check(wt_identify_job_params(), job, err);
+    if (status != WT_OK)
+        return status;
+    identify_task task = task_of(sliding, job, work);
+    identified found;
+    status = find_all(&task, WT_NO_REPLICATE, found.value, err);
+    if (status == WT_OK)
+        status = draw_errors(&task, found.error, err);
+    if (status == WT_OK)
+        status = hold_thickness(&task, &found, err);
+    if (status == WT_OK)
+        status = make_table(&task, &found, table, err);
+    if (status == WT_OK)
+        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table),
+                                      .tolerance_asked = work->tolerance});
+    replicates_clear(&task.replicates);
+    return status;
+}

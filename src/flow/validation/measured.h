@@ -1,0 +1,31 @@
+/* The steps of records that a prediction is held against (internal to flow/validation).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_VALIDATION_MEASURED_H
+#define WEARTRACK_FLOW_VALIDATION_MEASURED_H
+
+#include "data/tables/tables.h"
+#include "weartrack/flow.h"
+
+/* Friction is predicted at what the record says, and at what the case says where it says nothing.
+ */
+typedef struct measured_step {
+    double velocity, temperature, pressure; /* temperature NaN: the reference of the rubber */
+    double friction, error;
+    wt_interval measured; /* the same with its interval */
+    const char *note;     /* why it is not compared, or "" */
+    const char *file;     /* borrowed from the table */
+} measured_step;
+
+typedef struct measured {
+    measured_step *step; /* by temperature, pressure and velocity; then those not compared */
+    size_t n, n_all;
+    char remarks[640]; /* what was taken for granted */
+} measured;
+
+wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
+                        wt_error *err) WT_NODISCARD;
+void measured_clear(measured *m);
+/* How many steps from `first` on have its temperature and pressure. */
+size_t measured_alike(const measured *m, size_t first);
+
+#endif

@@ -1,0 +1,78 @@
+/* The verdict on a trial, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/validation/validation.h"
+
+#include "base/clocale.h"
+#include "base/normal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+double validation_margin(const validation *v)
+{
+    return log1p(v->job->margin);
+}
+
+double validation_allowed(const validation *v)
+{
+    const double off = validation_margin(v) / NORMAL_95;
+    return off * off;
+}
+
+const char *validation_verdict(agreement_verdict verdict)
+{
+    static const char *const words[] = {
+        [AGREEMENT_OPEN] = "cannot say", [AGREEMENT_YES] = "explains", [AGREEMENT_NO] = "does not"};
+    return words[verdict];
+}
+
+wt_interval validation_factor(double value, double error, double df)
+{
+    const double half = agreement_quantile(df) * error, factor = exp(value);
+    return (wt_interval){factor, factor * error, exp(value - half), exp(value + half)};
+}
+
+verdict_words verdict_of_trial(const validation *v, const trial *t)
+{
+    verdict_words words;
+    double ends[2];
+    const agreement *const fit = &t->fit;
+    const size_t at = fit->where;
+    agreement_ends(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    if (fit->verdict == AGREEMENT_YES)
+        clocale_print(words.text, sizeof words.text,
+                      "explains: measured over predicted is within %.3g %% at all of %zu steps, at "
+                      "%.3g m/s, where it is farthest, %.3g (95 %%: %.3g to %.3g)",
+                      100 * v->job->margin, t->n, v->steps.step[at].velocity, exp(fit->smooth[at]),
+                      exp(ends[0]), exp(ends[1]));
+    else
+        clocale_print(
+            words.text, sizeof words.text,
+            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %.3g to %.3g), and "
+            "%.3g to %.3g is asked for",
+            validation_verdict(fit->verdict), v->steps.step[at].velocity, exp(fit->smooth[at]),
+            fit->verdict == AGREEMENT_NO ? " at all steps at once" : "", exp(ends[0]), exp(ends[1]),
+            1 / (1 + v->job->margin), 1 + v->job->margin);
+    return words;
+}
+
+wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err)
+{
+    double *const one = calloc(t->n, sizeof *one);
+    *mean = (mean_ratio){.row = calloc(t->n, sizeof *mean->row)};
+    if (one == NULL || mean->row == NULL) {
+        free(one);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < t->n; i++) {
+        agreement_row(&t->fit, i, one);
+        for (size_t k = 0; k < t->n; k++)
+            mean->row[k] += one[k] / (double)t->n;
+    }
+    for (size_t i = 0; i < t->n; i++)
+        mean->value += mean->row[i] * t->value[i];
+    const trial_parts parts = trial_variance(t, mean->row);
+    mean->error = sqrt(parts.all);
+    mean->df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
+    free(one);
+    return WT_OK;
+}

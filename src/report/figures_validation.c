@@ -1,0 +1,45 @@
+/* Figures of measured friction against predicted friction.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+/* What the figures are about, as the key says it. */
+static void caption_verdict(figure_drawing *d)
+{
+    text_format(&d->caption, " Of %s: %s.", validation_words(d->table, VALIDATION_KEY_JUDGED),
+                validation_words(d->table, VALIDATION_KEY_VERDICT));
+}
+
+const figure_description figures_validation[] = {
+    {.name = "validation",
+     .title = "Friction, measured and predicted",
+     .table = &validation_schema,
+     .data_title = "steps of the records",
+     .x = {VALIDATION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{VALIDATION_MEASURED, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(VALIDATION_MEASURED, BARS, .style = 1, .title = "measured",
+                      .with_errors = true),
+                CURVE(VALIDATION_PREDICTED, LINE, .style = 21, .title = "predicted", .band = 71),
+                CURVE(VALIDATION_WITH_LAYER, LINE, .style = 24, .title = "predicted with layer",
+                      .band = 74)},
+     .words = "Friction coefficient of the steady part of every step of the records, with its "
+              "interval of 95 %, and as predicted at its velocity, temperature and pressure. "
+              "Bands: one standard error.",
+     .caption = caption_verdict},
+    {.name = "validation_ratio",
+     .title = "Friction, measured over predicted",
+     .table = &validation_schema,
+     .data_title = "steps of the records",
+     .x = {VALIDATION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{VALIDATION_RATIO, AXIS_NUMBER, "Measured over predicted"}},
+     .curves = {CURVE(VALIDATION_RATIO, BARS, .style = 1, .title = "without a layer",
+                      .with_errors = true),
+                CURVE(VALIDATION_RATIO_LAYER, BARS, .style = 4, .title = "with the layer",
+                      .with_errors = true)},
+     .nothing = "no shear stress is given, so that friction is not predicted",
+     .words = "Measured over predicted friction of every step of the records, with its interval of "
+              "95 % by both errors and the scatter between the steps.",
+     .caption = caption_verdict},
+    {.name = NULL},
+};
