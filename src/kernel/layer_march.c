@@ -135,9 +135,9 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
-    const double error = rate * (time_error + relative * time +
-                                 (m->rates->source->numerical_error + relative) * sensitivity) +
-                         4 * DBL_EPSILON * thickness;
+    const double error =
+        rate * (time_error + relative * time + (m->rates->error + relative) * sensitivity) +
+        4 * DBL_EPSILON * thickness;
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
@@ -269,7 +269,7 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
         const double relative = rounding_error(rates, fmax(start, goal.value));
         time->value = march_to(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
-                                (rates->source->numerical_error + relative) * m.sensitivity +
+                                (rates->error + relative) * m.sensitivity +
                                 (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
     return status;
