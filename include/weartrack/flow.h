@@ -831,6 +831,10 @@ WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_jo
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 
+/* What modifies the rubber: the hysteresis below the surface, the shearing of the real contact, or
+ * both. Where the shearing goes to is rebuilt: with depth as the hysteresis. */
+typedef enum wt_layer_energy { WT_LAYER_HYSTERESIS, WT_LAYER_SHEAR, WT_LAYER_BOTH } wt_layer_energy;
+
 typedef struct wt_layer_job {
     wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from the next */
     wt_estimate observed_thickness; /* [m]; value NaN = not observed */
@@ -843,7 +847,14 @@ typedef struct wt_layer_job {
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
-    double velocity; /* at which the track was worn [m/s]; NaN = the reference velocity */
+    double velocity;          /* at which the track was worn [m/s]; NaN = the reference velocity */
+    wt_layer_energy energy;   /* default hysteresis */
+    double shear_share;       /* of the power of shearing that counts, [0, 1]; default 1 */
+    double severity_power;    /* as in wt_layer_parameters; default 0 */
+    double severity_exponent; /* likewise; default 1 */
+    wt_layer_closure closure; /* default energy; activated at the temperature of the rubber */
+    wt_estimate barrier;      /* of the activated closure [J] */
+    wt_activation activation; /* its volume, attempt and ageing */
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 WT_API const wt_params *wt_layer_job_params(void);

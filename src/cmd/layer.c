@@ -15,11 +15,11 @@ int cmd_layer(int argc, char **argv)
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
-    /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
-        "heat-capacity heat-diffusivity macroscopic-area clip-heat";
+        "heat-capacity heat-diffusivity macroscopic-area clip-heat shear-stress shear-law "
+        "shear-peak-velocity shear-width shear-activation shear-temperature";
     wt_layer_tables tables = {0};
     wt_table *energy_density = NULL, *softening = NULL, *flash = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))

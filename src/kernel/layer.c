@@ -32,7 +32,7 @@ static const wt_param rows[] = {
      .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
     LAYER_SEVERITY_EXPONENT(wt_layer_parameters),
     LAYER_CLOSURE(wt_layer_parameters),
-    LAYER_ACTIVATION_ROWS(wt_layer_parameters, activation.),
+    LAYER_ACTIVATION_ROWS(wt_layer_parameters, activation., activation.),
     {PARAM("activation-temperature", wt_layer_parameters, activation.temperature, WT_Q_TEMPERATURE,
            ABOVE(0)),
      .unset = "", .flags = PARAM_ONLY_C, .help = "of the rubber"},
@@ -96,8 +96,7 @@ static wt_status rates_close(layer_rates *r, const wt_layer_parameters *p, wt_er
     return WT_OK;
 }
 
-/* k with what the power does to it. */
-static double severe_wear_rate(const wt_layer_parameters *p, double power)
+double layer_wear_rate(const wt_layer_parameters *p, double power)
 {
     return p->severity_power > 0
                ? p->specific_wear_rate * (1 + pow(power / p->severity_power, p->severity_exponent))
@@ -124,7 +123,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     for (size_t i = 0; i < source->n; i++)
         r.power += source->power[i];
     status = rates_close(&r, p, err);
-    r.wear = p->duty * severe_wear_rate(p, r.power) * p->pressure * p->velocity;
+    r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
     if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear))) {
         status = wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
         wt_error_found(err, "formation %g m/s, wear %g m/s", r.formation, r.wear);

@@ -27,6 +27,8 @@ typedef struct layer_rates {
 
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err) WT_NODISCARD;
+/* k with what the power does to it [m^2/N]. */
+double layer_wear_rate(const wt_layer_parameters *parameters, double power);
 void layer_rates_clear(layer_rates *rates);
 double rates_log_density(const layer_rates *rates, double depth);
 double rates_log_tail(const layer_rates *rates, double depth);

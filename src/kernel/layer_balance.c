@@ -118,6 +118,6 @@ double wt_layer_calibrate(const wt_energy_source *source, const wt_layer_paramet
                           double thickness)
 {
     return wt_energy_tail(source, thickness) /
-           (parameters->damage * parameters->specific_wear_rate * parameters->pressure *
-            parameters->velocity);
+           (parameters->damage * layer_wear_rate(parameters, wt_energy_tail(source, 0)) *
+            parameters->pressure * parameters->velocity);
 }

@@ -339,8 +339,7 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     damage_set_time(d, 1);
     if (!d->worn) {
         const double rate = damage_of_loads(depth, d);
-        *log_time =
-            level - (r->background > 0 ? log_add(rate, log(r->background)) : rate);
+        *log_time = level - (r->background > 0 ? log_add(rate, log(r->background)) : rate);
         return WT_OK;
     }
     passage p = {d, depth};
