@@ -332,8 +332,8 @@ WT_API wt_status wt_layer_events(const wt_energy_source *source,
  * reached at once or over a thickness, and what it takes to open the cracks at the rims of the
  * contacts. Rebuilt from what Mokhtari 2015 lists. */
 typedef struct wt_layer_shear {
-    double exponent;     /* default 1 */
-    double reach;        /* thickness at which 1 - 1/e of the change is there [m]; 0 (default): any */
+    double exponent; /* default 1 */
+    double reach;    /* thickness at which 1 - 1/e of the change is there [m]; 0 (default): any */
     double crack_energy; /* G to open a crack [J/m^2], also without a layer; default 0: none */
     double spacing;      /* of the asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
 } wt_layer_shear;
@@ -341,6 +341,44 @@ WT_API wt_layer_shear wt_layer_shear_defaults(void);
 /* bulk: of the bulk's real contact without cracks [Pa]; area_ratio: A/A0 with this layer. */
 WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
                                     double area_ratio);
+
+/* A layer that acts back on the energy that makes it: what modifies the rubber under a layer of a
+ * thickness. The source is then the caller's, to be cleared. */
+typedef wt_status (*wt_layer_energy_fn)(double thickness, void *user, wt_energy_source *source,
+                                        wt_layer_parameters *parameters, wt_error *err);
+
+/* A thickness at which formation under it equals wear. 0: the bare surface, where formation does
+ * not exceed wear. */
+typedef struct wt_layer_root {
+    double thickness;  /* [m] */
+    bool stable;       /* a layer near it comes back to it */
+    double map_slope;  /* of the balance thickness with the energy under a layer against the
+                          thickness of that; below 1 it is stable; NaN of the bare surface */
+    double eigenvalue; /* [1/s]; likewise */
+} wt_layer_root;
+
+/* Where two roots meet as the wear rate changes. */
+typedef struct wt_layer_fold {
+    double thickness, specific_wear_rate; /* [m], [m^2/N] */
+    bool maximum;                         /* the pair is gone above that wear rate, else below it */
+} wt_layer_fold;
+
+enum { WT_LAYER_ROOTS = 8 };
+typedef struct wt_layer_loop {
+    size_t n_roots, n_folds;
+    wt_layer_root root[WT_LAYER_ROOTS]; /* the thinnest first */
+    wt_layer_fold fold[WT_LAYER_ROOTS];
+    double low, high; /* between which it was looked for [m] */
+    double ratio;     /* R of the bare surface */
+} wt_layer_loop;
+/* All roots between two thicknesses, of a grid of `grid` values of constant ratio: two that are
+ * closer than a step of it are not seen. */
+WT_API wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, double high,
+                                    size_t grid, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
+/* By the rate balance, from a bare surface to the lowest stable root; as wt_layer_history. */
+WT_API wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user,
+                                       const wt_layer_loop *loop, const double *time, size_t n,
+                                       wt_layer_point *points, wt_error *err) WT_NODISCARD;
 
 /* Single exponential in closed form (theory T3): thickness after t from delta0; NaN for a negative
  * or infinite argument. */

@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "kernel/layer.h"
+#include "kernel/layer_own.h"
 #include "kernel/params.h"
 
 #include "model/root.h"
@@ -166,6 +166,8 @@ energy_course rates_course(const layer_rates *rates, double depth, double length
 
 double layer_formation(const layer_rates *rates, double thickness)
 {
+    if (rates->own != NULL)
+        return exp(layer_own_log(rates->own, thickness));
     if (rates->formation == 0)
         return 0;
     return rates->formation * exp(rates_log_tail(rates, thickness) - rates->log_power);
@@ -173,6 +175,8 @@ double layer_formation(const layer_rates *rates, double thickness)
 
 double layer_decay(const layer_rates *rates, double thickness)
 {
+    if (rates->own != NULL)
+        return fabs(layer_own_slope(rates->own, thickness));
     if (rates->formation == 0)
         return 0;
     return exp(rates_log_density(rates, thickness) - rates_log_tail(rates, thickness));

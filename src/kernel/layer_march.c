@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "kernel/layer.h"
+#include "kernel/layer_own.h"
 
 #include "kernel/rule.h"
 
@@ -163,7 +163,11 @@ static wt_status march_begin(march *m, const layer_rates *rates, double start, w
                              double *linear, wt_error *err)
 {
     *m = (march){.rates = rates, .thickness = start};
-    wt_status status = layer_fixed_point(rates, 0, target, err);
+    wt_status status = WT_OK;
+    if (rates->own != NULL)
+        *target = (wt_estimate){.value = rates->own->target, .unit = "m"};
+    else
+        status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
         status = rule_of(LOW_NODES, &m->low, err);
     if (status == WT_OK)
