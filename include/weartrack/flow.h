@@ -855,6 +855,14 @@ typedef struct wt_layer_job {
     wt_layer_closure closure; /* default energy; activated at the temperature of the rubber */
     wt_estimate barrier;      /* of the activated closure [J] */
     wt_activation activation; /* its volume, attempt and ageing */
+    bool bands;               /* the modified bands are asked for */
+    const char *const *loads; /* [n_loads] that follow one another, borrowed; none: the load of the
+                                 sliding for ever */
+    size_t n_loads;
+    bool running_in;      /* friction while the layer grows is asked for */
+    bool acts_back;       /* the layer acts back on the energy that makes it */
+    wt_layer_shear shear; /* of the real contact on the layer */
+    bool existence;       /* where a layer exists is asked for */
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 WT_API const wt_params *wt_layer_job_params(void);
@@ -874,6 +882,27 @@ WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
                                const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
+
+/* Table "layer_bands": upper and lower edge of the modified rubber in time, by exact transport of
+ * damage through the loads of the job, and how the bands come about. */
+WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                     const wt_job *work, wt_table **table,
+                                     wt_error *err) WT_NODISCARD;
+/* Table "running_in": friction with the layer that has grown until then, whose modulus ratio is
+ * that of `known`; with `acts_back` also its energy is that under this layer. */
+WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                    const wt_layer_known *known, const wt_job *work,
+                                    wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "layer_balances": all balances of a layer that acts back, and the folds between them. */
+WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                        const wt_layer_known *known, const wt_job *work,
+                                        wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
+ * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
+ * friction. */
+WT_API wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                   const wt_layer_known *known, const wt_job *work,
+                                   wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Table "energy_density": the energy density against depth at the velocity of the layer. */
 WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,

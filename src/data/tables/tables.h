@@ -18,6 +18,7 @@
 #include "data/tables/error_budget.h"
 #include "data/tables/friction_maps.h"
 #include "data/tables/indentation.h"
+#include "data/tables/layer_models.h"
 #include "data/tables/materials.h"
 #include "data/tables/measured.h"
 #include "data/tables/ramp.h"
@@ -118,6 +119,11 @@
     X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(layer_bands, LAYER_BANDS, "layer_bands", "Modified bands in time", "layer")                  \
+    X(running_in, RUNNING_IN, "running_in", "Friction with the layer in running-in", "layer")      \
+    X(layer_balances, LAYER_BALANCES, "layer_balances",                                            \
+      "Balances of a layer that acts back on its energy", "layer")                                 \
+    X(existence, EXISTENCE, "existence", "Where a layer exists", "layer")                          \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
     X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \

@@ -148,39 +148,6 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* ---- times ----------------------------------------------------------------------------------- */
-
-/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
- * of the last, where all is over. A scale that is not there is so far from the other one. Which
- * times are told changes none of their numbers. */
-#define TIMES 61
-#define TIME_SPAN 100
-#define SHORT_OF_LAST 1e-3
-#define PAST_FIRST 1e6
-
-/* From well before the first change to well after the last one. */
-static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_error *err)
-{
-    task->n = task->job->time != NULL ? task->job->n_time : TIMES;
-    task->time = malloc((task->n > 0 ? task->n : 1) * sizeof *task->time);
-    if (task->time == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (task->job->time != NULL) {
-        memcpy(task->time, task->job->time, task->n * sizeof *task->time);
-        return WT_OK;
-    }
-    double first = b->incubation_time.value, last = b->relaxation_time.value;
-    if (!(first > 0) || !isfinite(first))
-        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
-    if (!(last > 0) || !isfinite(last))
-        last = PAST_FIRST * first;
-    first /= 2;
-    last = TIME_SPAN * fmax(last, first);
-    for (size_t i = 0; i < task->n; i++)
-        task->time[i] = first * pow(last / first, (double)i / (double)(task->n - 1));
-    return WT_OK;
-}
-
 /* ---- replicates ------------------------------------------------------------------------------ */
 
 static wt_status draw_replicates(layer_task *task, wt_error *err)
@@ -333,7 +300,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     if (status == WT_OK)
         layer_warn(job, &centre.parameters, work->log);
     if (status == WT_OK)
-        status = choose_times(&task, &centre.balance, err);
+        status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
     if (status == WT_OK)
         status = follow_thickness(&task, &centre, err);
     if (status == WT_OK)

@@ -25,4 +25,34 @@ wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_c
                                         double velocity, const layer_energy *energy, uint64_t seed,
                                         size_t replicate);
 
+/* The times of a job, or such as show a layer from well before its first change to well after the
+ * last one: *time [n], to be freed. */
+wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *balance,
+                             double **time, size_t *n, wt_error *err) WT_NODISCARD;
+
+/* ---- at other loads and under a layer -------------------------------------------------------- */
+
+/* Where a layer is looked at, by the values themselves. */
+typedef struct layer_spot {
+    double pressure, velocity, temperature; /* NaN: those of the sliding */
+    wt_layer_state layer;                   /* what lies on the bulk already */
+} layer_spot;
+layer_spot layer_here(void);
+
+/* Energy, friction and the parameters of the layer there. */
+wt_status layer_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
+                   layer_spot spot, layer_energy *energy, wt_layer_parameters *parameters,
+                   wt_error *err) WT_NODISCARD;
+/* Friction there, by the shear stress of a layer if there is one; of hysteresis alone if no shear
+ * stress is known. */
+typedef struct layer_friction {
+    double hysteresis, area_ratio, shear_stress, total;
+} layer_friction;
+wt_status layer_friction_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
+                            layer_spot spot, layer_friction *friction, wt_error *err) WT_NODISCARD;
+/* The job with its critical energy calibrated, if it has an observed thickness. */
+wt_status layer_job_calibrated(const wt_sliding *sliding, const wt_layer_job *job,
+                               const wt_job *work, wt_layer_job *calibrated,
+                               wt_error *err) WT_NODISCARD;
+
 #endif

@@ -1,5 +1,6 @@
 /* The parameters of the layer job, and what goes together.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/layer/layer_loads.h"
 #include "kernel/params.h"
 #include "weartrack/flow.h"
 
@@ -24,6 +25,7 @@ wt_layer_job wt_layer_job_defaults(void)
         .closure = wt_layer_defaults().closure,
         .barrier = {(double)NAN, 0, 0, "J"},
         .activation = wt_layer_defaults().activation,
+        .shear = wt_layer_shear_defaults(),
     };
 }
 
@@ -86,6 +88,35 @@ static const wt_param rows[] = {
     LAYER_SEVERITY_EXPONENT(wt_layer_job),
     LAYER_CLOSURE(wt_layer_job),
     LAYER_ACTIVATION_ROWS(wt_layer_job, activation., ),
+    {PARAM_FLAG_OF("bands", wt_layer_job, bands),
+     .help = "also the upper and lower edges of the modified rubber in time, and when bands begin, "
+             "reach the surface and merge"},
+    {PARAM_TEXTS_OF("loads", wt_layer_job, loads, n_loads), .value = "NAME=VALUE,...", .unset = "",
+     .help = "also the modified rubber under loads that follow one another, each such as "
+             "time=900s,pressure=0.4MPa,velocity=5mm/s,temperature=20degC,specific-wear-rate="
+             "1e-3mm^3/(N m); what is left out is that of the sliding, and the last lasts for "
+             "ever; repeatable"},
+    {PARAM_FLAG_OF("running-in", wt_layer_job, running_in),
+     .help = "also friction in time while the layer grows; needs the modulus ratio"},
+    {PARAM_FLAG_OF("acts-back", wt_layer_job, acts_back),
+     .help = "also all balances of a layer whose own modulus changes the energy that makes it, "
+             "their stability and folds; needs the modulus ratio"},
+    {PARAM_FLAG_OF("existence", wt_layer_job, existence),
+     .help = "also where a layer exists: thickness against the power, at every velocity and "
+             "pressure of the lists"},
+    {PARAM("shear-exponent", wt_layer_job, shear.exponent, WT_Q_NONE, FROM_TO(-10, 10)),
+     .value = "M",
+     .help = "of the modulus ratio, whose power times the shear stress is that of the layer "
+             "(reconstructed)"},
+    {PARAM("shear-reach", wt_layer_job, shear.reach, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
+     .help = "thickness over which the shear stress goes over to that of the layer, as 1 - "
+             "exp(-d/D) (reconstructed); 0: at once"},
+    {PARAM("crack-energy", wt_layer_job, shear.crack_energy, WT_Q_SPRING_CONSTANT, AT_LEAST(0)),
+     .value = "G",
+     .help = "per area, such as 1J/m^2, to open cracks at the rims of the contacts, which adds "
+             "to the shear stress (source; its form reconstructed)"},
+    {PARAM("asperity-spacing", wt_layer_job, shear.spacing, WT_Q_LENGTH, ABOVE(0)), .value = "D",
+     .unset = "", .help = "of the asperities in contact, 1/sqrt(eta), for the crack energy"},
 };
 PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
 
@@ -112,6 +143,17 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     wt_status status = param_check(wt_layer_job_params(), job, err);
     if (status != WT_OK)
         return status;
+    for (size_t i = 0; status == WT_OK && i < job->n_loads; i++) {
+        layer_load load;
+        status = layer_load_parse(job, i, &load, err);
+    }
+    if (status != WT_OK)
+        return status;
+    if (job->shear.crack_energy > 0 && isnan(job->shear.spacing)) {
+        status = wt_fail(err, WT_E_MISSING, "the crack energy needs the spacing of the asperities");
+        wt_error_expected(err, "asperity-spacing, such as 10um");
+        return status;
+    }
     if (job->closure == WT_CLOSURE_ACTIVATED)
         return activated_check(job, err);
     if (energy == observed) {
