@@ -151,10 +151,19 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
 
 /* ---- in time --------------------------------------------------------------------------------- */
 
+/* The march wears at the rate of the bare surface: what the layer changes of it counts as
+ * formation, which up to the first balance is the larger of the two. */
+typedef struct own_search {
+    loop_search *search;
+    double wear;
+} own_search;
+
 static double log_formation_at(double thickness, void *user)
 {
-    const loop_point p = point_at(user, thickness);
-    return p.log_ratio + log(p.wear);
+    const own_search *o = user;
+    const loop_point p = point_at(o->search, thickness);
+    const double log_formation = p.log_ratio + log(p.wear);
+    return p.wear == o->wear ? log_formation : log(exp(log_formation) - p.wear + o->wear);
 }
 
 static int by_time(const void *left, const void *right)
@@ -163,8 +172,8 @@ static int by_time(const void *left, const void *right)
     return (a->time > b->time) - (a->time < b->time);
 }
 
-static wt_status march_own(layer_rates *rates, const double *time, size_t n, wt_layer_point *points,
-                           wt_error *err)
+static wt_status march_own(loop_search *s, layer_rates *rates, const double *time, size_t n,
+                           wt_layer_point *points, wt_error *err)
 {
     layer_instant *order = calloc(n + 1, sizeof *order);
     if (order == NULL)
@@ -176,10 +185,11 @@ static wt_status march_own(layer_rates *rates, const double *time, size_t n, wt_
     free(order);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
-        points[i].formation_rate = layer_formation(rates, points[i].thickness.value);
-        points[i].wear_rate = rates->wear;
+        const loop_point p = point_at(s, points[i].thickness.value);
+        points[i].formation_rate = p.formation;
+        points[i].wear_rate = p.wear;
     }
-    return status;
+    return status == WT_OK ? s->status : status;
 }
 
 /* The lowest root that a growing layer comes to; 0: none grows. */
@@ -211,15 +221,11 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
                    ? wt_fail(err, WT_E_RANGE, "a layer grows beyond the thicknesses looked at")
                    : WT_OK;
     }
-    if (point_at(&s, target).wear != bare.wear)
-        return s.status != WT_OK ? s.status
-                                 : wt_fail(err, WT_E_ARG,
-                                           "the history of a layer that acts back needs a "
-                                           "constant wear rate");
     layer_own *own = calloc(1, sizeof *own);
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
-    status = layer_own_make(log_formation_at, &s, 1 / bare.q_max, target, own, err);
+    own_search o = {&s, bare.wear};
+    status = layer_own_make(log_formation_at, &o, 1 / bare.q_max, target, own, err);
     if (status == WT_OK)
         status = s.status;
     layer_rates rates = {.own = own,
@@ -229,7 +235,7 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
                          .wear = bare.wear,
                          .log_ratio = log(bare.formation / bare.wear)};
     if (status == WT_OK)
-        status = march_own(&rates, time, n, points, err);
+        status = march_own(&s, &rates, time, n, points, err);
     layer_own_clear(own);
     free(own);
     return status;

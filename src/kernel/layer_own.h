@@ -13,6 +13,7 @@ typedef struct own_panel {
     struct gsl_cheb_series_struct *value, *slope; /* of ln Qf */
 } own_panel;
 
+/* Each is as long as all before it: no layer is 2^64 times as thick as the shortest wave. */
 enum { OWN_PANELS = 64 };
 typedef struct layer_own {
     double target; /* where the motion ends [m] */

@@ -76,8 +76,8 @@ typedef struct figure_description {
 /* In the order of the page; each ends with a row without a name. */
 extern const figure_description figures_indentation[], figures_spot[], figures_surface[],
     figures_materials[], figures_master[], figures_dma[], figures_payne[], figures_friction[],
-    figures_friction_maps[], figures_record[], figures_layer[], figures_what_if[],
-    figures_accuracy[];
+    figures_friction_maps[], figures_record[], figures_layer[], figures_existence[],
+    figures_what_if[], figures_accuracy[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
 
 /* Of each group whose curves lie on a grid. */

@@ -16,11 +16,13 @@
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) X(common_law) \
     X(dwell_dma) X(power_spectrum) X(angular_spectrum) X(surfaces) X(scan_spectra) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
     X(failures) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
-    X(anisotropy) X(friction_map) X(friction_decades) X(flash)
+    X(anisotropy) X(friction_map) X(friction_decades) X(flash) \
+    X(layer_bands) X(running_in) X(layer_balances) X(existence)
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
-    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash)
+    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash) \
+    X(layer_bands) X(running_in) X(layer_balances) X(existence)
 /* clang-format on */
 
 typedef struct binding {

@@ -16,8 +16,8 @@ static const double thickest = 4;    /* 1/q0 */
 
 TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
           double thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio, friction;)
-TABLE_KEYS(layer_balances, LAYER_BALANCES, double one_way, ratio, modulus_ratio, low, high;
-           const char *words;)
+TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio;
+           double modulus_ratio, low, high; const char *words;)
 
 wt_status layer_job_known(const wt_sliding *sliding, const wt_layer_job *job,
                           const wt_layer_known *known, const wt_job *work, wt_layer_job *out,
@@ -146,8 +146,8 @@ static wt_status make_table(acts_back *back, wt_table **table, wt_error *err)
     status = add_rows(back, &loop, &t, err);
     if (t.status == WT_OK)
         t.status = status;
-    TABLE_SET(layer_balances, &t, balance.thickness.value, loop.ratio, back->modulus_ratio,
-              loop.low, loop.high, say_loop(&loop));
+    TABLE_SET(layer_balances, &t, layer_alone(balance.thickness.value), layer_alone(loop.ratio),
+              back->modulus_ratio, loop.low, loop.high, say_loop(&loop));
     return table_end(&t, table);
 }
 

@@ -28,8 +28,8 @@ typedef struct existence_task {
 
 TABLE_ROW(existence, EXISTENCE, double pressure, velocity, power, ratio, thickness, friction,
           with_layer, change;)
-TABLE_KEYS(existence, EXISTENCE, double pressure, from_velocity, to_velocity, from_power, to_power;
-           const char *words;)
+TABLE_KEYS(existence, EXISTENCE, double pressure;
+           wt_estimate from_velocity, to_velocity, from_power, to_power; const char *words;)
 
 /* Power, R and thickness there. */
 static wt_status balance_at(const existence_task *task, layer_spot spot, wt_layer_balance *balance,
@@ -160,8 +160,9 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
         status = add_block(task, s->pressures[i], &t, err);
     if (t.status == WT_OK)
         t.status = status;
-    TABLE_SET(existence, &t, s->pressure.value, task->edge[0], task->edge[1], task->power[0],
-              task->power[1], task->words);
+    TABLE_SET(existence, &t, s->pressure.value, layer_alone(task->edge[0]),
+              layer_alone(task->edge[1]), layer_alone(task->power[0]), layer_alone(task->power[1]),
+              task->words);
     return table_end(&t, table);
 }
 

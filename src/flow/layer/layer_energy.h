@@ -50,6 +50,8 @@ typedef struct layer_friction {
 } layer_friction;
 wt_status layer_friction_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
                             layer_spot spot, layer_friction *friction, wt_error *err) WT_NODISCARD;
+/* A number whose errors are not known. */
+wt_estimate layer_alone(double value);
 /* The job with its critical energy calibrated, if it has an observed thickness. */
 wt_status layer_job_calibrated(const wt_sliding *sliding, const wt_layer_job *job,
                                const wt_job *work, wt_layer_job *calibrated,

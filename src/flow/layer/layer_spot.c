@@ -9,6 +9,11 @@ layer_spot layer_here(void)
     return (layer_spot){(double)NAN, (double)NAN, (double)NAN, {0, 1}};
 }
 
+wt_estimate layer_alone(double value)
+{
+    return (wt_estimate){value, (double)NAN, (double)NAN, NULL};
+}
+
 /* The sliding with the values of a spot; *velocity is kept by the caller. */
 static wt_sliding sliding_at(const wt_sliding *sliding, const wt_layer_job *job, layer_spot spot,
                              double *velocity)

@@ -28,9 +28,8 @@ typedef struct running_task {
 
 TABLE_ROW(running_in, RUNNING_IN, double time, thickness, hysteresis, area_ratio, shear_stress,
           friction;)
-TABLE_KEYS(running_in, RUNNING_IN, double velocity, modulus_ratio, bare, balance, thickness,
-           settled;
-           const char *shear, *back, *errors;)
+TABLE_KEYS(running_in, RUNNING_IN, double velocity, modulus_ratio;
+           wt_estimate bare, balance, thickness, settled; const char *shear, *back, *errors;)
 
 static wt_status friction_of(const running_task *task, double thickness, layer_friction *friction,
                              wt_error *err)
@@ -171,8 +170,9 @@ static wt_status make_table(running_task *task, double velocity, wt_table **tabl
                   f->area_ratio, f->shear_stress, f->total);
     }
     say_shear(task);
-    TABLE_SET(running_in, &t, velocity, task->back.modulus_ratio, known_friction(&task->bare),
-              known_friction(&task->balance), task->thickness, settled, task->shear,
+    TABLE_SET(running_in, &t, velocity, task->back.modulus_ratio,
+              layer_alone(known_friction(&task->bare)), layer_alone(known_friction(&task->balance)),
+              layer_alone(task->thickness), layer_alone(settled), task->shear,
               task->job.acts_back
                   ? "the layer acts back on the energy that makes it; by the rate balance "
                     "(reconstructed)"
