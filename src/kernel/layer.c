@@ -39,7 +39,7 @@ static const wt_param rows[] = {
     {PARAM("area-ratio", wt_layer_parameters, activation.area_ratio, WT_Q_NONE, ABOVE_TO(0, 1)),
      .flags = PARAM_ONLY_C, .help = "real over nominal contact area"},
     {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
-     .unset = "", .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
+     .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
     {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
      .flags = PARAM_ONLY_C, .help = "nominal pressure"},
     {PARAM("velocity", wt_layer_parameters, velocity, WT_Q_VELOCITY, AT_LEAST(0)),
@@ -52,12 +52,6 @@ static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
 {
     const bool activated = p->closure == WT_CLOSURE_ACTIVATED;
     const wt_activation *a = &p->activation;
-    if (!activated && isnan(p->critical_energy)) {
-        const wt_status status = range_error("critical energy of the energy closure of a layer",
-                                             p->critical_energy, "above 0 J/m^3", err);
-        wt_error_place(err, "critical-energy");
-        return status;
-    }
     if (activated && (isnan(a->barrier) || isnan(a->volume) || isnan(a->temperature)))
         return wt_fail(err, WT_E_MISSING,
                        "the activated closure of a layer needs a barrier, an activation volume "
@@ -110,8 +104,12 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     if (parameters == NULL)
         return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
     wt_status status = energy_check(source, err);
-    if (status == WT_OK)
-        status = param_check(wt_layer_params(), parameters, err);
+    if (status == WT_OK) {
+        wt_layer_parameters checked = *parameters;
+        if (checked.closure == WT_CLOSURE_ACTIVATED)
+            checked.critical_energy = 1; /* which it has not */
+        status = param_check(wt_layer_params(), &checked, err);
+    }
     if (status == WT_OK)
         status = closure_check(parameters, err);
     if (status != WT_OK)

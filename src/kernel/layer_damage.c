@@ -69,11 +69,12 @@ double damage_of_loads(double depth, const damage *d)
     return sum;
 }
 
-/* The logarithm that the loads must bring, where some damage is there without them. */
+/* The logarithm that the loads must bring, where some damage is there without them; where that is
+ * enough, the least there is. */
 static double damage_wanted(const damage *d)
 {
     const double unloaded = d->rates->background * d->time + d->past_background;
-    return unloaded > 0 ? log(fmax(0, exp(d->level) - unloaded)) : d->level;
+    return unloaded > 0 ? log(fmax(DBL_MIN, exp(d->level) - unloaded)) : d->level;
 }
 
 double damage_at(double depth, void *user)
@@ -294,6 +295,10 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         return WT_OK;
     const double error = damage_error(rates);
     damage_set_time(&d, time);
+    if (rates->background * time >= 1) { /* modified without a load, however deep */
+        thickness->value = HUGE_VAL;
+        return WT_OK;
+    }
     if (energy_falls(rates->source))
         return falling_depth(&d, error, earlier, thickness, err);
     d.level = -error;

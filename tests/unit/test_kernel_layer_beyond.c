@@ -543,6 +543,24 @@ static void rest_ages_only(void **state)
     const wt_layer_section all = section_of(&stage, 1, 1.001 * life);
     assert_int_equal(all.n, 1);
     assert_true(isinf(all.band[0].lower.value));
+    /* the history of one load says the same, and its incubation is no longer than that */
+    wt_energy_source working = {.n = 1,
+                                .wavenumber = (double[]){1e6},
+                                .power = (double[]){400},
+                                .profile = WT_PROFILE_PERSSON};
+    const double times[] = {0.5 * life, 2 * life};
+    wt_layer_point points[2];
+    wt_layer_balance balance;
+    wt_error err = WT_ERROR_INIT;
+    p.velocity = 5e-3;
+    p.specific_wear_rate = 1e-12;
+    p.incubation = true;
+    p.activation.ageing = true;
+    p.activation.volume = 1e-30;
+    assert_int_equal(wt_layer_history(&working, &p, times, 2, points, &err), WT_OK);
+    assert_true(points[0].thickness.value == 0 && isinf(points[1].thickness.value));
+    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
+    assert_true(balance.incubation_time.value <= life * (1 + 1e-12));
 }
 
 /* Where k is constant and where its growth has no power to work on, the numbers are the same. */

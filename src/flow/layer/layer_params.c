@@ -81,10 +81,9 @@ static const wt_param rows[] = {
     {PARAM("shear-share", wt_layer_job, shear_share, WT_Q_NONE, FROM_TO(0, 1)), .value = "X",
      .help = "share of the power of shearing that modifies the rubber, where it counts"},
     {PARAM_OTHER_OF("severity-power", wt_layer_job, severity_power, read_power),
-     .check = check_power, .value = "E",
+     .check = check_power, .value = "E", .unset = "",
      .help = "such as 25kW/m^2: E_c of a specific wear rate that grows with the power E that "
-             "modifies the rubber, k (1 + (E/E_c)^m) (reconstructed); 0, the default: k is "
-             "constant"},
+             "modifies the rubber, k (1 + (E/E_c)^m) (reconstructed); without it k is constant"},
     LAYER_SEVERITY_EXPONENT(wt_layer_job),
     LAYER_CLOSURE(wt_layer_job),
     LAYER_ACTIVATION_ROWS(wt_layer_job, activation., ),
