@@ -101,7 +101,7 @@ int cmd_layer(int argc, char **argv)
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (needs && !cmd_given(&s.parts[CMD_KNOWN], "modulus-ratio"))
-        cmd_usage_error(&s.session, "--running-in and --acts-back need --modulus-ratio");
+        cmd_usage_error(&s.session, "--running-in-friction and --acts-back need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
         const wt_status made = make_tables(&s, &job, &tables, table);
         wt_table **parts[N_TABLES];

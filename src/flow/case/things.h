@@ -44,7 +44,8 @@
       "no bands or loads asked for (<bands> or <loads> in <layer>)",                               \
       c->has_layer && (c->layer.bands || c->layer.n_loads > 0))                                    \
     X(ASKED_RUNNING_IN, "running-in with the layer",                                               \
-      "no running-in asked for (<running-in> in <layer>)", c->has_layer && c->layer.running_in)    \
+      "no running-in asked for (<running-in-friction> in <layer>)",                                \
+      c->has_layer && c->layer.running_in)                                                         \
     X(ASKED_FEEDBACK, "a layer that acts back",                                                    \
       "no layer that acts back (<acts-back> in <layer>)", c->has_layer && c->layer.acts_back)      \
     X(ASKED_EXISTENCE, "where a layer exists",                                                     \

@@ -95,7 +95,7 @@ static const wt_param rows[] = {
              "time=900s,pressure=0.4MPa,velocity=5mm/s,temperature=20degC,specific-wear-rate="
              "1e-3mm^3/(N m); what is left out is that of the sliding, and the last lasts for "
              "ever; repeatable"},
-    {PARAM_FLAG_OF("running-in", wt_layer_job, running_in),
+    {PARAM_FLAG_OF("running-in-friction", wt_layer_job, running_in),
      .help = "also friction in time while the layer grows; needs the modulus ratio"},
     {PARAM_FLAG_OF("acts-back", wt_layer_job, acts_back),
      .help = "also all balances of a layer whose own modulus changes the energy that makes it, "
