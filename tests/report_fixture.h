@@ -476,6 +476,10 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("texture", "anisotropy");
     fixture_of_case("texture", "friction_map");
     fixture_of_case("texture", "friction_decades");
+    fixture_of_case("layer", "layer_bands");
+    fixture_of_case("layer", "running_in");
+    fixture_of_case("layer", "layer_balances");
+    fixture_of_case("layer", "existence");
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);

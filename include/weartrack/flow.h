@@ -872,6 +872,10 @@ WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_jo
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 
+/* What modifies the rubber: the hysteresis below the surface, the shearing of the real contact, or
+ * both. Where the shearing goes to is rebuilt: with depth as the hysteresis. */
+typedef enum wt_layer_energy { WT_LAYER_HYSTERESIS, WT_LAYER_SHEAR, WT_LAYER_BOTH } wt_layer_energy;
+
 typedef struct wt_layer_job {
     wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from the next */
     wt_estimate observed_thickness; /* [m]; value NaN = not observed */
@@ -884,7 +888,22 @@ typedef struct wt_layer_job {
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
-    double velocity; /* at which the track was worn [m/s]; NaN = the reference velocity */
+    double velocity;          /* at which the track was worn [m/s]; NaN = the reference velocity */
+    wt_layer_energy energy;   /* default hysteresis */
+    double shear_share;       /* of the power of shearing that counts, [0, 1]; default 1 */
+    double severity_power;    /* as in wt_layer_parameters; default 0 */
+    double severity_exponent; /* likewise; default 1 */
+    wt_layer_closure closure; /* default energy; activated at the temperature of the rubber */
+    wt_estimate barrier;      /* of the activated closure [J] */
+    wt_activation activation; /* its volume, attempt and ageing */
+    bool bands;               /* the modified bands are asked for */
+    const char *const *loads; /* [n_loads] that follow one another, borrowed; none: the load of the
+                                 sliding for ever */
+    size_t n_loads;
+    bool running_in;      /* friction while the layer grows is asked for */
+    bool acts_back;       /* the layer acts back on the energy that makes it */
+    wt_layer_shear shear; /* of the real contact on the layer */
+    bool existence;       /* where a layer exists is asked for */
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 WT_API const wt_params *wt_layer_job_params(void);
@@ -904,6 +923,27 @@ WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
                                const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
+
+/* Table "layer_bands": upper and lower edge of the modified rubber in time, by exact transport of
+ * damage through the loads of the job, and how the bands come about. */
+WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                     const wt_job *work, wt_table **table,
+                                     wt_error *err) WT_NODISCARD;
+/* Table "running_in": friction with the layer that has grown until then, whose modulus ratio is
+ * that of `known`; with `acts_back` also its energy is that under this layer. */
+WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                    const wt_layer_known *known, const wt_job *work,
+                                    wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "layer_balances": all balances of a layer that acts back, and the folds between them. */
+WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                        const wt_layer_known *known, const wt_job *work,
+                                        wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
+ * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
+ * friction. */
+WT_API wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                   const wt_layer_known *known, const wt_job *work,
+                                   wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Table "energy_density": the energy density against depth at the velocity of the layer. */
 WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,

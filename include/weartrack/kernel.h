@@ -190,10 +190,35 @@ WT_API double wt_energy_density(const wt_energy_source *source, double depth); /
 WT_API double wt_energy_tail(const wt_energy_source *source,
                              double depth); /* int_z^inf w [W/m^2] */
 
-/* Energy closure, rebuilt from what Mokhtari 2015 says of it: Omega = w / critical_energy, modified
- * where int Omega dt >= damage. */
+/* What turns energy into damage. Both are rebuilt from what Mokhtari 2015 and Persson say of them.
+ */
+typedef enum wt_layer_closure {
+    WT_CLOSURE_ENERGY,   /* Omega = w / critical_energy */
+    WT_CLOSURE_ACTIVATED /* Omega = A exp(-max(0, barrier - V_a e) / kB T) in contact */
+} wt_layer_closure;
+/* A of the activated closure: kB T over the reduced or the plain constant of Planck. */
+typedef enum wt_attempt { WT_ATTEMPT_HBAR, WT_ATTEMPT_H } wt_attempt;
+
+/* Bonds that stress helps over a barrier. e is the energy of a wave in contact for the time that it
+ * takes to pass, 1/(q v): sum_i power[i] g(z; q[i]) / (q[i] v area_ratio). */
+typedef struct wt_activation {
+    double barrier;     /* of a bond without load [J], > 0 */
+    double volume;      /* V_a [m^3], > 0 */
+    wt_attempt attempt; /* default hbar */
+    double temperature; /* [K], > 0 */
+    double area_ratio;  /* A/A0, (0, 1]; default 1 */
+    bool ageing;        /* the unloaded rate counts as damage, too; default false */
+} wt_activation;
+/* Unloaded rate A exp(-barrier / kB T) [1/s]; NaN for values that are none. */
+WT_API double wt_activation_background(const wt_activation *parameters);
+/* The smallest barrier at a temperature whose unloaded rate is not above `rate` [J]. */
+WT_API double wt_activation_least_barrier(double temperature, wt_attempt attempt, double rate);
+/* The highest temperature at which a barrier has that rate [K]. */
+WT_API double wt_activation_most_temperature(double barrier, wt_attempt attempt, double rate);
+
+/* The rubber at a depth is modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
-    double critical_energy;    /* U_c [J/m^3], > 0 */
+    double critical_energy;    /* U_c [J/m^3], > 0; of the energy closure */
     double damage;             /* Lambda, > 0; default 1 */
     double specific_wear_rate; /* k [m^2/N], >= 0 */
     double pressure;           /* [Pa] */
@@ -203,6 +228,10 @@ typedef struct wt_layer_parameters {
     bool incubation;     /* damage transport (exact, with incubation) instead of the rate balance */
     bool without_errors; /* no numerical error that costs more than its number: NaN */
     bool balance_only;   /* of a balance no incubation time: NaN */
+    double severity_power;    /* k (1 + (power / this)^exponent), [W/m^2]; 0 = constant k */
+    double severity_exponent; /* > 0; default 1 */
+    wt_layer_closure closure; /* default energy */
+    wt_activation activation;
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 WT_API const wt_params *wt_layer_params(void);
@@ -239,8 +268,9 @@ typedef struct wt_layer_point {
     double formation_rate; /* Qf(delta) [m/s] */
     double wear_rate;      /* [m/s] */
 } wt_layer_point;
-/* Thickness at n times (any order, >= 0) at constant load; points: [n]. A load that changes in
- * steps is a chain of calls, each from where the last one ended. With `incubation` the thickness is
+/* Thickness at n times (any order, >= 0) at constant load; points: [n]. With the rate balance a
+ * load that changes in steps is a chain of calls, each from where the last one ended; with damage
+ * transport it is wt_layer_sections. With `incubation` the thickness is
  * that of the deepest modified place (a profile that peaks below the surface begins as a buried
  * band), and a start thickness is old layer that is worn off from the top. */
 WT_API wt_status wt_layer_history(const wt_energy_source *source,
@@ -251,6 +281,105 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
 WT_API wt_status wt_layer_time(const wt_energy_source *source,
                                const wt_layer_parameters *parameters, wt_estimate thickness,
                                wt_estimate *time, wt_error *err) WT_NODISCARD;
+/* One load of a history. */
+typedef struct wt_layer_stage {
+    const wt_energy_source *source; /* borrowed */
+    wt_layer_parameters parameters; /* `incubation` does not matter; the start thickness is that of
+                                       the first stage */
+    double duration;                /* [s], >= 0 */
+} wt_layer_stage;
+
+/* Modified rubber between two depths below the surface. */
+typedef struct wt_layer_band {
+    wt_estimate upper, lower; /* [m] */
+} wt_layer_band;
+
+/* The modified rubber at a time. */
+enum { WT_LAYER_BANDS = 8 };
+typedef struct wt_layer_section {
+    double time, worn; /* [s], depth worn off until then [m] */
+    size_t n;          /* bands; more than WT_LAYER_BANDS: only the deepest are there */
+    wt_layer_band band[WT_LAYER_BANDS]; /* the deepest first */
+} wt_layer_section;
+/* Exact damage transport through any loads that follow one another: the state is the damage at
+ * every depth, so that a load that is cut in two changes nothing. Times from the beginning of the
+ * first stage on, in any order; the last stage goes on for ever. sections: [n]. */
+WT_API wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages,
+                                   const double *time, size_t n, wt_layer_section *sections,
+                                   wt_error *err) WT_NODISCARD;
+/* Damage over that which modifies the rubber, at a depth below the surface at a time. */
+WT_API wt_status wt_layer_damage(const wt_layer_stage *stages, size_t n_stages, double time,
+                                 double depth, double *damage, wt_error *err) WT_NODISCARD;
+
+/* How the bands of a constant load come about. */
+typedef enum wt_layer_event_kind {
+    WT_LAYER_BAND_ONSET,      /* below the surface */
+    WT_LAYER_SURFACE_ONSET,   /* at the surface */
+    WT_LAYER_SURFACE_REACHED, /* by a band from below */
+    WT_LAYER_BANDS_MERGE
+} wt_layer_event_kind;
+typedef struct wt_layer_event {
+    wt_layer_event_kind kind;
+    double time, depth; /* [s], [m] */
+} wt_layer_event;
+/* The events at constant load, in order, and how many they are; events: [most], of which the first
+ * are given. Two that come within 1 % of the time, of which one undoes the other, are not seen. */
+WT_API wt_status wt_layer_events(const wt_energy_source *source,
+                                 const wt_layer_parameters *parameters, wt_layer_event *events,
+                                 size_t most, size_t *n, wt_error *err) WT_NODISCARD;
+
+/* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
+ * reached at once or over a thickness, and what it takes to open the cracks at the rims of the
+ * contacts. Rebuilt from what Mokhtari 2015 lists. */
+typedef struct wt_layer_shear {
+    double exponent; /* default 1 */
+    double reach;    /* thickness at which 1 - 1/e of the change is there [m]; 0 (default): any */
+    double crack_energy; /* G to open a crack [J/m^2], also without a layer; default 0: none */
+    double spacing;      /* of the asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
+} wt_layer_shear;
+WT_API wt_layer_shear wt_layer_shear_defaults(void);
+/* bulk: of the bulk's real contact without cracks [Pa]; area_ratio: A/A0 with this layer. */
+WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
+                                    double area_ratio);
+
+/* A layer that acts back on the energy that makes it: what modifies the rubber under a layer of a
+ * thickness. The source is then the caller's, to be cleared. */
+typedef wt_status (*wt_layer_energy_fn)(double thickness, void *user, wt_energy_source *source,
+                                        wt_layer_parameters *parameters, wt_error *err);
+
+/* A thickness at which formation under it equals wear. 0: the bare surface, where formation does
+ * not exceed wear. */
+typedef struct wt_layer_root {
+    double thickness;  /* [m] */
+    bool stable;       /* a layer near it comes back to it */
+    double map_slope;  /* of the balance thickness with the energy under a layer against the
+                          thickness of that; below 1 it is stable; NaN of the bare surface */
+    double eigenvalue; /* [1/s]; likewise */
+} wt_layer_root;
+
+/* Where two roots meet as the wear rate changes. */
+typedef struct wt_layer_fold {
+    double thickness, specific_wear_rate; /* [m], [m^2/N] */
+    bool maximum;                         /* the pair is gone above that wear rate, else below it */
+} wt_layer_fold;
+
+enum { WT_LAYER_ROOTS = 8 };
+typedef struct wt_layer_loop {
+    size_t n_roots, n_folds;
+    wt_layer_root root[WT_LAYER_ROOTS]; /* the thinnest first */
+    wt_layer_fold fold[WT_LAYER_ROOTS];
+    double low, high; /* between which it was looked for [m] */
+    double ratio;     /* R of the bare surface */
+} wt_layer_loop;
+/* All roots between two thicknesses, of a grid of `grid` values of constant ratio: two that are
+ * closer than a step of it are not seen. */
+WT_API wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, double high,
+                                    size_t grid, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
+/* By the rate balance, from a bare surface to the lowest stable root; as wt_layer_history. */
+WT_API wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user,
+                                       const wt_layer_loop *loop, const double *time, size_t n,
+                                       wt_layer_point *points, wt_error *err) WT_NODISCARD;
+
 /* Single exponential in closed form (theory T3): thickness after t from delta0; NaN for a negative
  * or infinite argument. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,

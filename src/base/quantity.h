@@ -5,9 +5,11 @@
 #include "weartrack/base.h"
 
 /* Exact since 2019. */
-#define GAS_CONSTANT 8.31446261815324 /* J/(mol K) */
-#define BOLTZMANN 1.380649e-23        /* J/K */
-#define ELECTRONVOLT 1.602176634e-19  /* J */
+#define GAS_CONSTANT 8.31446261815324  /* J/(mol K) */
+#define BOLTZMANN 1.380649e-23         /* J/K */
+#define ELECTRONVOLT 1.602176634e-19   /* J */
+#define PLANCK 6.62607015e-34          /* J s */
+#define REDUCED_PLANCK 1.054571817e-34 /* J s, the digits that CODATA 2018 prints */
 
 /* As it is written: "250nm". */
 const char *quantity_example(wt_quantity quantity);

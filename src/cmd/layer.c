@@ -2,6 +2,76 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding.h"
 
+/* The tables, each where it is asked for. */
+enum {
+    LAYER,
+    ENERGY_DENSITY,
+    BANDS,
+    RUNNING_IN,
+    BALANCES,
+    EXISTENCE,
+    SOFTENING,
+    FLASH,
+    WHAT_IF,
+    N_TABLES
+};
+
+/* What the layer is beyond its thickness at constant load. */
+static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *table[N_TABLES])
+{
+    const wt_sliding *sliding = &s->conditions;
+    const wt_job *work = &s->session.work;
+    wt_error *err = &s->session.err;
+    const wt_layer_known *known =
+        cmd_given(&s->parts[CMD_KNOWN], "modulus-ratio") ? &s->known : NULL;
+    wt_status made = WT_OK;
+    if (job->bands || job->n_loads > 0) {
+        wt_cost_stage(s->session.cost, "layer_bands");
+        made = wt_layer_bands_make(sliding, job, work, &table[BANDS], err);
+    }
+    if (made == WT_OK && job->running_in) {
+        wt_cost_stage(s->session.cost, "running_in");
+        made = wt_running_in_make(sliding, job, known, work, &table[RUNNING_IN], err);
+    }
+    if (made == WT_OK && job->acts_back) {
+        wt_cost_stage(s->session.cost, "layer_balances");
+        made = wt_layer_balances_make(sliding, job, known, work, &table[BALANCES], err);
+    }
+    if (made == WT_OK && job->existence) {
+        wt_cost_stage(s->session.cost, "existence");
+        made = wt_existence_make(sliding, job, known, work, &table[EXISTENCE], err);
+    }
+    return made;
+}
+
+static wt_status make_tables(cmd_sliding *s, const wt_layer_job *job, wt_layer_tables *tables,
+                             wt_table *table[N_TABLES])
+{
+    const wt_job *work = &s->session.work;
+    wt_error *err = &s->session.err;
+    wt_cost_stage(s->session.cost, "layer");
+    wt_status made = wt_layer_make(&s->conditions, job, work, tables, err);
+    table[LAYER] = tables->layer;
+    tables->layer = NULL;
+    wt_cost_stage(s->session.cost, "energy_density");
+    if (made == WT_OK)
+        made = wt_energy_density_table(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
+    if (made == WT_OK)
+        made = make_models(s, job, table);
+    if (made == WT_OK && s->conditions.softness != NULL) {
+        wt_cost_stage(s->session.cost, "softening");
+        made = wt_softening_make(&s->conditions, work, &table[SOFTENING], err);
+    }
+    if (made == WT_OK && s->conditions.flash.on) {
+        wt_cost_stage(s->session.cost, "flash_temperature");
+        made = wt_flash_make(&s->conditions, work, &table[FLASH], err);
+    }
+    wt_cost_stage(s->session.cost, "what_if");
+    if (made == WT_OK)
+        made = wt_what_if_make(&s->conditions, job, NULL, work, &table[WHAT_IF], err);
+    return made;
+}
+
 int cmd_layer(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -9,49 +79,39 @@ int cmd_layer(int argc, char **argv)
         .arguments = "--material FILE --roughness R --pressure P --velocity V --specific-wear-rate "
                      "K [--critical-energy U | --observed-thickness D] [OPTION]...",
         .what = "Energy density with depth, formation and wear rate, balance and thickness in time "
-                "of the modified layer, for the energy closure at constant load, at the velocity "
-                "given (the middle one of a list).",
+                "of the modified layer, at constant load, at the velocity given (the middle one of "
+                "a list); and, where it is asked for, under loads in turn, with its friction in "
+                "running-in, acting back on its energy, and where it exists.",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
                  "specific-wear-rate critical-energy observed-thickness duty start-thickness "
-                 "times output",
+                 "times closure energy-from loads acts-back existence output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
-    /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only =
-        "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
+        "pressure velocity pressures sliding-temperature gamma strain-factor anisotropy "
+        "texture-angle "
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
-        "heat-capacity heat-diffusivity macroscopic-area clip-heat";
+        "heat-capacity heat-diffusivity macroscopic-area clip-heat shear-stress shear-law "
+        "shear-peak-velocity shear-width shear-activation shear-temperature";
+    s.parts[CMD_KNOWN].only = "modulus-ratio bulk-shear";
     wt_layer_tables tables = {0};
-    wt_table *energy_density = NULL, *softening = NULL, *flash = NULL, *what_if = NULL;
+    wt_table *table[N_TABLES] = {NULL};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
+    const bool needs = job.running_in || job.acts_back;
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
+    else if (needs && !cmd_given(&s.parts[CMD_KNOWN], "modulus-ratio"))
+        cmd_usage_error(&s.session, "--running-in-friction and --acts-back need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
-        wt_cost_stage(s.session.cost, "layer");
-        wt_status made =
-            wt_layer_make(&s.conditions, &job, &s.session.work, &tables, &s.session.err);
-        wt_cost_stage(s.session.cost, "energy_density");
-        if (made == WT_OK)
-            made = wt_energy_density_table(&s.conditions, &job, &s.session.work, &energy_density,
-                                           &s.session.err);
-        if (made == WT_OK && s.conditions.softness != NULL) {
-            wt_cost_stage(s.session.cost, "softening");
-            made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
-        }
-        if (made == WT_OK && s.conditions.flash.on) {
-            wt_cost_stage(s.session.cost, "flash_temperature");
-            made = wt_flash_make(&s.conditions, &s.session.work, &flash, &s.session.err);
-        }
-        wt_cost_stage(s.session.cost, "what_if");
-        if (made == WT_OK)
-            made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
-                                   &s.session.err);
-        wt_table **const parts[] = {&tables.layer, &energy_density, &softening, &flash, &what_if};
-        cmd_finish(&s.session, made, parts, COUNT_OF(parts));
+        const wt_status made = make_tables(&s, &job, &tables, table);
+        wt_table **parts[N_TABLES];
+        for (size_t i = 0; i < N_TABLES; i++)
+            parts[i] = &table[i];
+        cmd_finish(&s.session, made, parts, N_TABLES);
     }
     return cmd_sliding_free(&s);
 }

@@ -52,6 +52,7 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
         "strain sample sample-by spectrum-convention",
         0};
     s->parts[CMD_OWN] = own;
+    s->parts[CMD_KNOWN] = (cmd_part){wt_layer_known_params(), &s->known, "", 0};
 }
 
 int cmd_sliding_free(cmd_sliding *s)

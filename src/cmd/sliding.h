@@ -26,6 +26,7 @@ enum {
     CMD_CONTACT,
     CMD_CONDITIONS,
     CMD_OWN,
+    CMD_KNOWN, /* what is on the surface; of those that want it */
     CMD_WORK,
     CMD_MASTER,
     CMD_RUBBER,
@@ -40,6 +41,7 @@ typedef struct cmd_sliding {
     wt_master_job master;
     wt_rubber_options options;
     wt_transverse transverse;
+    wt_layer_known known;
     wt_file_set set;
     cmd_session session;
     cmd_part parts[CMD_SLIDING_PARTS];

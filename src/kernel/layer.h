@@ -5,24 +5,36 @@
 #ifndef WT_KERNEL_LAYER_H
 #define WT_KERNEL_LAYER_H
 
-#include "kernel/energy.h"
+#include "kernel/activation.h"
 
-/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. */
+/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. Density, tail and gain
+ * are those of the energy, or of the rate of an activated closure. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    double q_min, q_max; /* of the terms with power; 0 without any */
-    double formation;    /* Qf(0) [m/s], duty included */
-    double wear;         /* [m/s], duty included */
-    double power;        /* per area [W/m^2] */
-    double log_power;    /* 0 without power */
-    double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
-    double threshold;    /* ln(U_c Lambda) */
+    activation *activated;       /* NULL: the energy closure */
+    const struct layer_own *own; /* formation under the layer itself; NULL: as on the bulk */
+    double q_min, q_max;         /* of the terms with power; 0 without any */
+    double formation;            /* Qf(0) [m/s], duty included */
+    double wear;                 /* [m/s], duty included */
+    double power;                /* per area [W/m^2] */
+    double log_power;            /* ln of the tail at the surface; 0 without power */
+    double log_ratio;            /* ln R; -infinity without power, +infinity without wear */
+    double threshold;            /* ln(U_c Lambda), or ln Lambda of an activated closure */
+    double background;           /* unloaded damage over Lambda [1/s]; 0 = none that counts */
+    double error;                /* relative, of a tail */
     double duty;
     bool without_errors;
 } layer_rates;
 
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err) WT_NODISCARD;
+/* k with what the power does to it [m^2/N]. */
+double layer_wear_rate(const wt_layer_parameters *parameters, double power);
+void layer_rates_clear(layer_rates *rates);
+double rates_log_density(const layer_rates *rates, double depth);
+double rates_log_tail(const layer_rates *rates, double depth);
+double rates_log_gain(const layer_rates *rates, double depth, double length);
+energy_course rates_course(const layer_rates *rates, double depth, double length, double reach);
 double layer_formation(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
 double layer_decay(const layer_rates *rates, double thickness);
@@ -37,6 +49,8 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
 /* First time at which any place at this depth or below is modified; NaN if never. */
 wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimate depth,
                             wt_estimate *time, wt_error *err) WT_NODISCARD;
+/* WT_E_RANGE naming the time that is none. */
+wt_status layer_times_check(const double *time, size_t n, wt_error *err) WT_NODISCARD;
 typedef struct layer_instant {
     double time;
     wt_layer_point *point;

@@ -42,7 +42,7 @@ static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness
     const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
     const double moved =
         fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
-    return seconds(time, moved + time * (2 * rates->source->numerical_error + 64 * DBL_EPSILON));
+    return seconds(time, moved + time * (2 * rates->error + 64 * DBL_EPSILON));
 }
 
 wt_status wt_layer_balance_compute(const wt_energy_source *source,
@@ -60,8 +60,10 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     if (status == WT_OK && !parameters->balance_only)
         status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
                                    &b.incubation_time, err);
-    if (status != WT_OK)
+    if (status != WT_OK) {
+        layer_rates_clear(&r);
         return status;
+    }
 
     b.surface_power = r.power;
     b.formation_rate_zero = r.formation;
@@ -82,6 +84,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
             status = layer_march_time(&r, parameters->start_thickness, (wt_estimate){.unit = "m"},
                                       &b.removal_time, err);
     }
+    layer_rates_clear(&r);
     if (status == WT_OK)
         *balance = b;
     return status;
@@ -95,8 +98,10 @@ wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameter
     layer_rates r;
     *time = seconds((double)NAN, (double)NAN);
     wt_status status = layer_rates_make(source, parameters, &r, err);
-    if (status != WT_OK || !(thickness.value > 0))
+    if (status != WT_OK || !(thickness.value > 0)) {
+        layer_rates_clear(&r);
         return status;
+    }
     const double start = parameters->start_thickness;
     if (parameters->incubation)
         status = layer_damage_time(&r, true, thickness, time, err);
@@ -105,6 +110,7 @@ wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameter
     /* never, or the old layer has not become as thin by then */
     if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
         *time = seconds((double)NAN, (double)NAN);
+    layer_rates_clear(&r);
     return status;
 }
 
@@ -112,6 +118,6 @@ double wt_layer_calibrate(const wt_energy_source *source, const wt_layer_paramet
                           double thickness)
 {
     return wt_energy_tail(source, thickness) /
-           (parameters->damage * parameters->specific_wear_rate * parameters->pressure *
-            parameters->velocity);
+           (parameters->damage * layer_wear_rate(parameters, wt_energy_tail(source, 0)) *
+            parameters->pressure * parameters->velocity);
 }

@@ -10,7 +10,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "kernel/layer.h"
+#include "kernel/layer_damage.h"
 
 #include "model/root.h"
 
@@ -21,20 +21,12 @@
  * below rounding. */
 static const double least_stretch = 1e-9;
 
-typedef struct damage {
-    const layer_rates *rates;
-    bool worn;
-    double time;
-    double way;   /* up to the surface until `time` */
-    double level; /* ln(D / Lambda) that is wanted */
-} damage;
-
-static damage damage_of(const layer_rates *rates, bool with_wear)
+damage damage_of(const layer_rates *rates, bool with_wear)
 {
-    return (damage){.rates = rates, .worn = with_wear && rates->wear > 0};
+    return (damage){.rates = rates, .worn = with_wear && rates->wear > 0, .q_max = rates->q_max};
 }
 
-static void damage_set_time(damage *d, double time)
+void damage_set_time(damage *d, double time)
 {
     d->time = time;
     d->way = d->worn ? d->rates->wear * time : 0;
@@ -48,40 +40,107 @@ static double damage_scale(const damage *d)
     return share - r->threshold;
 }
 
-/* ln(D / Lambda) above the level. */
-static double damage_at(double depth, void *user)
+static double log_add(double a, double b)
+{
+    const double high = fmax(a, b);
+    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
+}
+
+/* Where the damage of an earlier load is now that so much more was worn off. */
+static double now_at(const damage *d, size_t i, double depth)
+{
+    return depth + d->past[i].worn + d->way;
+}
+
+/* ln(D / Lambda) of the loads alone. */
+double damage_of_loads(double depth, const damage *d)
+{
+    double sum = -HUGE_VAL;
+    if (d->rates->formation > 0 && d->time > 0)
+        sum = (d->worn ? rates_log_gain(d->rates, depth, d->way)
+                       : rates_log_density(d->rates, depth)) +
+              damage_scale(d);
+    for (size_t i = 0; i < d->n_past; i++) {
+        const damage_load *p = &d->past[i];
+        const double place = now_at(d, i, depth);
+        sum = log_add(sum, p->log_scale + (p->way > 0 ? rates_log_gain(p->rates, place, p->way)
+                                                      : rates_log_density(p->rates, place)));
+    }
+    return sum;
+}
+
+/* The logarithm that the loads must bring, where some damage is there without them; where that is
+ * enough, the least there is. */
+static double damage_wanted(const damage *d)
+{
+    const double unloaded = d->rates->background * d->time + d->past_background;
+    return unloaded > 0 ? log(fmax(DBL_MIN, exp(d->level) - unloaded)) : d->level;
+}
+
+double damage_at(double depth, void *user)
 {
     const damage *d = user;
-    const wt_energy_source *source = d->rates->source;
+    if (d->n_past > 0)
+        return damage_of_loads(depth, d) - damage_wanted(d);
     const double energy =
-        d->worn ? energy_log_gain(source, depth, d->way) : energy_log_density(source, depth);
-    return energy + damage_scale(d) - d->level;
+        d->worn ? rates_log_gain(d->rates, depth, d->way) : rates_log_density(d->rates, depth);
+    return energy + damage_scale(d) - damage_wanted(d);
 }
 
-/* Relative error of D: of the energy and of the logarithms. */
-static double damage_error(const layer_rates *rates)
+double damage_error(const layer_rates *rates)
 {
-    return rates->source->numerical_error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
+    return rates->error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
 }
 
-/* A stretch of depth. */
-typedef struct stretch {
-    double low, high;
-} stretch;
+/* Adds a course with the logarithm of its weight. */
+static void course_plus(energy_course *sum, energy_course c, double log_weight)
+{
+    c.log_scale += log_weight;
+    if (!(c.value > 0))
+        return;
+    const double most = fmax(sum->log_scale, c.log_scale);
+    const double left = exp(sum->log_scale - most), right = exp(c.log_scale - most);
+    *sum = (energy_course){most, left * sum->value + right * c.value,
+                           left * sum->slope + right * c.slope,
+                           left * sum->curvature + right * c.curvature};
+}
+
+/* D / Lambda with slope and bound, to be multiplied by exp(log_scale). */
+energy_course damage_course(const damage *d, double depth, double reach)
+{
+    energy_course sum;
+    if (d->n_past == 0) {
+        sum = rates_course(d->rates, depth, d->way, reach);
+        sum.log_scale += damage_scale(d);
+        return sum;
+    }
+    sum = (energy_course){.log_scale = -HUGE_VAL};
+    if (d->rates->formation > 0 && d->time > 0)
+        course_plus(&sum, rates_course(d->rates, depth, d->way, reach), damage_scale(d));
+    for (size_t i = 0; i < d->n_past; i++) {
+        const damage_load *p = &d->past[i];
+        course_plus(&sum, rates_course(p->rates, now_at(d, i, depth), p->way, reach), p->log_scale);
+    }
+    return sum;
+}
+
+damage_load damage_load_of(const damage *d)
+{
+    return (damage_load){.rates = d->rates, .way = d->way, .log_scale = damage_scale(d)};
+}
 
 /* Goes up from the lower end of `range`, where D is below the level. With `best` NULL to the first
  * stretch at whose lower end D is below and at whose upper end it is not; false if there is none.
  * Else all the way, for the depth *best where D is highest, to which the level is set. */
-static bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
+bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
 {
-    const double scale = damage_scale(d);
-    const double floor = 1e-12 / d->rates->q_max;
+    const double floor = 1e-12 / d->q_max;
     double high = range.high, length = 0.5 * high;
     while (high > range.low) {
         const double low = fmax(high - length, range.low);
         length = high - low;
-        const energy_course c = energy_course_at(d->rates->source, low, d->way, length);
-        const double excess = scale + c.log_scale - d->level;
+        const energy_course c = damage_course(d, low, length);
+        const double excess = c.log_scale - damage_wanted(d);
         const double here = log(c.value) + excess;
         const double most =
             log(c.value + length * (fmax(0, c.slope) + 0.5 * length * c.curvature)) + excess;
@@ -129,6 +188,54 @@ static wt_status damage_edge(damage *d, stretch range, double level, double *edg
                                               : WT_OK;
 }
 
+/* As damage_climb goes to where D rises above the level, to where it falls below it. */
+static bool damage_leave(damage *d, double from, stretch *crossing)
+{
+    const double floor = 1e-12 / d->q_max;
+    double high = from, length = 0.5 * high;
+    while (high > 0) {
+        const double low = fmax(high - length, 0);
+        length = high - low;
+        const energy_course c = damage_course(d, low, length);
+        const double excess = c.log_scale - damage_wanted(d);
+        const double least = c.value - length * (fmax(0, -c.slope) + 0.5 * length * c.curvature);
+        const bool turns = fabs(c.slope) < length * c.curvature;
+        if (turns && !(least > 0 && log(least) + excess >= 0) &&
+            length > fmax(floor, least_stretch * high)) {
+            length *= 0.5;
+            continue;
+        }
+        if (log(c.value) + excess < 0) {
+            *crossing = (stretch){low, high};
+            return true;
+        }
+        high = low;
+        length *= 2;
+    }
+    return false;
+}
+
+wt_status damage_band(damage *d, double from, stretch *band, double *above, wt_error *err)
+{
+    stretch s;
+    double upper = 0, lower = 0;
+    *above = 0;
+    if (!damage_climb(d, (stretch){0, from}, &s, NULL))
+        return wt_fail(err, WT_E_NOT_FOUND, "no modified band");
+    lower = s.low;
+    wt_status status = WT_OK;
+    const double inside = s.low;
+    if (damage_at(s.low, d) > 0 && damage_at(s.high, d) < 0)
+        status = root_find(damage_at, d, s.low, s.high, 0, &lower, err);
+    if (status == WT_OK && damage_leave(d, inside, &s)) {
+        *above = upper = s.low;
+        if (damage_at(s.low, d) < 0 && damage_at(s.high, d) > 0)
+            status = root_find(damage_at, d, s.low, s.high, 0, &upper, err);
+    }
+    *band = (stretch){upper, lower};
+    return status;
+}
+
 /* How far the edge moves, to other bands too, when D moves by its error. `most`: as deep as it may
  * be. */
 static wt_status edge_error(damage *d, double edge, double most, double error, double *reach,
@@ -144,7 +251,6 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
 static wt_status falling_depth(damage *d, double error, double earlier, wt_estimate *thickness,
                                wt_error *err)
 {
-    const wt_energy_source *source = d->rates->source;
     const bool none = damage_at(0, d) < 0;
     if (d->rates->without_errors)
         thickness->numerical_error = (double)NAN;
@@ -174,8 +280,8 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
     if (d->rates->without_errors)
         return WT_OK;
     const double lost =
-        exp(energy_log_density(source, edge)) - exp(energy_log_density(source, edge + d->way));
-    const double reach = error / lost * exp(energy_log_gain(source, edge, d->way));
+        exp(rates_log_density(d->rates, edge)) - exp(rates_log_density(d->rates, edge + d->way));
+    const double reach = error / lost * exp(rates_log_gain(d->rates, edge, d->way));
     thickness->numerical_error = root_reach(
         damage_at, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
         error / d->rates->q_max);
@@ -191,6 +297,10 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         return WT_OK;
     const double error = damage_error(rates);
     damage_set_time(&d, time);
+    if (rates->background * time >= 1) { /* modified without a load, however deep */
+        thickness->value = HUGE_VAL;
+        return WT_OK;
+    }
     if (energy_falls(rates->source))
         return falling_depth(&d, error, earlier, thickness, err);
     d.level = -error;
@@ -235,7 +345,8 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     d->level = level;
     damage_set_time(d, 1);
     if (!d->worn) {
-        *log_time = -damage_at(depth, d);
+        const double rate = damage_of_loads(depth, d);
+        *log_time = level - (r->background > 0 ? log_add(rate, log(r->background)) : rate);
         return WT_OK;
     }
     passage p = {d, depth};

@@ -34,8 +34,8 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
 /* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
 static double single_kappa(const layer_rates *rates)
 {
-    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
-                        rates->q_min == rates->q_max;
+    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->activated == NULL &&
+                        rates->q_min > 0 && rates->q_min == rates->q_max;
     return single ? 2 * rates->q_min : 0;
 }
 
@@ -43,7 +43,7 @@ static double single_kappa(const layer_rates *rates)
 static void history_exponential(const layer_rates *rates, double kappa, double start,
                                 const double *time, size_t n, wt_layer_point *points)
 {
-    const double relative = rates->source->numerical_error + 8 * DBL_EPSILON;
+    const double relative = rates->error + 8 * DBL_EPSILON;
     for (size_t i = 0; i < n; i++) {
         const double formation = rates->formation;
         const double value = wt_layer_exponential(start, kappa, formation, rates->wear, time[i]);
@@ -83,15 +83,8 @@ static wt_status history_in_order(const layer_rates *rates, const wt_layer_param
     return status;
 }
 
-wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                           const double *time, size_t n, wt_layer_point *points, wt_error *err)
+wt_status layer_times_check(const double *time, size_t n, wt_error *err)
 {
-    if (n && (time == NULL || points == NULL))
-        return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
-    layer_rates rates;
-    wt_status status = layer_rates_make(source, parameters, &rates, err);
-    if (status != WT_OK || n == 0)
-        return status;
     for (size_t i = 0; i < n; i++)
         if (!(time[i] >= 0) || !isfinite(time[i])) {
             wt_fail(err, WT_E_RANGE, "time %zu of %zu of a layer is outside its range", i + 1, n);
@@ -99,17 +92,32 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
             wt_error_found(err, "%g", time[i]);
             return WT_E_RANGE;
         }
+    return WT_OK;
+}
+
+wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                           const double *time, size_t n, wt_layer_point *points, wt_error *err)
+{
+    if (n && (time == NULL || points == NULL))
+        return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
+    layer_rates rates;
+    wt_status status = layer_rates_make(source, parameters, &rates, err);
+    if (status == WT_OK)
+        status = layer_times_check(time, n, err);
+    if (status != WT_OK || n == 0) {
+        layer_rates_clear(&rates);
+        return status;
+    }
     const double kappa = single_kappa(&rates);
     if (kappa > 0 && !parameters->incubation)
         history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
     else
         status = history_in_order(&rates, parameters, time, n, points, err);
-    if (status != WT_OK)
-        return status;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
         points[i].formation_rate = layer_formation(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
-    return WT_OK;
+    layer_rates_clear(&rates);
+    return status;
 }

@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "kernel/layer.h"
+#include "kernel/layer_own.h"
 
 #include "kernel/rule.h"
 
@@ -137,9 +137,9 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
-    const double error = rate * (time_error + relative * time +
-                                 (m->rates->source->numerical_error + relative) * sensitivity) +
-                         4 * DBL_EPSILON * thickness;
+    const double error =
+        rate * (time_error + relative * time + (m->rates->error + relative) * sensitivity) +
+        4 * DBL_EPSILON * thickness;
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
@@ -165,7 +165,11 @@ static wt_status march_begin(march *m, const layer_rates *rates, double start, w
                              double *linear, wt_error *err)
 {
     *m = (march){.rates = rates, .thickness = start};
-    wt_status status = layer_fixed_point(rates, 0, target, err);
+    wt_status status = WT_OK;
+    if (rates->own != NULL)
+        *target = (wt_estimate){.value = rates->own->target, .unit = "m"};
+    else
+        status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
         status = rule_of(LOW_NODES, &m->low, err);
     if (status == WT_OK)
@@ -271,7 +275,7 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
         const double relative = rounding_error(rates, fmax(start, goal.value));
         time->value = march_to(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
-                                (rates->source->numerical_error + relative) * m.sensitivity +
+                                (rates->error + relative) * m.sensitivity +
                                 (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
     return status;

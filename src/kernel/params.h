@@ -122,6 +122,41 @@
                     "from the beginning"                                                           \
     }
 
+#define LAYER_SEVERITY_EXPONENT(type)                                                              \
+    {                                                                                              \
+        PARAM("severity-exponent", type, severity_exponent, WT_Q_NONE, ABOVE(0)),                  \
+            .value = "M", .help = "m of the severity power"                                        \
+    }
+
+#define LAYER_CLOSURE(type)                                                                        \
+    {                                                                                              \
+        PARAM_CHOICE_OF("closure", type, closure, "energy|activated"),                             \
+            .help = "what modifies the rubber (both reconstructed): an energy per volume, or "     \
+                    "bonds that the energy helps over a barrier, at the temperature of the rubber" \
+    }
+
+/* `in` stands before the member. */
+#define LAYER_ACTIVATION_ROWS(type, in, in_barrier)                                                \
+    {PARAM("barrier", type, in_barrier barrier, WT_Q_ENERGY, ABOVE(0)), .value = "E", .unset = "", \
+     .help =                                                                                       \
+         "of the activated closure, such as 1.5eV; literature: 1.3eV to 3.6eV"}, /* the list of    \
+                                                                                    quantities has \
+                                                                                    no volume, but \
+                                                                                    one more in    \
+                                                                                    m^3 */         \
+        {PARAM("activation-volume", type, in volume, WT_Q_POWER_SPECTRUM_1D, ABOVE(0)),            \
+         .value = "V", .unset = "",                                                                \
+         .help = "V_a of the activated closure, by which energy per volume lowers the barrier, "   \
+                 "such as 0.8nm^3 (reconstructed: 0.01nm^3 to 1nm^3)"},                            \
+        {PARAM_CHOICE_OF("attempt", type, in attempt, "hbar|h"),                                   \
+         .help =                                                                                   \
+             "rate of the activated closure without a barrier: kB T over the reduced constant "    \
+             "of Planck, as the source lists it, or over the plain one, as Eyring has it"},        \
+    {                                                                                              \
+        PARAM_FLAG_OF("ageing", type, in ageing),                                                  \
+            .help = "of the activated closure: the unloaded rate counts as damage, too"            \
+    }
+
 #define ENERGY_PROFILE(type)                                                                       \
     {                                                                                              \
         PARAM_CHOICE_OF("profile", type, profile, "persson|incompressible"),                       \

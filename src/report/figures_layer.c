@@ -96,6 +96,25 @@ static void caption_layer(figure_drawing *d)
         text_format(&d->caption, " Relaxation time %s.", ESTIMATE(&relaxation));
 }
 
+static void caption_bands(figure_drawing *d)
+{
+    const char *events = layer_bands_words(d->table, LAYER_BANDS_KEY_EVENTS);
+    text_format(&d->caption, " Loads: %s.", layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
+    if (events != NULL)
+        text_format(&d->caption, " What happens: %s.", events);
+}
+
+static void caption_running_in(figure_drawing *d)
+{
+    const double settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED).value;
+    text_format(&d->caption, " Shear stress of the layer: %s; %s.",
+                running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
+                running_in_words(d->table, RUNNING_IN_KEY_BACK));
+    if (isfinite(settled))
+        text_format(&d->caption, " After %s 5 %% of the change are left.",
+                    VALUE(WT_Q_TIME, NULL, settled));
+}
+
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 const figure_description figures_layer[] = {
@@ -127,5 +146,28 @@ const figure_description figures_layer[] = {
               "formation and wear that make it; balance is where the two rates meet.",
      .draw = draw_layer,
      .caption = caption_layer},
+    {.name = "layer_bands",
+     .title = "Modified rubber in time",
+     .table = &layer_bands_schema,
+     .data_title = "bands",
+     .x = {LAYER_BANDS_TIME, AXIS_LOG, "Sliding time in contact"},
+     .y = {{LAYER_BANDS_LOWER, AXIS_FROM_ZERO, "Depth below the surface"}},
+     .curves = {CURVE(LAYER_BANDS_LOWER, POINTS, .style = 21, .title = "lower edge"),
+                CURVE(LAYER_BANDS_UPPER, POINTS, .style = 22, .title = "upper edge")},
+     .nothing = "nothing is modified",
+     .words = "Edges of the modified rubber below the surface of the time, which wear takes down: "
+              "between an upper and the lower edge under it the rubber is modified.",
+     .caption = caption_bands},
+    {.name = "running_in",
+     .title = "Friction in running-in",
+     .table = &running_in_schema,
+     .data_title = "running-in",
+     .x = {RUNNING_IN_TIME, AXIS_LOG, "Sliding time in contact"},
+     .y = {{RUNNING_IN_FRICTION, AXIS_LINEAR, "Friction coefficient μ"}},
+     .curves = {CURVE(RUNNING_IN_FRICTION, LINE, .style = 21, .title = "hysteresis and shearing"),
+                CURVE(RUNNING_IN_HYSTERESIS, LINE, .style = 22, .title = "hysteresis")},
+     .nothing = "no shear stress is known, and so no friction",
+     .words = "Friction with the layer that has grown until then.",
+     .caption = caption_running_in},
     {.name = NULL},
 };

@@ -89,7 +89,8 @@ void page_results(page_writer *page)
                                        &t->modulus_budget, &t->record,         &t->wear,
                                        &t->anisotropy,     &t->friction_map,   &t->friction_decades,
                                        &t->flash,          &t->collection,     &t->ratio_pairs,
-                                       &t->validation};
+                                       &t->validation,     &t->layer_bands,    &t->running_in,
+                                       &t->layer_balances, &t->existence};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -149,6 +150,12 @@ void page_results(page_writer *page)
     page_keys(page, &t->friction_map, "Friction at several temperatures and pressures");
     page_keys(page, &t->friction_decades, "Which length scales make the friction");
     page_keys(page, &t->layer, "Balance of the modified layer");
+    page_keys(page, &t->layer_bands, "Modified bands in time");
+    page_keys(page, &t->running_in, "Friction with the layer in running-in");
+    page_keys(page, &t->layer_balances, "Balances of a layer that acts back on its energy");
+    page_whole_table(page, &t->layer_balances, "Balances of a layer that acts back, and folds",
+                     NULL, 0);
+    page_keys(page, &t->existence, "Where a layer exists");
     page_whole_table(page, &t->what_if,
                      "What if: one choice of the model moved in each row, and the relative changes "
                      "by it, at the reference velocity",

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CASE_LINES = 48, CASE_VALUES = 64, CASE_NAME = 48 };
+enum { CASE_LINES = 64, CASE_VALUES = 64, CASE_NAME = 48 };
 
 typedef struct case_line {
     bool expected; /* expect, not given */

@@ -93,6 +93,21 @@ static const struct {
     {"start-thickness", "1um", NULL, NULL},
     {"local-friction", "0.3", "profile incompressible", NULL},
     {"times", "1:1e4s:log:7", NULL, NULL},
+    {"shear-share", "0.5", "energy-from both", NULL},
+    {"severity-power", "10kW/m^2", NULL, NULL},
+    {"severity-exponent", "2", "severity-power 10kW/m^2", NULL},
+    {"closure", "activated", "barrier 1.4eV|activation-volume 0.8nm^3", "critical-energy"},
+    {"barrier", "1.3eV", "closure activated|activation-volume 0.8nm^3", "critical-energy"},
+    {"activation-volume", "1nm^3", "closure activated|barrier 1.4eV", "critical-energy"},
+    {"attempt", "h", "closure activated|barrier 1.4eV|activation-volume 0.8nm^3",
+     "critical-energy"},
+    {"ageing", "yes", "closure activated|barrier 1.4eV|activation-volume 0.8nm^3",
+     "critical-energy"},
+    {"loads", "time=900s,velocity=1mm/s;pressure=1MPa", NULL, NULL},
+    {"shear-exponent", "0.5", "running-in-friction yes", NULL},
+    {"shear-reach", "1um", "running-in-friction yes", NULL},
+    {"crack-energy", "1J/m^2", "asperity-spacing 10um|running-in-friction yes", NULL},
+    {"asperity-spacing", "10um", "crack-energy 1J/m^2|running-in-friction yes", NULL},
     {"layer-velocity", "0.2m/s", NULL, NULL},
     {"q0", "3e3rad/m", NULL, NULL},
     {"qr", "5e3rad/m", NULL, NULL},
@@ -157,6 +172,9 @@ static const struct {
     {NULL, "contact", "a result with contact points: tests/cli/choices.txt"},
     {NULL, "choices", "a file of choices: tests/cli/choices.txt"},
     {"record", "profile", "files of profiles: unit_flow_record"},
+    {"layer", "modulus-ratio", "of tables that are asked for: tests/cli/layer_models.txt"},
+    {"layer", "bulk-shear", "the same"},
+    {"layer", "pressures", "the same"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
     {"run", "keep", "the result that is there, of the same command: cli_keep"},
@@ -251,7 +269,8 @@ static const struct {
     {"layer",
      "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
      "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|replicates 4|"
-     "specific-wear-rate 1e-12m^2/N|critical-energy 2e10J/m^3|sliding-temperature 30degC",
+     "specific-wear-rate 1e-12m^2/N|critical-energy 2e10J/m^3|sliding-temperature 30degC|"
+     "shear-stress 5MPa+-10%|energy-from both|modulus-ratio 0.6+-0.05",
      ""},
     {"record",
      "load 5N|track-radius 12mm|track-area 3e-11m^2+-20%|mass-loss 3mg+-0.2mg|density "
@@ -576,15 +595,22 @@ static void test_cases(void **state)
                     fail_msg("<%s>: say here how to move it", p->name);
                 const char *name = case_param_name(case_sections[s].name, p->name);
                 char word[64], value[64];
+                int read = 0;
                 if (strcmp(name, "strain-factor") == 0)
                     snprintf(further, sizeof further,
                              "<strain-softening><file>softening.txt</file></strain-softening>");
-                else if (sscanf(with, "%63s %63s", word, value) == 2)
-                    snprintf(further, sizeof further, "<%s>%s</%s>", word, value, word);
+                else
+                    for (const char *w = with; sscanf(w, "%63s %63[^|]%n", word, value, &read) == 2;
+                         w += read + (w[read] == '|'))
+                        snprintf(further + strlen(further), sizeof further - strlen(further),
+                                 "<%s>%s</%s>", word, value, word);
                 make_case(s, name, NULL, further, without, xml[0], sizeof xml[0]);
                 make_case(s, name, text, further, without, xml[1], sizeof xml[1]);
-                if (*without != '\0') /* the base cannot stand without either */
-                    make_case(s, name, NULL, further, "", xml[0], sizeof xml[0]);
+                /* the base cannot stand without either, nor what goes with the moved one */
+                const bool alone = strstr(with, "activated") != NULL ||
+                                   strncmp(with, "crack-energy", strlen("crack-energy")) == 0;
+                if (*without != '\0' || alone)
+                    make_case(s, name, NULL, alone ? "" : further, "", xml[0], sizeof xml[0]);
                 size_t n;
                 if (!is_of_base(&base, xml[0]))
                     base.bytes = run_case(xml[0], &base.length);

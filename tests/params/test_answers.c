@@ -23,6 +23,9 @@ static const struct {
     {"pressure", "1MPa"},
     {"velocity", "1m/s"},
     {"specific-wear-rate", "1e-12m^2/N"},
+    {"asperity-spacing", "10um"}, /* and what goes with a closure */
+    {"barrier", "1.5eV"},
+    {"activation-volume", "1nm^3"},
     {"critical-energy", "1e10J/m^3"}, /* left out where its alternative is tried */
     {"q0", "1e3rad/m"},
     {"q1", "1e6rad/m"},
@@ -48,6 +51,12 @@ static const char *good_text(const char *name, const char *tried)
         if (strcmp(good[i].name, name) == 0)
             return good[i].text;
     return NULL;
+}
+
+/* The activated closure is another alternative of the critical energy. */
+static const char *alternative_of(const char *tried, const char *text)
+{
+    return strcmp(text, "activated") == 0 ? "observed-thickness" : tried;
 }
 
 /* ---- as an option ---------------------------------------------------------------------------- */
@@ -77,11 +86,11 @@ static const struct {
 /* What the energy of a layer knows nothing of is an option of friction alone. */
 static bool is_of_friction(const char *name)
 {
-    static const char *const names[] = {"temperatures", "pressures", "decades", "sensitivities"};
+    static const char *const names[] = {"temperatures", "decades", "sensitivities"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;
-    return strncmp(name, "shear-", strlen("shear-")) == 0;
+    return false;
 }
 
 static bool is_option(size_t s, const wt_param *p)
@@ -99,7 +108,7 @@ static bool is_refused_option(size_t s, const char *name, const char *text)
         const wt_params *params = subcommands[s].params[t]();
         for (size_t i = 0; i < wt_params_count(params); i++) {
             const wt_param *p = wt_params_get(params, i);
-            const char *value = good_text(p->name, name);
+            const char *value = good_text(p->name, alternative_of(name, text));
             if (value != NULL && is_option(s, p))
                 used += (size_t)snprintf(command + used, sizeof command - used, " --%s '%s'",
                                          p->name, value);
@@ -155,7 +164,8 @@ static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text
         for (size_t i = 0; i < wt_params_count(params); i++) {
             const wt_param *p = wt_params_get(params, i);
             const char *name = case_param_name(section, p->name);
-            const char *value = p == tried ? text : good_text(p->name, tried->name);
+            const char *value =
+                p == tried ? text : good_text(p->name, alternative_of(tried->name, text));
             if (value != NULL && (p->flags & PARAM_NO_CASE) == 0)
                 used += (size_t)snprintf(xml + used, sizeof xml - used, "<%s>%s</%s>", name, value,
                                          name);

@@ -476,7 +476,9 @@ static void test_nothing_to_draw(void **state)
                                            "validation",
                                            "friction_collapse",
                                            "friction_temperature_map",
-                                           "friction_pressure_map"};
+                                           "friction_pressure_map",
+                                           "existence_thickness",
+                                           "existence_friction"};
         bool silent = false;
         for (size_t k = 0; k < sizeof rare / sizeof *rare; k++)
             silent = silent || strcmp(wt_figure_get(i).name, rare[k]) == 0;

@@ -654,6 +654,40 @@ static void test_ramps(void **state)
     }
 }
 
+/* A layer with everything that it can say. */
+static void test_layer_models(void **state)
+{
+    (void)state;
+    static const double velocity[] = {1e-3, 0.1, 10}, pressures[] = {0.1e6, 1e6};
+    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    wt_layer_job job = wt_layer_job_defaults();
+    wt_layer_tables tables = {0};
+    wt_table *table[4] = {NULL};
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(velocity, 3);
+    sliding.pressures = pressures;
+    sliding.n_pressures = 2;
+    job.specific_wear_rate.value = 1e-12;
+    job.energy = WT_LAYER_BOTH;
+    job.severity_power = 25e3;
+    job.closure = WT_CLOSURE_ACTIVATED;
+    job.barrier.value = 1.4 * 1.602e-19;
+    job.activation.volume = 1e-27;
+    assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_OK);
+    see(tables.layer);
+    wt_layer_tables_clear(&tables);
+    job.closure = WT_CLOSURE_ENERGY;
+    job.critical_energy.value = 2e10;
+    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
+    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
+    assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
+    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &table[3], &err), WT_OK);
+    for (size_t i = 0; i < 4; i++) {
+        see(table[i]);
+        wt_table_free(table[i]);
+    }
+}
+
 /* So slow that nothing is lost: of no friction there is no share. */
 static void test_no_hysteresis(void **state)
 {
@@ -1249,18 +1283,31 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_jobs),          cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),    cmocka_unit_test(test_no_superposition),
-        cmocka_unit_test(test_collection),    cmocka_unit_test(test_common_law),
-        cmocka_unit_test(test_no_hysteresis), cmocka_unit_test(test_flash),
-        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_record),
-        cmocka_unit_test(test_validation),    cmocka_unit_test(test_identification),
-        cmocka_unit_test(test_dwell),         cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),    cmocka_unit_test(test_spot),
-        cmocka_unit_test(test_surface),       cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(step_jobs),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_collection),
+        cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_layer_models),
+        cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_flash),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_record),
+        cmocka_unit_test(test_validation),
+        cmocka_unit_test(test_identification),
+        cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

@@ -242,6 +242,22 @@
     X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
     X(LAYER_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),         \
       OPTIONAL)                                                                                    \
+    X(LAYER_KEY_ENERGY_FROM, "energy_from", TEXT, SHOWS(said.energy),                              \
+      LABEL("What modifies the rubber"), OPTIONAL)                                                 \
+    X(LAYER_KEY_HYSTERESIS_POWER, AS(hysteresis_power), UNIT("W/m^2"),                             \
+      LABEL("Power of hysteresis"), OPTIONAL)                                                      \
+    X(LAYER_KEY_SHEAR_POWER, AS(shear_power), UNIT("W/m^2"),                                       \
+      LABEL("Power of shearing the surface"), OPTIONAL)                                            \
+    X(LAYER_KEY_CLOSURE, "closure", TEXT, SHOWS(said.closure), LABEL("Closure of the layer"),      \
+      OPTIONAL)                                                                                    \
+    X(LAYER_KEY_UNLOADED_RATE, AS(unloaded_rate), SI(RATE),                                        \
+      LABEL("Rate of modification without load"), OPTIONAL)                                        \
+    X(LAYER_KEY_SHELF_LIFE, AS(shelf_life), SI(TIME), LABEL("Time until it modifies the rubber"),  \
+      OPTIONAL)                                                                                    \
+    X(LAYER_KEY_SEVERITY, "severity", TEXT, SHOWS(said.severity), LABEL("Severity of wear"),       \
+      OPTIONAL)                                                                                    \
+    X(LAYER_KEY_SEVERE_WEAR_RATE, "severe_wear_rate", SI(WEAR_RATE), SHOWS(severe),                \
+      LABEL("Specific wear rate at this power"), OPTIONAL)                                         \
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \

@@ -12,6 +12,7 @@
 #include "data/table_view.h"
 #include "data/table_writer.h"
 #include "data/tables/calibration.h"
+#include "data/tables/collection.h" /* with its intervals */
 #include "data/tables/comparison.h"
 #include "data/tables/coverage.h"
 #include "data/tables/dwell.h"
@@ -19,8 +20,8 @@
 #include "data/tables/friction_maps.h"
 #include "data/tables/identification.h"
 #include "data/tables/indentation.h"
+#include "data/tables/layer_models.h"
 #include "data/tables/materials.h"
-#include "data/tables/collection.h" /* with its intervals */
 #include "data/tables/measured.h"
 #include "data/tables/ramp.h"
 #include "data/tables/record.h"
@@ -136,6 +137,11 @@
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(identification, IDENTIFICATION, "identification",                                            \
       "Critical energy and wear rate of a layer", "identify")                                      \
+    X(layer_bands, LAYER_BANDS, "layer_bands", "Modified bands in time", "layer")                  \
+    X(running_in, RUNNING_IN, "running_in", "Friction with the layer in running-in", "layer")      \
+    X(layer_balances, LAYER_BALANCES, "layer_balances",                                            \
+      "Balances of a layer that acts back on its energy", "layer")                                 \
+    X(existence, EXISTENCE, "existence", "Where a layer exists", "layer")                          \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
       "validate")                                                                                  \

@@ -379,7 +379,12 @@ static void layer_caveats(answer_story *story)
     const number_words energy = words_of_known(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
     char text[1100];
     telling t = {text, sizeof text, 0};
-    if (strncmp(from, "calibrated", 10) == 0)
+    const char *closure = layer_words(layer, LAYER_KEY_CLOSURE),
+               *energy_from = layer_words(layer, LAYER_KEY_ENERGY_FROM);
+    if (closure != NULL)
+        tell(&t, "The barrier and the activation volume are given: nothing in this case measures "
+                 "them.");
+    else if (strncmp(from, "calibrated", 10) == 0)
         tell(&t,
              "The critical energy U_c = %s is calibrated so that the observed thickness is the "
              "balance: the thickness is put in, not predicted.",
@@ -387,9 +392,15 @@ static void layer_caveats(answer_story *story)
     else
         tell(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
              energy.text);
-    tell(&t, " The layer model (energy closure, wear by Archard's law) is not validated against "
-             "measured thicknesses. Its energy is the hysteresis of the bulk alone: the layer does "
-             "not act back on it, and shearing of the surface is not counted.");
+    tell(&t,
+         " The layer model (%s closure, wear by Archard's law) is not validated against "
+         "measured thicknesses. ",
+         closure != NULL ? "activated" : "energy");
+    if (energy_from != NULL)
+        tell(&t, "What modifies the rubber is %s; the layer does not act back on it.", energy_from);
+    else
+        tell(&t, "Its energy is the hysteresis of the bulk alone: the layer does "
+                 "not act back on it, and shearing of the surface is not counted.");
     tell_interval(&t, "thickness", &thickness);
     answer_caveat(story, CAVEAT_THICKNESS, "%s", text);
     depth_caveats(story, thickness.number.value);

@@ -209,6 +209,8 @@ number_words words_of_frequency(const finding *f)
 const char *words_of_origin(const finding_tables *tables)
 {
     const char *from = layer_words(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    if (layer_words(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
+        return "predicted from a given barrier";
     return from != NULL && strncmp(from, "calibrated", 10) == 0
                ? "put in, not predicted: U_c is calibrated to it"
                : "predicted from a given U_c";

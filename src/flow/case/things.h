@@ -40,6 +40,17 @@
       c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
     X(ASKED_DECADES, "decades of the wavenumber", "no decades asked for (<decades> in <sliding>)", \
       c->sliding.decades)                                                                          \
+    X(ASKED_BANDS, "bands of the layer or loads in turn",                                          \
+      "no bands or loads asked for (<bands> or <loads> in <layer>)",                               \
+      c->has_layer && (c->layer.bands || c->layer.n_loads > 0))                                    \
+    X(ASKED_RUNNING_IN, "running-in with the layer",                                               \
+      "no running-in asked for (<running-in-friction> in <layer>)",                                \
+      c->has_layer && c->layer.running_in)                                                         \
+    X(ASKED_FEEDBACK, "a layer that acts back",                                                    \
+      "no layer that acts back (<acts-back> in <layer>)", c->has_layer && c->layer.acts_back)      \
+    X(ASKED_EXISTENCE, "where a layer exists",                                                     \
+      "not asked where a layer exists (<existence> in <layer>)",                                   \
+      c->has_layer && c->layer.existence)                                                          \
     X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
       c->has_sliding && c->sliding.flash.on)
 
@@ -80,6 +91,10 @@
     X(HEIGHT_PROFILE, "height_profile", &height_profile_schema, "")                                \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
+    X(LAYER_BANDS, "layer_bands", &layer_bands_schema, "")                                         \
+    X(RUNNING_IN, "running_in", &running_in_schema, "")                                            \
+    X(LAYER_BALANCES, "layer_balances", &layer_balances_schema, "")                                \
+    X(EXISTENCE, "existence", &existence_schema, "")                                               \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(DIRECTIONS, "directions", &directions_schema, "")                                            \

@@ -1,6 +1,8 @@
 /* The layer job: energy density with depth, formation against wear, thickness at balance and in
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/layer/layer_energy.h"
+#include "flow/layer/layer_words.h"
 #include "flow/sliding/anisotropy.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
@@ -18,7 +20,7 @@
 
 /* The balance at one set of values. */
 typedef struct layer_run {
-    wt_energy_source source;
+    layer_energy energy;
     wt_layer_parameters parameters;
     wt_layer_balance balance;
     wt_estimate critical_energy, time_to_90_percent;
@@ -50,40 +52,6 @@ typedef struct layer_task {
     replicates replicates;
 } layer_task;
 
-wt_layer_job wt_layer_job_defaults(void)
-{
-    return (wt_layer_job){
-        .critical_energy = {(double)NAN, 0, 0, "J/m^3"},
-        .observed_thickness = {(double)NAN, 0, 0, "m"},
-        .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
-        .damage = wt_layer_defaults().damage,
-        .duty = wt_layer_defaults().duty,
-        .incubation = true,
-        .profile = WT_PROFILE_PERSSON,
-        .velocity = (double)NAN,
-    };
-}
-
-static const wt_param rows[] = {
-    {PARAM("critical-energy", wt_layer_job, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
-     .value = "U", .unset = "",
-     .help = "U_c, the energy per volume that modifies the rubber, such "
-             "as 2e10J/m^3"},
-    {PARAM("observed-thickness", wt_layer_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
-     .value = "D", .unset = "",
-     .help = "of a layer, instead of the critical energy: this is to be "
-             "the balance"},
-    LAYER_ROWS(wt_layer_job, PARAM_REQUIRED),
-    ENERGY_PROFILE(wt_layer_job),
-    ENERGY_LOCAL_FRICTION(wt_layer_job),
-    {PARAM_LIST_OF("times", wt_layer_job, time, n_time, WT_Q_TIME, AT_LEAST(0)), .value = "T",
-     .unset = "around the time scales", .help = "such as 1:1e4s:log:40"},
-    {PARAM("layer-velocity", wt_layer_job, velocity, WT_Q_VELOCITY, ABOVE(0)),
-     .unset = "the reference velocity", .flags = PARAM_NO_OPTION,
-     .help = "at which the track was worn"},
-};
-PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
-
 void wt_layer_tables_clear(wt_layer_tables *tables)
 {
     if (tables == NULL)
@@ -92,36 +60,11 @@ void wt_layer_tables_clear(wt_layer_tables *tables)
     *tables = (wt_layer_tables){0};
 }
 
-wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
-{
-    const bool energy = !isnan(job->critical_energy.value);
-    const bool observed = !isnan(job->observed_thickness.value);
-    wt_status status = param_check(wt_layer_job_params(), job, err);
-    if (status != WT_OK)
-        return status;
-    if (energy == observed) {
-        status = wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
-                         "a layer has either a critical energy or an observed thickness");
-        wt_error_expected(err, "one of critical-energy, observed-thickness");
-        wt_error_found(err, energy ? "both" : "neither");
-        wt_error_advice(err, "from an observed thickness the critical energy is calculated");
-        return status;
-    }
-    if (observed && !(job->specific_wear_rate.value > 0)) {
-        wt_fail(err, WT_E_RANGE, "an observed thickness is calibrated against wear");
-        wt_error_place(err, "specific-wear-rate");
-        wt_error_expected(err, "above 0");
-        wt_error_found(err, "%g m^2/N", job->specific_wear_rate.value);
-        return WT_E_RANGE;
-    }
-    return WT_OK;
-}
-
 /* What goes with the power of all wavenumbers has its relative numerical error. */
 static wt_estimate of_power(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value,
-                         .numerical_error = fabs(value) * run->source.numerical_error};
+                         .numerical_error = fabs(value) * run->energy.source.numerical_error};
 }
 
 static void put_numbers(const layer_run *run, wt_estimate *out)
@@ -145,41 +88,28 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
                                             none, &c, err);
     if (status == WT_OK)
-        status =
-            wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &run->source, err);
+        status = layer_energy_make(task->sliding, job, &c, task->velocity, &run->energy, err);
     if (status == WT_OK) {
-        run->source.profile = job->profile;
-        run->source.local_friction = job->local_friction;
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;
-        *p = wt_layer_defaults();
-        p->damage = job->damage;
-        p->duty = job->duty;
-        p->start_thickness = job->start_thickness;
-        p->incubation = job->incubation;
-        p->without_errors = replicate != WT_NO_REPLICATE;
+        *p = layer_parameters_of(job, &c, task->velocity, &run->energy, seed, replicate);
         p->balance_only = !with_times;
-        p->pressure = c.pressure;
-        p->velocity = task->velocity;
-        p->specific_wear_rate =
-            flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
-        p->critical_energy =
-            flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-        const bool calibrated = isnan(p->critical_energy);
+        const bool calibrated = !isnan(job->observed_thickness.value);
         if (calibrated)
             p->critical_energy = wt_layer_calibrate(
-                &run->source, p,
+                &run->energy.source, p,
                 flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
         run->critical_energy = calibrated ? of_power(run, p->critical_energy)
                                           : (wt_estimate){.value = p->critical_energy};
-        status = wt_layer_balance_compute(&run->source, p, &run->balance, err);
+        status = wt_layer_balance_compute(&run->energy.source, p, &run->balance, err);
     }
     wt_estimate most = run->balance.thickness;
     most.value *= 0.9;
     most.numerical_error *= 0.9;
     run->time_to_90_percent = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "s"};
     if (status == WT_OK && with_times)
-        status = wt_layer_time(&run->source, &run->parameters, most, &run->time_to_90_percent, err);
+        status = wt_layer_time(&run->energy.source, &run->parameters, most,
+                               &run->time_to_90_percent, err);
     sliding_contact_clear(&c);
     return status;
 }
@@ -189,12 +119,13 @@ static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_err
     run->points = malloc((task->n + 1) * sizeof *run->points);
     if (run->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return wt_layer_history(&run->source, &run->parameters, task->time, task->n, run->points, err);
+    return wt_layer_history(&run->energy.source, &run->parameters, task->time, task->n, run->points,
+                            err);
 }
 
 static void run_clear(layer_run *run)
 {
-    wt_energy_source_clear(&run->source);
+    layer_energy_clear(&run->energy);
     free(run->points);
 }
 
@@ -217,39 +148,6 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* ---- times ----------------------------------------------------------------------------------- */
-
-/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
- * of the last, where all is over. A scale that is not there is so far from the other one. Which
- * times are told changes none of their numbers. */
-#define TIMES 61
-#define TIME_SPAN 100
-#define SHORT_OF_LAST 1e-3
-#define PAST_FIRST 1e6
-
-/* From well before the first change to well after the last one. */
-static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_error *err)
-{
-    task->n = task->job->time != NULL ? task->job->n_time : TIMES;
-    task->time = malloc((task->n > 0 ? task->n : 1) * sizeof *task->time);
-    if (task->time == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (task->job->time != NULL) {
-        memcpy(task->time, task->job->time, task->n * sizeof *task->time);
-        return WT_OK;
-    }
-    double first = b->incubation_time.value, last = b->relaxation_time.value;
-    if (!(first > 0) || !isfinite(first))
-        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
-    if (!(last > 0) || !isfinite(last))
-        last = PAST_FIRST * first;
-    first /= 2;
-    last = TIME_SPAN * fmax(last, first);
-    for (size_t i = 0; i < task->n; i++)
-        task->time[i] = first * pow(last / first, (double)i / (double)(task->n - 1));
-    return WT_OK;
-}
-
 /* ---- replicates ------------------------------------------------------------------------------ */
 
 static wt_status draw_replicates(layer_task *task, wt_error *err)
@@ -257,11 +155,19 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
     const wt_layer_job *job = task->job;
     replicates *r = &task->replicates;
     replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
-    const bool calibrated = isnan(job->critical_energy.value);
-    const double given =
-        (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
+    const bool calibrated = !isnan(job->observed_thickness.value);
+    const bool activated = job->closure == WT_CLOSURE_ACTIVATED;
+    const double given = (activated    ? job->barrier
+                          : calibrated ? job->observed_thickness
+                                       : job->critical_energy)
+                             .standard_error;
     replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
-                   calibrated ? "observed thickness" : "critical energy");
+                   activated    ? "barrier"
+                   : calibrated ? "observed thickness"
+                                : "critical energy");
+    if (job->energy != WT_LAYER_HYSTERESIS)
+        replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
     if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
@@ -310,16 +216,18 @@ TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 
 TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
-           char softening[256], anisotropy[192], numerical[512];)
+           char softening[256], anisotropy[192], numerical[512]; layer_saying said;
+           wt_estimate hysteresis_power, shear_power, unloaded_rate, shelf_life, severe;)
 
 static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
     const wt_layer_job *job = task->job;
-    const bool calibrated = isnan(job->critical_energy.value);
+    const bool calibrated = !isnan(job->observed_thickness.value);
     layer_keys keys = {.regime = regime_name(run->balance.regime),
                        .critical_energy_from =
                            calibrated ? "calibrated: makes the observed thickness the balance"
-                                      : "given",
+                           : job->closure == WT_CLOSURE_ACTIVATED ? "none: the closure is activated"
+                                                                  : "given",
                        .includes = replicates_include(&task->replicates),
                        .lacks = task->replicates.lacks,
                        .statement = run->statement,
@@ -331,12 +239,26 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
                        .observed = flow_as_stated(job->observed_thickness)};
     if (!calibrated)
         keys.observed.value = (double)NAN;
+    keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
+        (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    layer_say(job, &run->energy, &run->parameters, &keys.said);
+    if (job->energy != WT_LAYER_HYSTERESIS) {
+        keys.hysteresis_power.value = run->energy.hysteresis_power;
+        keys.shear_power.value = run->energy.shear_power;
+    }
+    if (job->closure == WT_CLOSURE_ACTIVATED) {
+        keys.unloaded_rate.value = wt_activation_background(&run->parameters.activation);
+        keys.shelf_life.value = job->damage / keys.unloaded_rate.value;
+    }
+    if (job->severity_power > 0)
+        keys.severe.value = run->balance.wear_rate /
+                            (job->duty * run->parameters.pressure * run->parameters.velocity);
     if (task->sliding->softness != NULL)
         softness_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
     anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
-    if (run->source.numerical_error > task->work->tolerance)
+    if (run->energy.source.numerical_error > task->work->tolerance)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
-                      task->work->tolerance, run->source.numerical_error);
+                      task->work->tolerance, run->energy.source.numerical_error);
     set_numbers(task, run, t);
     layer_set_keys(t, &keys);
 }
@@ -376,7 +298,9 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     wt_layer_tables t = {0};
     status = find_balance(&task, WT_NO_REPLICATE, &centre, err);
     if (status == WT_OK)
-        status = choose_times(&task, &centre.balance, err);
+        layer_warn(job, &centre.parameters, work->log);
+    if (status == WT_OK)
+        status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
     if (status == WT_OK)
         status = follow_thickness(&task, &centre, err);
     if (status == WT_OK)

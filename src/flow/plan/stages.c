@@ -12,6 +12,8 @@ static const flow_more mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
                            "the material"}},
     [FLOW_AND_TRACK] = {{B(INDENTATION_TRACK), " and wear track", "the wear track"}},
     [FLOW_AND_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer", "the layer"}},
+    [FLOW_AND_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
+                         "the modulus ratio of the layer"}},
     [FLOW_AND_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
                             {B(MODULUS_RATIO), ", friction with it",
                              "the modulus ratio of the layer"}},

@@ -13,6 +13,7 @@ typedef enum flow_extra {
     FLOW_AND_TRACK,
     FLOW_AND_LAYER,
     FLOW_AND_THICKNESS,
+    FLOW_AND_RATIO,
     FLOW_N_EXTRAS
 } flow_extra;
 
@@ -91,6 +92,20 @@ typedef enum flow_extra {
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_DECADES), 0, FLOW_NO_MORE,                  \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
+    X(LAYER_BANDS, layer_bands, "Modified bands in time",                                          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_BANDS), 0,            \
+      FLOW_NO_MORE, B(LAYER_BANDS), flow_step_layer_bands)                                         \
+    X(RUNNING_IN, running_in, "Friction with the layer in running-in",                             \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(ASKED_RUNNING_IN),                                                                     \
+      0, FLOW_NO_MORE, B(RUNNING_IN), flow_step_running_in)                                        \
+    X(LAYER_BALANCES, layer_balances, "Balances of a layer that acts back on its energy",          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(ASKED_FEEDBACK),                                                                       \
+      0, FLOW_NO_MORE, B(LAYER_BALANCES), flow_step_layer_balances)                                \
+    X(EXISTENCE, existence, "Where a layer exists",                                                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_EXISTENCE), 0,        \
+      FLOW_AND_RATIO, B(EXISTENCE), flow_step_existence)                                           \
     X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_FLASH), 0, FLOW_NO_MORE, B(FLASH_EFFECT),   \
       flow_step_flash_effect)                                                                      \

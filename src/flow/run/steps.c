@@ -438,7 +438,7 @@ wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
 
 /* ---- friction and layer ---------------------------------------------------------------------- */
 
-static wt_sliding sliding_of(const flow_run *run)
+wt_sliding flow_run_sliding(const flow_run *run)
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     sliding.softness = run->softness.table.n > 0 ? &run->softness : NULL;
@@ -447,7 +447,7 @@ static wt_sliding sliding_of(const flow_run *run)
 
 wt_status flow_step_layer(flow_run *run, wt_error *err)
 {
-    wt_sliding sliding = sliding_of(run);
+    wt_sliding sliding = flow_run_sliding(run);
     wt_layer_tables tables = {0};
     wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &tables, err);
     if (status != WT_OK)
@@ -459,13 +459,12 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
 
 wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_energy_density_table(&sliding, &run->c->layer, &run->job,
                                    &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
-/* A comparison that cannot say leaves no ratio. */
-static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
+wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
 {
     *known = run->c->known;
     known->thickness = run->thickness;
@@ -482,16 +481,16 @@ static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_erro
 
 wt_status flow_step_contact_area(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
 }
 
 wt_status flow_step_friction(flow_run *run, wt_error *err)
 {
-    wt_sliding sliding = sliding_of(run);
+    wt_sliding sliding = flow_run_sliding(run);
     wt_friction_tables tables = {0};
     wt_layer_known layer;
-    wt_status status = run->level > 0 ? known_layer(run, &layer, err) : WT_OK;
+    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
     if (status == WT_OK)
         status =
             wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
@@ -502,37 +501,37 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
 
 wt_status flow_step_directions(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_directions_make(&sliding, &run->job, &run->table[FLOW_DIRECTIONS], err);
 }
 
 wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
 }
 
 wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_anisotropy_make(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
 }
 
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_friction_map_make(&sliding, &run->job, &run->table[FLOW_FRICTION_MAP], err);
 }
 
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_friction_decades_make(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES], err);
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     return wt_flash_make(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
 }
 
@@ -552,12 +551,12 @@ static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *e
     if (run->level < 2)
         return WT_OK;
     parts->known = &parts->storage;
-    return known_layer(run, &parts->storage, err);
+    return flow_run_known_layer(run, &parts->storage, err);
 }
 
 wt_status flow_step_what_if(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     layer_parts parts;
     const wt_status status = take_layer(run, &parts, err);
     return status == WT_OK ? wt_what_if_make(&sliding, parts.layer, parts.known, &run->job,
@@ -588,7 +587,7 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
 
 wt_status flow_step_budget(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     layer_parts parts;
     const wt_status status = take_layer(run, &parts, err);
     return status == WT_OK
@@ -599,7 +598,7 @@ wt_status flow_step_budget(flow_run *run, wt_error *err)
 
 wt_status flow_step_coverage(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     layer_parts parts;
     const wt_status status = take_layer(run, &parts, err);
     const wt_coverage_job job = {.sliding = &sliding,
@@ -616,7 +615,7 @@ wt_status flow_step_coverage(flow_run *run, wt_error *err)
 
 wt_status flow_step_precision(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     layer_parts parts;
     const wt_status status = take_layer(run, &parts, err);
     return status == WT_OK

@@ -30,6 +30,12 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
                             wt_error *err) WT_NODISCARD;
 wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
 
+/* The sliding contact of a run so far, and what is known of its layer: WT_E_MISSING without a
+ * modulus ratio, as a comparison that cannot say leaves none. */
+wt_sliding flow_run_sliding(const flow_run *run);
+wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known,
+                               wt_error *err) WT_NODISCARD;
+
 /* Adds to advice that names an option how a case says it. */
 void flow_case_advice(wt_error *failure);
 

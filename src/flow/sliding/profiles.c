@@ -1,4 +1,4 @@
-/* What one contact is inside: its area against magnification, its energy against depth.
+/* What one contact is inside: its area against magnification.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
@@ -81,56 +81,5 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
     add_areas(sliding, &c, &t, &cost);
     cost_say(work, cost);
     sliding_contact_clear(&c);
-    return table_end(&t, table);
-}
-
-/* ---- energy density -------------------------------------------------------------------------- */
-
-#define DEPTHS 121 /* as a figure shows well */
-
-TABLE_ROW(energy_density, ENERGY_DENSITY, double depth, energy_density;)
-
-static void add_depths(const wt_energy_source *source, table_writer *t)
-{
-    double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
-    for (size_t i = 1; i < source->n; i++) {
-        q_min = fmin(q_min, source->wavenumber[i]);
-        q_max = fmax(q_max, source->wavenumber[i]);
-    }
-    /* from a tenth of the shortest wave to where the longest one has died out */
-    const double first = 0.1 / q_max, last = 3 / q_min;
-    for (size_t i = 0; i < DEPTHS; i++) {
-        const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
-        TABLE_ADD(energy_density, t, depth, wt_energy_density(source, depth));
-    }
-}
-
-wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,
-                                  const wt_job *work, wt_table **table, wt_error *err)
-{
-    if (job == NULL || work == NULL || table == NULL)
-        return wt_fail(err, WT_E_ARG, "no energy density to make");
-    sliding_contact c = {0};
-    wt_energy_source source = {.n = 0};
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK)
-        status = wt_layer_job_check(job, err);
-    if (status == WT_OK)
-        status = make_contact(sliding, work, &c, err);
-    const double velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
-    if (status == WT_OK)
-        status = wt_energy_source_friction(c.workspace, c.pressure, velocity, &source, err);
-    sliding_contact_clear(&c);
-    if (status != WT_OK)
-        return status;
-    source.profile = job->profile;
-    source.local_friction = job->local_friction;
-    table_writer t = table_begin(&energy_density_schema, err);
-    add_depths(&source, &t);
-    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, velocity, 0, 0);
-    cost_say(work, (cost_summary){.items = DEPTHS,
-                                  .tolerance_asked = work->tolerance,
-                                  .error_estimated = source.numerical_error});
-    wt_energy_source_clear(&source);
     return table_end(&t, table);
 }

@@ -1,0 +1,26 @@
+/* What shearing the real contact costs on a modified layer.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/kernel.h"
+
+#include <math.h>
+
+wt_layer_shear wt_layer_shear_defaults(void)
+{
+    return (wt_layer_shear){.exponent = 1, .spacing = (double)NAN};
+}
+
+double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
+                             double area_ratio)
+{
+    double stress = bulk;
+    if (layer.thickness > 0) {
+        const double there = shear->reach > 0 ? -expm1(-layer.thickness / shear->reach) : 1;
+        stress *= 1 + (pow(layer.modulus_ratio, shear->exponent) - 1) * there;
+    }
+    /* one contact of diameter D = sqrt(4 (A/A0) / (pi eta)) at each asperity, 4 G / (pi D) */
+    if (shear->crack_energy > 0)
+        stress += 2 * shear->crack_energy / (shear->spacing * sqrt(M_PI * area_ratio));
+    return stress;
+}

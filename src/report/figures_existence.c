@@ -1,0 +1,134 @@
+/* Figures of where a layer exists: thickness against the power that makes it, and maps over
+ * velocity and pressure with the line beyond which there is none.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Room for the scale of colour beside the picture, as described figures have it. */
+static const double with_scale = 1.15;
+
+static void caption_existence(figure_drawing *d)
+{
+    text_format(&d->caption, " At %s there is a layer %s.",
+                VALUE(WT_Q_PRESSURE, NULL, existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
+                existence_words(d->table, EXISTENCE_KEY_WORDS));
+}
+
+/* Where R = 1 between two velocities, straight in the logarithms; NaN if not between them. */
+static double edge_between(const table_view *t, size_t row)
+{
+    const double from = log(existence_get(t, row, EXISTENCE_RATIO)),
+                 to = log(existence_get(t, row + 1, EXISTENCE_RATIO));
+    const double a = log(existence_get(t, row, EXISTENCE_VELOCITY)),
+                 b = log(existence_get(t, row + 1, EXISTENCE_VELOCITY));
+    if ((from > 0) == (to > 0) ||
+        wt_table_block(t->table, row) != wt_table_block(t->table, row + 1))
+        return (double)NAN;
+    return isfinite(from) && isfinite(to) ? exp(a + (b - a) * from / (from - to)) : exp(a);
+}
+
+/* Velocity and pressure of the line; no section without any. */
+static int edge_section(figure_drawing *d)
+{
+    static const char *const names[] = {"velocity", "pressure", NULL};
+    static const char *const units[] = {"m/s", "Pa"};
+    const table_view *t = d->table;
+    double *values = calloc(2 * t->n_rows, sizeof *values);
+    size_t n = 0;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return NO_SECTION;
+    }
+    for (size_t row = 0; row + 1 < t->n_rows; row++) {
+        const double velocity = edge_between(t, row);
+        if (isnan(velocity))
+            continue;
+        values[2 * n] = velocity;
+        values[2 * n++ + 1] = existence_get(t, row, EXISTENCE_PRESSURE);
+    }
+    const int section =
+        n > 0 ? drawing_numbers(d, "no layer", names, units, values, n) : NO_SECTION;
+    free(values);
+    return section;
+}
+
+/* Places coloured by a column, crosses where there is no layer, and the line between. */
+static void draw_map(figure_drawing *d, existence_column shown, const char *label)
+{
+    const unsigned columns[] = {EXISTENCE_VELOCITY, EXISTENCE_PRESSURE, (unsigned)shown,
+                                EXISTENCE_RATIO};
+    const schema_field *field = d->table->schema->columns;
+    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
+    span_add_column(&y, d->table, EXISTENCE_PRESSURE, true);
+    if (!(y.high > y.low))
+        return; /* one pressure is no map */
+    const int section =
+        drawing_section(d, d->table, "places", NULL, columns, COUNT_OF(columns), COUNT_OF(columns));
+    if (section < 0)
+        return;
+    span_add_section(&x, d, section, 0, true);
+    span_add_section(&colour, d, section, 2, false);
+    axis_log(d, "x", "Sliding velocity", &field[EXISTENCE_VELOCITY], x);
+    axis_log(d, "y", "Nominal pressure", &field[EXISTENCE_PRESSURE], y);
+    axis_linear(d, "cb", label, &field[shown], colour);
+    d->width = with_scale;
+    const int edge = edge_section(d);
+    text_add(&d->script, "set cblabel offset 1.5,0\nset border 15\nset key above\n");
+    plot_item(d, section,
+              "($1*x_unit):($4 > 1 ? $2*y_unit : NaN):($3*cb_unit) with points pt 7 ps 1.2 lc "
+              "palette notitle");
+    plot_item(d, section,
+              "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
+              "'no layer'");
+    if (edge >= 0)
+        plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
+    plot_end(d);
+}
+
+static void draw_thickness_map(figure_drawing *d)
+{
+    draw_map(d, EXISTENCE_THICKNESS, "Layer thickness");
+}
+
+static void draw_friction_map(figure_drawing *d)
+{
+    draw_map(d, EXISTENCE_CHANGE, "Relative change of friction");
+}
+
+const figure_description figures_existence[] = {
+    {.name = "existence",
+     .title = "Where a layer exists",
+     .table = &existence_schema,
+     .data_title = "existence",
+     .x = {EXISTENCE_POWER, AXIS_LOG, "Power that modifies the rubber"},
+     .y = {{EXISTENCE_THICKNESS, AXIS_LOG, "Layer thickness at balance"}},
+     .colour = {EXISTENCE_PRESSURE, AXIS_LOG, "Nominal pressure"},
+     .curves = {CURVE(EXISTENCE_THICKNESS, LINE, .style = 21, .above_zero = true)},
+     .of_several = true,
+     .nothing = "there is no layer at any velocity",
+     .words = "Thickness at balance against the power per area that modifies the rubber, as the "
+              "velocity grows along each line: where a line ends wear takes the layer away "
+              "as fast as it forms, the conclusion of the source.",
+     .caption = caption_existence},
+    {.name = "existence_thickness",
+     .title = "Layer thickness over velocity and pressure",
+     .table = &existence_schema,
+     .words = "Thickness of the layer at balance; crosses: no layer; the line is where formation "
+              "equals wear on a bare surface, R = 1.",
+     .draw = draw_thickness_map,
+     .caption = caption_existence},
+    {.name = "existence_friction",
+     .title = "Change of friction by the layer over velocity and pressure",
+     .table = &existence_schema,
+     .words = "Relative change of the friction coefficient by the layer at balance; crosses: no "
+              "layer; the line is where R = 1.",
+     .draw = draw_friction_map,
+     .caption = caption_existence},
+    {.name = NULL},
+};

@@ -1,0 +1,260 @@
+/* The layer beyond its thickness at constant load, as a job makes it: its tables agree with each
+ * other and with those that were there before. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "sliding.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double velocity[] = {1e-3, 1e-2, 0.1, 1, 10};
+enum { VELOCITIES = sizeof velocity / sizeof *velocity };
+
+static wt_layer_job job_of(void)
+{
+    wt_layer_job job = wt_layer_job_defaults();
+    job.specific_wear_rate.value = 1e-12;
+    job.critical_energy.value = 2e10;
+    return job;
+}
+
+static double key_number(const wt_table *table, const char *name)
+{
+    const char *text = wt_table_key(table, name);
+    if (text == NULL)
+        fail_msg("no key %s", name);
+    return strtod(text, NULL);
+}
+
+static double cell(const wt_table *table, size_t row, const char *column)
+{
+    const long at = wt_table_find(table, column);
+    assert_true(at >= 0);
+    return wt_table_number(table, row, (size_t)at);
+}
+
+static wt_table *layer_of(const wt_layer_job *job)
+{
+    wt_layer_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_layer_make(&sliding, job, &work, &tables, &err) != WT_OK)
+        fail_msg("layer: %s %s", err.message, err.found);
+    return tables.layer;
+}
+
+/* The powers add up by their shares. */
+static void energies_add_up(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    wt_table *plain = layer_of(&job);
+    const double hysteresis = key_number(plain, "surface_power");
+    assert_null(wt_table_key(plain, "energy_from"));
+    job.energy = WT_LAYER_SHEAR;
+    wt_table *shear = layer_of(&job);
+    job.energy = WT_LAYER_BOTH;
+    job.shear_share = 0.25;
+    wt_table *both = layer_of(&job);
+    assert_near(key_number(shear, "hysteresis_power"), hysteresis, 1e-12);
+    assert_near(key_number(shear, "surface_power"), key_number(shear, "shear_power"), 1e-12);
+    assert_near(key_number(both, "surface_power"),
+                hysteresis + 0.25 * key_number(shear, "shear_power"), 1e-12);
+    /* and that of the shearing is tau_f (A/A0) v */
+    wt_friction_tables friction = {0};
+    wt_error err = WT_ERROR_INIT;
+    sliding.velocity = &velocity[VELOCITIES / 2];
+    sliding.n_velocity = 1;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &friction, &err), WT_OK);
+    assert_near(key_number(shear, "shear_power"),
+                5e6 * cell(friction.friction, 0, "area_ratio") * velocity[VELOCITIES / 2], 1e-9);
+    wt_friction_tables_clear(&friction);
+    wt_table_free(plain);
+    wt_table_free(shear);
+    wt_table_free(both);
+}
+
+/* A wear rate that grows with the power is that constant rate. */
+static void severity_is_a_rate(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    job.severity_power = 1e4;
+    job.severity_exponent = 1.5;
+    wt_table *severe = layer_of(&job);
+    const double power = key_number(severe, "surface_power");
+    const double rate = 1e-12 * (1 + pow(power / 1e4, 1.5));
+    assert_near(key_number(severe, "severe_wear_rate"), rate, 1e-12);
+    job = job_of();
+    job.specific_wear_rate.value = rate;
+    wt_table *constant = layer_of(&job);
+    assert_near(key_number(severe, "balance_thickness"), key_number(constant, "balance_thickness"),
+                1e-12);
+    wt_table_free(severe);
+    wt_table_free(constant);
+}
+
+/* The deepest edge is the thickness of the table that was there before. */
+static void bands_are_the_layer(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    for (int k = 0; k < 2; k++) {
+        wt_layer_job job = job_of();
+        wt_table *bands = NULL;
+        wt_error err = WT_ERROR_INIT;
+        job.profile = k ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
+        wt_table *layer = layer_of(&job);
+        assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
+        size_t modified = 0;
+        for (size_t row = 0, at = 0; row < wt_table_n_rows(bands); row++) {
+            if (cell(bands, row, "band") > 1)
+                continue;
+            const bool none = cell(bands, row, "band") < 1;
+            const double lower = none ? 0 : cell(bands, row, "lower");
+            assert_near(cell(bands, row, "time"), cell(layer, at, "time"), 1e-15);
+            assert_near(lower, cell(layer, at, "thickness"), 1e-10);
+            at++;
+            modified += !none;
+        }
+        assert_true(modified > 10);
+        wt_table_free(layer);
+        wt_table_free(bands);
+    }
+}
+
+/* A load in three parts is that load. */
+static void loads_in_parts(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    static const double times[] = {10, 100, 1000, 20000};
+    static const char *const parts[] = {"time=30s", "time=300s,pressure=0.4MPa", "velocity=0.1m/s"};
+    wt_layer_job job = job_of();
+    wt_table *whole = NULL, *cut = NULL;
+    wt_error err = WT_ERROR_INIT;
+    job.time = times;
+    job.n_time = 4;
+    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &whole, &err), WT_OK);
+    job.loads = parts;
+    job.n_loads = 3;
+    if (wt_layer_bands_make(&sliding, &job, &work, &cut, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.place);
+    assert_int_equal(wt_table_n_rows(whole), wt_table_n_rows(cut));
+    for (size_t row = 0; row < wt_table_n_rows(whole); row++)
+        assert_near(cell(cut, row, "lower"), cell(whole, row, "lower"), 1e-11);
+    wt_table_free(whole);
+    wt_table_free(cut);
+}
+
+/* It begins with the friction of the bulk, and ends with that of the balance. */
+static void running_in_joins_both(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    wt_table *running = NULL, *balances = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_table *layer = layer_of(&job);
+    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    const size_t n = wt_table_n_rows(running);
+    for (size_t row = 0; row < n; row++)
+        assert_near(cell(running, row, "thickness"), cell(layer, row, "thickness"), 1e-12);
+    wt_friction_tables friction = {0};
+    known.thickness = (wt_estimate){key_number(layer, "balance_thickness"), 0, 0, "m"};
+    assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
+    assert_near(key_number(running, "bare_friction"),
+                key_number(friction.friction, "friction_at_reference"), 1e-9);
+    assert_near(key_number(running, "balance_friction"),
+                key_number(friction.friction, "friction_with_layer_at_reference"), 1e-9);
+    assert_near(cell(running, 0, "friction"), key_number(running, "bare_friction"), 1e-12);
+    assert_true(key_number(running, "settled") > 0);
+    /* with a layer that acts back it ends at the balance of that, also where wear follows it */
+    for (int k = 0; k < 2; k++) {
+        job.acts_back = true;
+        job.severity_power = k ? 1e4 : 0;
+        wt_table_free(running);
+        assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+                         WT_OK);
+        assert_near(cell(running, n - 1, "thickness"), cell(balances, 0, "thickness"), 1e-8);
+        assert_true(
+            fabs(cell(balances, 0, "thickness") / key_number(balances, "one_way_thickness") - 1) >
+            1e-3);
+        assert_true(cell(balances, 0, "map_slope") < 1);
+        wt_table_free(balances);
+    }
+    wt_friction_tables_clear(&friction);
+    wt_table_free(layer);
+    wt_table_free(running);
+}
+
+/* At the edge R is 1, and beyond it there is no layer and no change of friction. */
+static void existence_ends_where_it_says(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_job job = job_of();
+    wt_table *existence = NULL;
+    wt_error err = WT_ERROR_INIT;
+    job.severity_power = 1e4;
+    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    const double edge = key_number(existence, "to_velocity");
+    assert_true(isnan(key_number(existence, "from_velocity")));
+    assert_true(edge > velocity[0] && edge < velocity[VELOCITIES - 1]);
+    for (size_t row = 0; row < VELOCITIES; row++) {
+        const bool there = cell(existence, row, "velocity") < edge;
+        assert_int_equal(cell(existence, row, "thickness") > 0, there);
+        assert_int_equal(cell(existence, row, "change") != 0, there);
+    }
+    sliding.velocity = &edge;
+    sliding.n_velocity = 1;
+    wt_table *layer = layer_of(&job);
+    assert_near(key_number(layer, "formation_wear_ratio"), 1, 1e-7);
+    assert_near(key_number(layer, "surface_power"), key_number(existence, "to_power"), 1e-9);
+    wt_table_free(layer);
+    wt_table_free(existence);
+}
+
+static void refuses(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    wt_layer_tables tables = {0};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    const wt_layer_known unknown = {.modulus_ratio = {(double)NAN, 0, 0, "1"}};
+    assert_int_equal(wt_running_in_make(&sliding, &job, &unknown, &work, &table, &err),
+                     WT_E_MISSING);
+    job.energy = WT_LAYER_SHEAR;
+    sliding.shear_stress.value = (double)NAN;
+    assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_E_MISSING);
+    job = job_of();
+    job.severity_power = -1;
+    assert_int_equal(wt_layer_job_check(&job, &err), WT_E_RANGE);
+    job = job_of();
+    job.closure = WT_CLOSURE_ACTIVATED;
+    assert_int_equal(wt_layer_job_check(&job, &err), WT_E_MISSING);
+    job.barrier.value = 2e-19;
+    job.activation.volume = 1e-27;
+    assert_int_equal(wt_layer_job_check(&job, &err), WT_E_ARG);
+    job.critical_energy.value = (double)NAN;
+    assert_int_equal(wt_layer_job_check(&job, &err), WT_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energies_add_up),
+        cmocka_unit_test(severity_is_a_rate),
+        cmocka_unit_test(bands_are_the_layer),
+        cmocka_unit_test(loads_in_parts),
+        cmocka_unit_test(running_in_joins_both),
+        cmocka_unit_test(existence_ends_where_it_says),
+        cmocka_unit_test(refuses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
