@@ -566,11 +566,11 @@ wt_status flow_step_what_if(flow_run *run, wt_error *err)
 
 wt_status flow_step_validation(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = sliding_of(run);
+    const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_known layer;
     wt_validation_tables tables = {0};
     wt_validation_job job = run->c->validation;
-    wt_status status = run->level > 0 ? known_layer(run, &layer, err) : WT_OK;
+    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
     job.sliding = &sliding;
     job.layer = run->c->has_layer ? &run->c->layer : NULL;
     job.known = run->level > 0 ? &layer : NULL;
