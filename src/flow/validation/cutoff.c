@@ -70,7 +70,10 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
         const double at = used + tenth * i;
         if (i != 0 && (at < low || at > high))
             continue;
-        status = likelihood_at(v, pow(10, at), value, &s->likelihood[s->n], err);
+        /* the one that is used may be the last that is known, which rounding would leave */
+        status =
+            likelihood_at(v, i == 0 ? v->used.surface.q1 : fmin(pow(10, at), limit_high(&v->used)),
+                          value, &s->likelihood[s->n], err);
         s->log_q1[s->n++] = at;
     }
     free(value);
