@@ -811,12 +811,13 @@ WT_API const wt_params *wt_sliding_params(void);
 
 /* What is on the surface of the track. */
 typedef struct wt_layer_known {
-    wt_estimate thickness;     /* [m] */
-    wt_estimate modulus_ratio; /* E_track / E_bulk */
-    double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
-    bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
-    double calibration_share;  /* of the variance of the ratio that is of spring constants and the
-                                  like, not of the scatter of spots; default 0 */
+    wt_estimate thickness;       /* [m] */
+    wt_estimate modulus_ratio;   /* E_track / E_bulk */
+    double modulus_ratio_df;     /* degrees of freedom of its error (Student's t); 0 = normal */
+    bool bulk_shear;             /* tau_s = tau_bulk, not times the modulus ratio; default false */
+    double calibration_share;    /* of the variance of the ratio that is of spring constants and the
+                                    like, not of the scatter of spots; default 0 */
+    const wt_layer_shear *shear; /* of the real contact with it; NULL: as by default */
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 

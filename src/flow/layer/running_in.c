@@ -6,6 +6,7 @@
 #include "base/clocale.h"
 #include "data/tables/rows.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -72,7 +73,8 @@ static wt_status grow(running_task *task, wt_error *err)
         status = wt_layer_balance_compute(&source, &p, &balance, err);
     if (status == WT_OK)
         status = layer_times_choose(&task->job, &balance, &task->time, &task->n, err);
-    if (status == WT_OK) {
+    if (status == WT_OK) { /* what is left is looked for from the last time on */
+        gsl_sort(task->time, 1, task->n);
         task->points = calloc(task->n + 1, sizeof *task->points);
         task->friction = calloc(task->n + 1, sizeof *task->friction);
         if (task->points == NULL || task->friction == NULL)
@@ -187,6 +189,13 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
+    if (job->acts_back && job->start_thickness > 0) {
+        wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
+        wt_error_place(err, "start-thickness");
+        wt_error_found(err, "%g m", job->start_thickness);
+        wt_error_advice(err, "leave out start-thickness, or acts-back");
+        return WT_E_ARG;
+    }
     running_task task = {.n = 0};
     wt_status status = layer_job_known(sliding, job, known, work, &task.job, err);
     task.back = (acts_back){sliding, &task.job, work, known->modulus_ratio.value};
