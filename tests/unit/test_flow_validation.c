@@ -131,6 +131,20 @@ static void test_needed(void **state)
     }
 }
 
+/* A layer without end has no friction, and that another one is judged is said. */
+static void test_endless_layer(void **state)
+{
+    (void)state;
+    set_up();
+    make_record(5e6, surface.q1, 0, 0.003, false);
+    known.thickness = (wt_estimate){(double)INFINITY, 0, 0, "m"};
+    const wt_validation_job job = job_of(true);
+    wt_validation_tables t = made(&job);
+    check_begins(t.validation, "judged", "friction without");
+    assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "grows without end"));
+    wt_validation_tables_clear(&t);
+}
+
 /* Cracks and the law of the shear stress of a layer are in the prediction as they are in friction.
  */
 static void test_layer_shear(void **state)
@@ -340,11 +354,17 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needed),   cmocka_unit_test(test_layer_shear),
-        cmocka_unit_test(test_cutoff),   cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_sources),  cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_no_shear), cmocka_unit_test(test_below_hysteresis),
-        cmocka_unit_test(test_threads),  cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_needed),
+        cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),
+        cmocka_unit_test(test_cutoff),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_no_shear),
+        cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_rest),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);
