@@ -736,6 +736,7 @@ typedef struct wt_surface {
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
     double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
+    bool places_known;   /* how its places differ, though the error of c0 be 0 */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%", the path of a

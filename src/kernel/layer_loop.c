@@ -240,9 +240,14 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
     if (!(target > 0)) {
         for (size_t i = 0; i < n; i++)
             points[i] = (wt_layer_point){time[i], {.unit = "m"}, bare.formation, bare.wear};
-        return loop->ratio > 1 && loop->n_roots == 0
-                   ? wt_fail(err, WT_E_RANGE, "a layer grows beyond the thicknesses looked at")
-                   : WT_OK;
+        if (!(loop->ratio > 1) || loop->n_roots > 0)
+            return WT_OK;
+        wt_fail(err, WT_E_RANGE, "a layer that acts back grows beyond the longest waves");
+        wt_error_expected(err, "a balance below %.3g um", 1e6 * loop->high);
+        wt_error_found(err, "none, with R = %.3g on a bare surface", loop->ratio);
+        wt_error_advice(err,
+                        "without wear, or with little, it has no balance: leave out acts-back");
+        return WT_E_RANGE;
     }
     layer_own *own = calloc(1, sizeof *own);
     if (own == NULL)

@@ -8,7 +8,6 @@
 #include "data/tables/rows.h"
 #include "model/root.h"
 
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -168,6 +167,12 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
     return table_end(&t, table);
 }
 
+static int by_value(const void *left, const void *right)
+{
+    const double *const a = left, *const b = right;
+    return (*a > *b) - (*a < *b);
+}
+
 /* The same with its velocities from the least on, between which edges are looked for. */
 static wt_status order_velocities(const wt_sliding *sliding, wt_sliding *own, double **velocity,
                                   wt_error *err)
@@ -176,7 +181,7 @@ static wt_status order_velocities(const wt_sliding *sliding, wt_sliding *own, do
     if (*velocity == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     memcpy(*velocity, sliding->velocity, sliding->n_velocity * sizeof **velocity);
-    gsl_sort(*velocity, 1, sliding->n_velocity);
+    qsort(*velocity, sliding->n_velocity, sizeof **velocity, by_value);
     *own = *sliding;
     own->velocity = *velocity;
     return WT_OK;

@@ -131,7 +131,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            size_t replicates; const char *includes, *lacks, *statement;
            wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
            char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
-           char area_law[128], shear_law[256];)
+           char area_law[128], shear_law[256], layer_shear[256];)
 
 /* Of the values themselves, with what the replicates scatter. */
 static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
@@ -197,6 +197,10 @@ static void describe_options(const friction_task *task, const sliding_contact *c
     const wt_shear_law *law = &s->shear_law;
     snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
+    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL &&
+        !sliding_layer_shear_is_plain(task->layer->shear))
+        sliding_layer_shear_describe(task->layer->shear, keys->layer_shear,
+                                     sizeof keys->layer_shear);
     if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
         return;
     clocale_print(keys->shear_law, sizeof keys->shear_law,

@@ -40,6 +40,9 @@ wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t 
  * layer says; cracks are opened without one, too. `known` NULL: that of the bulk. */
 double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
                            double area_ratio);
+/* The modulus ratio at once and no cracks, which need no words; the law in words. */
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear);
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif
