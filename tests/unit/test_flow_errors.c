@@ -52,6 +52,11 @@ static const expectation list[] = {
     {&layer_schema, "critical_energy", "knnn"},
     {&layer_schema, "surface_power", "kkkn"},
     {&layer_schema, "time_to_90_percent", "kkkn"},
+    {&layer_schema, "hysteresis_power", "...."}, /* not counted beside shearing */
+    {&layer_schema, "shear_power", "...."},
+    {&layer_schema, "unloaded_rate", "...."}, /* of the activated closure */
+    {&layer_schema, "shelf_life", "...."},
+    {&layer_schema, "severe_wear_rate", "...."}, /* no severity */
     {&layer_schema, "velocity", "0000"},
     {&layer_schema, "pressure", "knkn"},
     {&layer_schema, "specific_wear_rate", "knnn"},
