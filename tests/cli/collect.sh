@@ -15,7 +15,7 @@ make_case() {
   sed -e "s#</title>#</title><sample>$1</sample><condition>$2</condition>#" -e '/<roughness>/,$d' \
     "$fixtures/case.xml" >"$1-$2/case.xml"
   echo '<compare><track-to-bulk/><by-rate/></compare></case>' >>"$1-$2/case.xml"
-  "$generator" "$1-$2" "$fixtures/case.xml" "$4" "$3"
+  "$generator" "$1-$2" "$fixtures/stated-road.xml" "$4" "$3"
   "$program" run -q --no-report "$1-$2/case.xml" -o "$1-$2.h5" >/dev/null
 }
 make_study() {
