@@ -13,8 +13,9 @@ int cmd_identify(int argc, char **argv)
                 "another, at the velocity given (the middle one of a list); with intervals, their "
                 "correlation and the combination that the data do not determine.",
         .common = "output formats columns files-from provenance cost",
-        .first = "material dma roughness pressure velocity sliding-temperature observed-thickness "
-                 "specific-wear-rate running-in-time running-in-share duty profile output"};
+        .first = "material dma roughness pressure velocity observed-thickness specific-wear-rate "
+                 "running-in-time sliding-temperature output",
+        .master = CMD_DMA_OPTIONS};
     wt_identify_job job = wt_identify_job_defaults();
     cmd_sliding s;
     wt_table *table = NULL;

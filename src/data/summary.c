@@ -153,9 +153,9 @@ static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       &material_ratio_schema,
                                                       &common_law_schema,
                                                       &ratio_pairs_schema,
+                                                      &validation_schema,
                                                       &record_schema,
                                                       &wear_schema,
-                                                      &validation_schema,
                                                       &power_spectrum_schema};
 
 bool store_has_headlines(const char *table)
