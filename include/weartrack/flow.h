@@ -736,6 +736,7 @@ typedef struct wt_surface {
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
     double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
+    bool places_known;   /* how its places differ, though the error of c0 be 0 */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%", the path of a
@@ -811,12 +812,13 @@ WT_API const wt_params *wt_sliding_params(void);
 
 /* What is on the surface of the track. */
 typedef struct wt_layer_known {
-    wt_estimate thickness;     /* [m] */
-    wt_estimate modulus_ratio; /* E_track / E_bulk */
-    double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
-    bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
-    double calibration_share;  /* of the variance of the ratio that is of spring constants and the
-                                  like, not of the scatter of spots; default 0 */
+    wt_estimate thickness;       /* [m] */
+    wt_estimate modulus_ratio;   /* E_track / E_bulk */
+    double modulus_ratio_df;     /* degrees of freedom of its error (Student's t); 0 = normal */
+    bool bulk_shear;             /* tau_s = tau_bulk, not times the modulus ratio; default false */
+    double calibration_share;    /* of the variance of the ratio that is of spring constants and the
+                                    like, not of the scatter of spots; default 0 */
+    const wt_layer_shear *shear; /* of the real contact with it; NULL: as by default */
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 

@@ -247,7 +247,7 @@ typedef struct wt_layer_balance {
     double formation_rate_zero;         /* Qf(0) [m/s] */
     double wear_rate;                   /* Qw [m/s] */
     double ratio;                       /* R = Qf(0)/Qw, infinity without wear */
-    double critical_specific_wear_rate; /* k* [m^2/N] */
+    double critical_specific_wear_rate; /* k* [m^2/N], of the k before the severity */
     wt_estimate thickness;              /* delta_total [m]; infinity without wear */
     double eigenvalue;                  /* of the balance [1/s]; 0 if there is none or no wear */
     wt_estimate relaxation_time; /* 1/(kappa Qw), kappa = w / int w there; infinity without wear */

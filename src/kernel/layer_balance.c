@@ -69,10 +69,13 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     b.formation_rate_zero = r.formation;
     b.wear_rate = r.wear;
     b.ratio = r.formation == 0 ? 0 : exp(r.log_ratio);
+    wt_layer_parameters unit = *parameters; /* what the power makes of a k of 1 */
+    unit.specific_wear_rate = 1;
     b.critical_specific_wear_rate =
         r.formation == 0
             ? 0
-            : exp(r.log_power - r.threshold) / (parameters->pressure * parameters->velocity);
+            : exp(r.log_power - r.threshold) /
+                  (parameters->pressure * parameters->velocity * layer_wear_rate(&unit, r.power));
     b.regime = regime_of(r.log_ratio);
     b.relaxation_time = relaxation_of(&r, b.thickness);
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;

@@ -19,6 +19,9 @@ static const double least_fold = 1e-7;
 /* Golden sections that leave 1e-8 of a bracket, where an extremum is flat to 1e-16. */
 enum { SECTIONS = 40 };
 
+/* What is so much thinner than the first thickness of the grid is none. */
+static const double below_grid = 1e-9;
+
 typedef struct loop_search {
     wt_layer_energy_fn energy;
     void *user;
@@ -101,6 +104,24 @@ static void add_fold(loop_search *s, double low, double high, bool maximum, wt_l
         (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
 }
 
+/* A balance below the grid, where the bare surface is modified and a layer of its first thickness
+ * is worn: so near to 0 that it is 0 where the energy jumps there, as that of shearing does. */
+static void add_thinnest(loop_search *s, double log_low, wt_layer_loop *loop)
+{
+    const double least = log_low + log(below_grid);
+    double root = -HUGE_VAL;
+    if (log_ratio_at(least, s) > 0) {
+        const wt_status status = root_find(log_ratio_at, s, least, log_low, 0, &root, s->err);
+        s->status = s->status == WT_OK ? status : s->status;
+    }
+    if (s->status != WT_OK)
+        return;
+    if (isfinite(root))
+        add_root(s, exp(root), loop);
+    else
+        loop->root[loop->n_roots++] = (wt_layer_root){0, true, (double)NAN, (double)NAN};
+}
+
 /* Crossings and extrema of values on a grid of ln d. */
 static void search_grid(loop_search *s, const double *x, const double *value, size_t n,
                         wt_layer_loop *loop)
@@ -141,6 +162,8 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
         x[i] = log(low) + log(high / low) * (double)i / (double)(grid - 1);
         value[i] = log_ratio_at(x[i], &s);
     }
+    if (s.status == WT_OK && bare > 0 && !(value[0] > 0))
+        add_thinnest(&s, x[0], &l);
     if (s.status == WT_OK)
         search_grid(&s, x, value, grid, &l);
     free(x);
@@ -217,9 +240,14 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
     if (!(target > 0)) {
         for (size_t i = 0; i < n; i++)
             points[i] = (wt_layer_point){time[i], {.unit = "m"}, bare.formation, bare.wear};
-        return loop->ratio > 1
-                   ? wt_fail(err, WT_E_RANGE, "a layer grows beyond the thicknesses looked at")
-                   : WT_OK;
+        if (!(loop->ratio > 1) || loop->n_roots > 0)
+            return WT_OK;
+        wt_fail(err, WT_E_RANGE, "a layer that acts back grows beyond the longest waves");
+        wt_error_expected(err, "a balance below %.3g um", 1e6 * loop->high);
+        wt_error_found(err, "none, with R = %.3g on a bare surface", loop->ratio);
+        wt_error_advice(err,
+                        "without wear, or with little, it has no balance: leave out acts-back");
+        return WT_E_RANGE;
     }
     layer_own *own = calloc(1, sizeof *own);
     if (own == NULL)

@@ -16,8 +16,9 @@ double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_
 {
     double stress = bulk;
     if (layer.thickness > 0) {
-        const double there = shear->reach > 0 ? -expm1(-layer.thickness / shear->reach) : 1;
-        stress *= 1 + (pow(layer.modulus_ratio, shear->exponent) - 1) * there;
+        const double whole = pow(layer.modulus_ratio, shear->exponent);
+        stress *=
+            shear->reach > 0 ? 1 - (whole - 1) * expm1(-layer.thickness / shear->reach) : whole;
     }
     /* one contact of diameter D = sqrt(4 (A/A0) / (pi eta)) at each asperity, 4 G / (pi D) */
     if (shear->crack_energy > 0)

@@ -190,6 +190,76 @@ static void running_in_joins_both(void **state)
     wt_table_free(running);
 }
 
+/* One law of the shear stress, in running-in and in friction: exponent, reach and cracks. */
+static void one_shear_stress(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    job.shear = (wt_layer_shear){2, 3e-6, 1, 1e-5};
+    wt_table *running = NULL, *layer = layer_of(&job);
+    wt_error err = WT_ERROR_INIT;
+    wt_layer_known known = {.thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
+                            .modulus_ratio = {0.5, 0, 0, "1"}};
+    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    static const char *const of_running[] = {"bare_friction", "balance_friction"},
+                             *const of_friction[] = {"friction_at_reference",
+                                                     "friction_with_layer_at_reference"};
+    for (int with = 0; with < 2; with++) {
+        wt_friction_tables friction = {0};
+        known.shear = with ? &job.shear : NULL;
+        assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
+        for (int i = 0; i < 2; i++) {
+            const double apart =
+                key_number(friction.friction, of_friction[i]) / key_number(running, of_running[i]) -
+                1;
+            assert_int_equal(fabs(apart) < 1e-9, with); /* without it they differ by per cents */
+            assert_int_equal(fabs(apart) > 1e-2, !with);
+        }
+        wt_friction_tables_clear(&friction);
+    }
+    wt_table_free(layer);
+    wt_table_free(running);
+}
+
+/* Shearing a layer costs what its own shear stress says; a bare surface that is modified where its
+ * first layer is worn stays at none, and a balance thinner than any wave is found. */
+static void shearing_the_layer(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_error err = WT_ERROR_INIT;
+    wt_table *balances = NULL, *running = NULL;
+    double thickness[2];
+    wt_layer_job job = job_of();
+    job.acts_back = true;
+    job.energy = WT_LAYER_SHEAR;
+    for (int k = 0; k < 2; k++) {
+        job.shear.exponent = k;
+        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+                         WT_OK);
+        thickness[k] = cell(balances, 0, "thickness");
+        wt_table_free(balances);
+    }
+    assert_true(thickness[1] > 0 && thickness[1] < 0.9 * thickness[0]);
+    for (int k = 0; k < 2; k++) {
+        job.energy = k ? WT_LAYER_HYSTERESIS : WT_LAYER_SHEAR;
+        wt_table *layer = layer_of(&job);
+        job.specific_wear_rate.value =
+            key_number(layer, "critical_specific_wear_rate") / (k ? 1.001 : 1.1);
+        wt_table_free(layer);
+        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+                         WT_OK);
+        assert_int_equal(cell(balances, 0, "thickness") > 0, k);
+        assert_true(cell(balances, 0, "thickness") < 1e-8);
+        assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+        assert_near(key_number(running, "balance_thickness"), cell(balances, 0, "thickness"), 1e-9);
+        wt_table_free(balances);
+        wt_table_free(running);
+    }
+}
+
 /* At the edge R is 1, and beyond it there is no layer and no change of friction. */
 static void existence_ends_where_it_says(void **state)
 {
@@ -209,6 +279,12 @@ static void existence_ends_where_it_says(void **state)
         assert_int_equal(cell(existence, row, "thickness") > 0, there);
         assert_int_equal(cell(existence, row, "change") != 0, there);
     }
+    static const double other_way[] = {10, 1, 1e-2, 0.1, 1e-3};
+    wt_table *again = NULL;
+    sliding.velocity = other_way;
+    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &again, &err), WT_OK);
+    assert_near(key_number(again, "to_velocity"), edge, 1e-9);
+    wt_table_free(again);
     sliding.velocity = &edge;
     sliding.n_velocity = 1;
     wt_table *layer = layer_of(&job);
@@ -229,6 +305,11 @@ static void refuses(void **state)
     const wt_layer_known unknown = {.modulus_ratio = {(double)NAN, 0, 0, "1"}};
     assert_int_equal(wt_running_in_make(&sliding, &job, &unknown, &work, &table, &err),
                      WT_E_MISSING);
+    const wt_layer_known given = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    job.acts_back = true;
+    job.start_thickness = 1e-6;
+    assert_int_equal(wt_running_in_make(&sliding, &job, &given, &work, &table, &err), WT_E_ARG);
+    job = job_of();
     job.energy = WT_LAYER_SHEAR;
     sliding.shear_stress.value = (double)NAN;
     assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_E_MISSING);
@@ -253,6 +334,8 @@ int main(void)
         cmocka_unit_test(bands_are_the_layer),
         cmocka_unit_test(loads_in_parts),
         cmocka_unit_test(running_in_joins_both),
+        cmocka_unit_test(one_shear_stress),
+        cmocka_unit_test(shearing_the_layer),
         cmocka_unit_test(existence_ends_where_it_says),
         cmocka_unit_test(refuses),
     };

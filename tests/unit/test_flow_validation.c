@@ -131,6 +131,41 @@ static void test_needed(void **state)
     }
 }
 
+/* A layer without end has no friction, and that another one is judged is said. */
+static void test_endless_layer(void **state)
+{
+    (void)state;
+    set_up();
+    make_record(5e6, surface.q1, 0, 0.003, false);
+    known.thickness = (wt_estimate){(double)INFINITY, 0, 0, "m"};
+    const wt_validation_job job = job_of(true);
+    wt_validation_tables t = made(&job);
+    check_begins(t.validation, "judged", "friction without");
+    assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "grows without end"));
+    wt_validation_tables_clear(&t);
+}
+
+/* Cracks and the law of the shear stress of a layer are in the prediction as they are in friction.
+ */
+static void test_layer_shear(void **state)
+{
+    (void)state;
+    static const wt_layer_shear shear = {2, 1e-6, 2, 1e-5};
+    for (int layered = 0; layered < 2; layered++) {
+        set_up();
+        known.shear = &shear;
+        make_record(5e6, surface.q1, 0, 0.003, layered != 0);
+        const wt_validation_job job = job_of(true);
+        wt_validation_tables t = made(&job);
+        for (size_t i = 0; i < STEPS; i++)
+            assert_true(fabs(number_cell(t.validation, i, layered ? "ratio_with_layer" : "ratio") -
+                             1) < 1e-9);
+        if (layered)
+            assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 5e6 - 1) < 1e-6);
+        wt_validation_tables_clear(&t);
+    }
+}
+
 /* A cut-off that is moved is found where it was moved to. */
 static void test_cutoff(void **state)
 {
@@ -301,6 +336,9 @@ static void test_refusals(void **state)
     job = job_of(false);
     job.margin = 7;
     assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_RANGE);
+    job = job_of(false);
+    job.plausible_low = 2e7; /* above the other end */
+    assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_RANGE);
     job.record = NULL;
     assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_ARG);
     assert_null(t.validation);
@@ -317,6 +355,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_needed),
+        cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),
         cmocka_unit_test(test_cutoff),
         cmocka_unit_test(test_verdicts),
         cmocka_unit_test(test_sources),

@@ -543,6 +543,7 @@ static void regimes(void **state)
 {
     (void)state;
     rig r = rig_mild();
+    r.parameters.severity_power = balance_of(&r).surface_power / 3; /* k is four times as large */
     const double critical = balance_of(&r).critical_specific_wear_rate;
     const struct {
         double k;

@@ -686,6 +686,13 @@ static void test_layer_models(void **state)
         see(table[i]);
         wt_table_free(table[i]);
     }
+    const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
+    const wt_layer_known sheared = {
+        .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &shear};
+    wt_friction_tables friction = {0};
+    assert_int_equal(wt_friction_make(&sliding, &sheared, &work, &friction, &err), WT_OK);
+    see(friction.friction);
+    wt_friction_tables_clear(&friction);
 }
 
 /* So slow that nothing is lost: of no friction there is no share. */

@@ -65,6 +65,8 @@
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_SHEAR_LAW, AS(shear_law), TEXT, LABEL("Shear stress of the real contact"),      \
       OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_LAYER_SHEAR, "layer_shear_stress", TEXT, SHOWS(layer_shear),                    \
+      LABEL("Shear stress of the layer"), OPTIONAL)                                                \
     X(FRICTION_KEY_SHEAR_AT_REFERENCE, "shear_stress_at_reference", SI(PRESSURE),                  \
       SHOWS(shear_at_reference), LABEL("Shear stress at the reference velocity"), OPTIONAL)        \
     X(FRICTION_KEY_BY_MODULUS, "sensitivity_to_modulus", NUMBER, SHOWS(by_modulus),                \

@@ -45,7 +45,8 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
     if (given == NULL && !by_force) {
         const wt_status status = wt_fail(err, WT_E_MISSING, "a friction force without a load");
         wt_error_expected(err, "a column of the normal force or of the friction coefficient");
-        wt_error_advice(err, "give the load, e.g. --load 5N");
+        wt_error_advice(err, "give the load: weartrack record --load 5N, or <load> in the "
+                             "<record> of a case");
         return status;
     }
     for (size_t i = 0; i < record->n; i++) {

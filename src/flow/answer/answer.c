@@ -513,6 +513,10 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&wear_schema, "", &story->wear},
         {&validation_schema, "", &story->validation},
         {&validation_sources_schema, "", &story->validation_sources},
+        {&layer_bands_schema, "", &story->layer_bands},
+        {&layer_balances_schema, "", &story->layer_balances},
+        {&existence_schema, "", &story->existence},
+        {&running_in_schema, "", &story->running_in},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -537,7 +541,9 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_layer(&story);
     answer_difference(&story);
     answer_thickness(&story);
+    answer_layer_models(&story);
     answer_friction(&story);
+    answer_running_in(&story);
     answer_validation(&story);
     answer_surface(&story);
     answer_record(&story);

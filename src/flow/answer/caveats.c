@@ -309,11 +309,13 @@ static void tell_theory(telling *t, const table_view *friction)
              "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
              "contact.",
              temperature, heating);
-    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
+    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL) {
+        const char *const shear = friction_words(friction, FRICTION_KEY_LAYER_SHEAR);
         tell(t,
              " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
-             "shear stress is scaled by the same ratio; neither is measured at the frequencies "
-             "of sliding.");
+             "shear stress is %s; neither is measured at the frequencies of sliding.",
+             shear != NULL ? shear : "scaled by the same ratio");
+    }
 }
 
 static void friction_caveats(answer_story *story)
@@ -396,11 +398,16 @@ static void layer_caveats(answer_story *story)
          " The layer model (%s closure, wear by Archard's law) is not validated against "
          "measured thicknesses. ",
          closure != NULL ? "activated" : "energy");
+    const char *const but =
+        story->layer_balances.table != NULL ? " but in the table layer_balances" : "";
     if (energy_from != NULL)
-        tell(&t, "What modifies the rubber is %s; the layer does not act back on it.", energy_from);
+        tell(&t, "What modifies the rubber is %s; the layer does not act back on it%s.",
+             energy_from, but);
     else
-        tell(&t, "Its energy is the hysteresis of the bulk alone: the layer does "
-                 "not act back on it, and shearing of the surface is not counted.");
+        tell(&t,
+             "Its energy is the hysteresis of the bulk alone: the layer does not act back on it%s, "
+             "and shearing of the surface is not counted.",
+             but);
     tell_interval(&t, "thickness", &thickness);
     answer_caveat(story, CAVEAT_THICKNESS, "%s", text);
     depth_caveats(story, thickness.number.value);

@@ -30,8 +30,7 @@ void answer_surface(const answer_story *story)
     const double first = power_spectrum_get(spectrum, 0, POWER_SPECTRUM_WAVENUMBER),
                  last =
                      power_spectrum_get(spectrum, spectrum->n_rows - 1, POWER_SPECTRUM_WAVENUMBER);
-    const bool several =
-        isfinite(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_PLACES_ERROR).value);
+    const double places = power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_PLACES_ERROR).value;
     const size_t n = story->surfaces.n_rows;
     char text[900];
     telling t = {text, sizeof text, 0};
@@ -44,7 +43,8 @@ void answer_surface(const answer_story *story)
          words_of(2 * M_PI / first, "m").text, words_of(2 * M_PI / last, "m").text);
     tell_beyond(&t, story);
     tell(&t, " The errors of friction and contact area hold the scatter of its spectrum%s.",
-         several ? " and from place to place"
-                 : ", but not what another place of the surface would give");
+         places > 0    ? " and from place to place"
+         : places == 0 ? "; its places differ by no more than that"
+                       : ", but not what another place of the surface would give");
     answer_say(story, "What is the counter surface like?", "surface", "%s", text);
 }

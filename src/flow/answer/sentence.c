@@ -368,13 +368,19 @@ static void say_identification(sentence *s, const table_view *v)
             words_of_known(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
     }
     for (size_t i = 1; i < v->n_rows; i++) {
+        const double energy = identification_get(v, i, IDENTIFICATION_ENERGY),
+                     wear = MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR);
         next(s);
-        say(s, "by %s U_c = %s (95 %%: %s to %s), k = %.3g mm^3/(N m) (%.3g to %.3g)",
-            identification_text(v, i, IDENTIFICATION_BY),
-            words_of(identification_get(v, i, IDENTIFICATION_ENERGY), "J/m^3").text,
+        say(s, "by %s U_c = %s", identification_text(v, i, IDENTIFICATION_BY),
+            words_of(energy, "J/m^3").text);
+        if (isnan(identification_get(v, i, IDENTIFICATION_ENERGY_LOW))) {
+            say(s, ", k = %.3g mm^3/(N m) (%s)", wear,
+                identification_text(v, i, IDENTIFICATION_NOTE));
+            continue;
+        }
+        say(s, " (95 %%: %s to %s), k = %.3g mm^3/(N m) (%.3g to %.3g)",
             words_of(identification_get(v, i, IDENTIFICATION_ENERGY_LOW), "J/m^3").text,
-            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_HIGH), "J/m^3").text,
-            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR),
+            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_HIGH), "J/m^3").text, wear,
             MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_LOW),
             MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_HIGH));
     }

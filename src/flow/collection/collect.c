@@ -190,7 +190,7 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
                       friction_get(t, row,
                                    total ? FRICTION_TOTAL_STANDARD_ERROR
                                          : FRICTION_HYSTERESIS_STANDARD_ERROR),
-                      friction_get(t, row, FRICTION_WITH_LAYER));
+                      total ? friction_get(t, row, FRICTION_WITH_LAYER) : (double)NAN);
         }
     }
     TABLE_SET(collected_friction, &w, total ? "friction" : "hysteresis");

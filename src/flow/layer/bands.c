@@ -5,6 +5,7 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
+#include "base/quantity.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -36,12 +37,14 @@ static void say_load(bands_task *task, const layer_load *load)
 {
     const wt_layer_parameters *p = &task->stage[task->n].parameters;
     const size_t used = strlen(task->loads);
-    char lasts[48] = "for ever";
+    char lasts[48] = "for ever", warm[32] = "";
+    if (!isnan(load->temperature))
+        clocale_print(warm, sizeof warm, ", %.1f degC", load->temperature - WT_ZERO_CELSIUS);
     if (!isnan(load->time))
         clocale_print(lasts, sizeof lasts, "%.4g s", load->time);
     clocale_print(task->loads + used, sizeof task->loads - used,
-                  "%s%s at %.4g MPa, %.4g mm/s, k = %.3g mm^3/(N m)", used > 0 ? "; then " : "",
-                  lasts, 1e-6 * p->pressure, 1e3 * p->velocity, 1e9 * p->specific_wear_rate);
+                  "%s%s at %.4g MPa, %.4g mm/s, k = %.3g mm^3/(N m)%s", used > 0 ? "; then " : "",
+                  lasts, 1e-6 * p->pressure, 1e3 * p->velocity, 1e9 * p->specific_wear_rate, warm);
 }
 
 static wt_status add_load(bands_task *task, const layer_load *load, wt_error *err)

@@ -43,7 +43,7 @@ wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job 
         status = sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
     const double velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
     if (status == WT_OK)
-        status = layer_energy_make(sliding, job, &c, velocity, &energy, err);
+        status = layer_energy_make(sliding, job, &c, velocity, none, &energy, err);
     sliding_contact_clear(&c);
     if (status != WT_OK)
         return status;

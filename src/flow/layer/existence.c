@@ -9,6 +9,7 @@
 #include "model/root.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* To so much of a velocity an edge is found. */
@@ -166,6 +167,26 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
     return table_end(&t, table);
 }
 
+static int by_value(const void *left, const void *right)
+{
+    const double *const a = left, *const b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+/* The same with its velocities from the least on, between which edges are looked for. */
+static wt_status order_velocities(const wt_sliding *sliding, wt_sliding *own, double **velocity,
+                                  wt_error *err)
+{
+    *velocity = malloc((sliding->n_velocity + 1) * sizeof **velocity);
+    if (*velocity == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    memcpy(*velocity, sliding->velocity, sliding->n_velocity * sizeof **velocity);
+    qsort(*velocity, sliding->n_velocity, sizeof **velocity, by_value);
+    *own = *sliding;
+    own->velocity = *velocity;
+    return WT_OK;
+}
+
 wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
                             const wt_layer_known *known, const wt_job *work, wt_table **table,
                             wt_error *err)
@@ -173,13 +194,17 @@ wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no existence of a layer to make");
     const double unset = (double)NAN;
-    existence_task task = {.sliding = sliding,
+    wt_sliding own;
+    double *velocity = NULL;
+    existence_task task = {.sliding = &own,
                            .known = known,
                            .work = work,
                            .err = err,
                            .edge = {unset, unset},
                            .power = {unset, unset}};
     wt_status status = layer_job_known(sliding, job, known, work, &task.job, err);
+    if (status == WT_OK)
+        status = order_velocities(sliding, &own, &velocity, err);
     if (status == WT_OK) {
         find_edges(&task);
         status = task.status;
@@ -187,6 +212,7 @@ wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
     if (status == WT_OK)
         status = make_table(&task, table, err);
     const size_t blocks = status == WT_OK && sliding->n_pressures > 0 ? sliding->n_pressures : 1;
+    free(velocity);
     cost_say(work, (cost_summary){.items = (double)blocks, .tolerance_asked = work->tolerance});
     return status;
 }

@@ -223,6 +223,8 @@ static void add_way(const identify_task *task, way by, const identified *found, 
                  !(job->observed_thickness.standard_error > 0) ? "thickness"
                  : by == BY_WEAR                               ? "wear rate"
                                                                : "running-in time");
+    } else if (task->work->replicates == 0) {
+        snprintf(row.note, sizeof row.note, "no interval: no replicates are drawn");
     } else {
         find_axes(found->error[LN_ENERGY + by], found->error[LN_WEAR + by],
                   found->error[LN_PRODUCT], &row);
@@ -241,10 +243,12 @@ static void add_thickness_alone(const identify_task *task, wt_interval product, 
                               .loose = "U_c k^-1.00",
                               .loose_error = (double)INFINITY,
                               .tight_error = product.standard_error / product.value * M_SQRT1_2};
-    row.energy.low = fmax(job->energy_low, product.low / job->wear_high);
-    row.energy.high = fmin(job->energy_high, product.high / job->wear_low);
-    row.wear.low = fmax(job->wear_low, product.low / job->energy_high);
-    row.wear.high = fmin(job->wear_high, product.high / job->energy_low);
+    const double low = isnan(product.low) ? product.value : product.low,
+                 high = isnan(product.high) ? product.value : product.high;
+    row.energy.low = fmax(job->energy_low, low / job->wear_high);
+    row.energy.high = fmin(job->energy_high, high / job->wear_low);
+    row.wear.low = fmax(job->wear_low, low / job->energy_high);
+    row.wear.high = fmin(job->wear_high, high / job->energy_low);
     if (!(row.energy.low <= row.energy.high)) {
         row.energy = row.wear = not_known;
         snprintf(row.note, sizeof row.note,
@@ -346,15 +350,38 @@ static wt_status hold_thickness(const identify_task *task, identified *found, wt
     identify_task held = task_of(task->sliding, &job, task->work);
     wt_status status = draw_errors(&held, found->rest, err);
     replicates_clear(&held.replicates);
-    for (size_t k = 0; k < NUMBERS; k++) /* nothing else scatters */
+    for (size_t k = 0; k < NUMBERS; k++) /* nothing else scatters, or it is not asked what does */
         if (held.replicates.n == 0)
-            found->rest[k] = 0;
+            found->rest[k] = task->work->replicates > 0 ? 0 : (double)NAN;
     for (int end = 0; status == WT_OK && end < 2; end++) {
         job.observed_thickness.value =
             end == 0 ? thickness.value / factor : thickness.value * factor;
         status = find_all(&held, WT_NO_REPLICATE, found->at_end[end], err);
     }
     return status;
+}
+
+static wt_status check_range(const char *first, const char *last, double low, double high,
+                             wt_error *err)
+{
+    if (low < high)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "a range of the literature has no room");
+    wt_error_place(err, "%s, %s", first, last);
+    wt_error_expected(err, "the first below the second");
+    wt_error_found(err, "%g and %g", low, high);
+    return WT_E_RANGE;
+}
+
+static wt_status check_job(const wt_identify_job *job, wt_error *err)
+{
+    wt_status status = param_check(wt_identify_job_params(), job, err);
+    if (status == WT_OK)
+        status =
+            check_range("prior-wear-from", "prior-wear-to", job->wear_low, job->wear_high, err);
+    return status == WT_OK ? check_range("prior-energy-from", "prior-energy-to", job->energy_low,
+                                         job->energy_high, err)
+                           : status;
 }
 
 wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
@@ -364,7 +391,7 @@ wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job
         return wt_fail(err, WT_E_ARG, "no identification job");
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
-        status = param_check(wt_identify_job_params(), job, err);
+        status = check_job(job, err);
     if (status != WT_OK)
         return status;
     identify_task task = task_of(sliding, job, work);

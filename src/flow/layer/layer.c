@@ -88,7 +88,7 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
                                             none, &c, err);
     if (status == WT_OK)
-        status = layer_energy_make(task->sliding, job, &c, task->velocity, &run->energy, err);
+        status = layer_energy_make(task->sliding, job, &c, task->velocity, none, &run->energy, err);
     if (status == WT_OK) {
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;

@@ -24,7 +24,8 @@ static double power_factor(const wt_layer_job *job, const layer_energy *e)
 }
 
 /* Friction and contact area, and what shearing costs. */
-static wt_status find_area(const wt_sliding *sliding, const sliding_contact *c, double velocity,
+static wt_status find_area(const wt_sliding *sliding, const wt_layer_job *job,
+                           const sliding_contact *c, double velocity, wt_layer_state layer,
                            layer_energy *e, wt_error *err)
 {
     const wt_status status =
@@ -32,14 +33,16 @@ static wt_status find_area(const wt_sliding *sliding, const sliding_contact *c, 
     if (status != WT_OK)
         return status;
     e->has_point = true;
+    const double area = e->point.area_ratio.value;
     e->shear_power =
-        sliding_shear(sliding, c, &e->point) * e->point.area_ratio.value * fabs(velocity);
+        wt_layer_shear_stress(&job->shear, sliding_shear(sliding, c, &e->point), layer, area) *
+        area * fabs(velocity);
     return WT_OK;
 }
 
 wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const sliding_contact *contact, double velocity, layer_energy *energy,
-                            wt_error *err)
+                            const sliding_contact *contact, double velocity, wt_layer_state layer,
+                            layer_energy *energy, wt_error *err)
 {
     layer_energy e = {.shear_power = (double)NAN};
     if (job->energy != WT_LAYER_HYSTERESIS && isnan(sliding->shear_stress.value)) {
@@ -51,7 +54,7 @@ wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
     wt_status status =
         wt_energy_source_friction(contact->workspace, contact->pressure, velocity, &e.source, err);
     if (status == WT_OK && layer_needs_area(job))
-        status = find_area(sliding, contact, velocity, &e, err);
+        status = find_area(sliding, job, contact, velocity, layer, &e, err);
     e.source.profile = job->profile;
     e.source.local_friction = job->local_friction;
     for (size_t i = 0; i < e.source.n; i++)

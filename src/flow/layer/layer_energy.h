@@ -17,8 +17,8 @@ typedef struct layer_energy {
 bool layer_needs_area(const wt_layer_job *job);
 /* WT_E_MISSING if shearing counts and its stress is not known. */
 wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const sliding_contact *contact, double velocity, layer_energy *energy,
-                            wt_error *err) WT_NODISCARD;
+                            const sliding_contact *contact, double velocity, wt_layer_state layer,
+                            layer_energy *energy, wt_error *err) WT_NODISCARD;
 void layer_energy_clear(layer_energy *energy);
 /* The parameters of a replicate but for the critical energy, which may have to be calibrated. */
 wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_contact *contact,

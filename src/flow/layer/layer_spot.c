@@ -47,7 +47,7 @@ wt_status layer_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_
     sliding_contact c = {0};
     wt_status status = contact_at(&s, work, spot, &c, err);
     if (status == WT_OK)
-        status = layer_energy_make(&s, job, &c, velocity, energy, err);
+        status = layer_energy_make(&s, job, &c, velocity, spot.layer, energy, err);
     if (status == WT_OK)
         *parameters = layer_parameters_of(job, &c, velocity, energy, 0, WT_NO_REPLICATE);
     sliding_contact_clear(&c);

@@ -1,9 +1,9 @@
 /* The table of the friction in running-in: the layer grows, and friction with it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/layer/acts_back.h"
+#include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
 
-#include "base/clocale.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -62,6 +62,12 @@ static wt_status grow_back(running_task *task, wt_error *err)
                                  task->points, err);
 }
 
+static int by_time(const void *left, const void *right)
+{
+    const double *const a = left, *const b = right;
+    return (*a > *b) - (*a < *b);
+}
+
 static wt_status grow(running_task *task, wt_error *err)
 {
     wt_energy_source source = {0};
@@ -72,7 +78,8 @@ static wt_status grow(running_task *task, wt_error *err)
         status = wt_layer_balance_compute(&source, &p, &balance, err);
     if (status == WT_OK)
         status = layer_times_choose(&task->job, &balance, &task->time, &task->n, err);
-    if (status == WT_OK) {
+    if (status == WT_OK) { /* what is left is looked for from the last time on */
+        qsort(task->time, task->n, sizeof *task->time, by_time);
         task->points = calloc(task->n + 1, sizeof *task->points);
         task->friction = calloc(task->n + 1, sizeof *task->friction);
         if (task->points == NULL || task->friction == NULL)
@@ -141,20 +148,10 @@ static wt_status follow_friction(running_task *task, wt_error *err)
 
 static void say_shear(running_task *task)
 {
-    const wt_layer_shear *s = &task->job.shear;
-    char reach[64] = "", cracks[96] = "";
-    if (s->reach > 0)
-        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)", 1e6 * s->reach);
-    if (s->crack_energy > 0)
-        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
-                      s->crack_energy, 1e6 * s->spacing);
     if (isnan(task->back.sliding->shear_stress.value))
         snprintf(task->shear, sizeof task->shear, "not known: hysteresis alone");
     else
-        clocale_print(task->shear, sizeof task->shear,
-                      "that of the bulk times the modulus ratio to the power of %.3g "
-                      "(reconstructed)%s%s",
-                      s->exponent, reach, cracks);
+        sliding_layer_shear_describe(&task->job.shear, task->shear, sizeof task->shear);
 }
 
 static wt_status make_table(running_task *task, double velocity, wt_table **table, wt_error *err)
@@ -187,6 +184,13 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
+    if (job->acts_back && job->start_thickness > 0) {
+        wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
+        wt_error_place(err, "start-thickness");
+        wt_error_found(err, "%g m", job->start_thickness);
+        wt_error_advice(err, "leave out start-thickness, or acts-back");
+        return WT_E_ARG;
+    }
     running_task task = {.n = 0};
     wt_status status = layer_job_known(sliding, job, known, work, &task.job, err);
     task.back = (acts_back){sliding, &task.job, work, known->modulus_ratio.value};

@@ -467,6 +467,7 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
 {
     *known = run->c->known;
+    known->shear = &run->c->layer.shear;
     known->thickness = run->thickness;
     known->modulus_ratio = run->modulus_ratio;
     known->modulus_ratio_df = run->modulus_ratio_df;

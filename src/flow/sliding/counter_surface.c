@@ -125,8 +125,10 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
-        place.value > 0 && isfinite(place.value))
+        place.value >= 0 && isfinite(place.value)) {
         surface->c0.standard_error = place.value;
+        surface->places_known = true;
+    }
     surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
     surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
     return WT_OK;

@@ -63,7 +63,9 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
         numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
         numbers_of_kind(out, task->n, TOTAL)[i] =
             points[i].hysteresis.value +
-            sliding_shear(task->sliding, c, &points[i]) * points[i].area_ratio.value / c->pressure;
+            sliding_layer_shear(task->layer, sliding_shear(task->sliding, c, &points[i]), none,
+                                points[i].area_ratio.value) *
+                points[i].area_ratio.value / c->pressure;
         numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
         numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
         numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
@@ -81,10 +83,10 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        double with =
-            points[i].hysteresis.value + sliding_layer_shear(task->layer, layer) *
-                                             sliding_shear(task->sliding, &c, &points[i]) *
-                                             points[i].area_ratio.value / c.pressure;
+        double with = points[i].hysteresis.value +
+                      sliding_layer_shear(task->layer, sliding_shear(task->sliding, &c, &points[i]),
+                                          layer, points[i].area_ratio.value) *
+                          points[i].area_ratio.value / c.pressure;
         double without = numbers_of_kind(out, task->n, TOTAL)[i];
         numbers_of_kind(out, task->n, LAYERED)[i] = with;
         numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
@@ -129,7 +131,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            size_t replicates; const char *includes, *lacks, *statement;
            wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
            char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
-           char area_law[128], shear_law[256];)
+           char area_law[128], shear_law[256], layer_shear[256];)
 
 /* Of the values themselves, with what the replicates scatter. */
 static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
@@ -144,7 +146,10 @@ static void add_rows(friction_task *task, const sliding_contact *c, table_writer
     const wt_sliding *s = task->sliding;
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
-        const wt_estimate shear = {sliding_shear(s, c, p), 0, 0, "Pa"};
+        const wt_layer_state none = {.modulus_ratio = 1};
+        const wt_estimate shear = {
+            sliding_layer_shear(task->layer, sliding_shear(s, c, p), none, p->area_ratio.value), 0,
+            0, "Pa"};
         friction_row row = {
             .velocity = p->velocity,
             .extrapolated_share = extrapolated_share(s->rubber, p),
@@ -192,6 +197,10 @@ static void describe_options(const friction_task *task, const sliding_contact *c
     const wt_shear_law *law = &s->shear_law;
     snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
+    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL &&
+        !sliding_layer_shear_is_plain(task->layer->shear))
+        sliding_layer_shear_describe(task->layer->shear, keys->layer_shear,
+                                     sizeof keys->layer_shear);
     if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
         return;
     clocale_print(keys->shear_law, sizeof keys->shear_law,
@@ -376,10 +385,10 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
                                            &task->by, err);
     if (status != WT_OK)
         return status;
-    const double shear =
-        sliding_shear(task->sliding, c, &task->points[last]) / task->sliding->pressure.value;
+    const double pressure = task->sliding->pressure.value,
+                 shear = sliding_shear(task->sliding, c, &task->points[last]);
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
-    task->numerical[0] = total_error(&task->points[last], shear);
+    task->numerical[0] = total_error(&task->points[last], shear / pressure);
     note_not_reached(task, task->points);
     if (task->layer == NULL)
         return WT_OK;
@@ -388,9 +397,10 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK) {
-        task->numerical[1] =
-            total_error(&layered[last],
-                        shear * sliding_layer_shear(task->layer, layer_of(task, WT_NO_REPLICATE)));
+        task->numerical[1] = total_error(
+            &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
+                                                layered[last].area_ratio.value) /
+                                pressure);
         note_not_reached(task, layered);
     }
     free(layered);

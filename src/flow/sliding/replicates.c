@@ -59,8 +59,10 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     replicates_add(&r, sliding->pressure.standard_error, FLOW_DRAW_PRESSURE, "pressure");
     replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
     const bool measured = sliding->surface->modes_error != NULL;
-    replicates_add(&r, sliding->surface->c0.standard_error, FLOW_DRAW_DENSITY,
-                   measured ? "places of the surface" : "roughness");
+    const double places = sliding->surface->c0.standard_error;
+    if (places > 0 || !sliding->surface->places_known) /* else they differ by no more than modes */
+        replicates_add(&r, places, FLOW_DRAW_DENSITY,
+                       measured ? "places of the surface" : "roughness");
     if (measured)
         add_drawn(&r, "scatter of the spectrum");
     if (anisotropy_is_any(&sliding->anisotropy))

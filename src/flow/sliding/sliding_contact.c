@@ -9,6 +9,8 @@
 #include "kernel/friction.h"
 #include "kernel/params.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -219,9 +221,35 @@ wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t 
     return state;
 }
 
-double sliding_layer_shear(const wt_layer_known *known, wt_layer_state layer)
+double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+                           double area_ratio)
 {
-    return known->bulk_shear ? 1 : layer.modulus_ratio;
+    if (known == NULL)
+        return bulk;
+    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
+    if (known->bulk_shear)
+        shear.exponent = 0;
+    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
+}
+
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear)
+{
+    return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
+}
+
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
+{
+    char reach[64] = "", cracks[96] = "";
+    if (shear->reach > 0)
+        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
+                      1e6 * shear->reach);
+    if (shear->crack_energy > 0)
+        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
+                      shear->crack_energy, 1e6 * shear->spacing);
+    clocale_print(text, size,
+                  "that of the bulk times the modulus ratio to the power of %.3g "
+                  "(reconstructed)%s%s",
+                  shear->exponent, reach, cracks);
 }
 
 void sliding_contact_clear(sliding_contact *contact)

@@ -36,8 +36,13 @@ double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
                      const wt_friction_point *point);
 /* The layer of a replicate, a bare one where its thickness is drawn below 0; `known` NULL: none. */
 wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate);
-/* Shear stress with a layer over that without: tau_s = tau_bulk x modulus ratio (L3). */
-double sliding_layer_shear(const wt_layer_known *known, wt_layer_state layer);
+/* Shear stress with a layer, of that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or as the
+ * layer says; cracks are opened without one, too. `known` NULL: that of the bulk. */
+double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+                           double area_ratio);
+/* The modulus ratio at once and no cracks, which need no words; the law in words. */
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear);
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif

@@ -65,7 +65,7 @@ static void join_flicker(measured *m)
         }
 }
 
-static void add_remark(measured *m, const char *words)
+void measured_remark(measured *m, const char *words)
 {
     const size_t used = strlen(m->remarks);
     snprintf(m->remarks + used, sizeof m->remarks - used, "%s%s", used > 0 ? "; " : "", words);
@@ -84,15 +84,17 @@ static void say_remarks(measured *m, const table_view *record)
         heaviest = fmax(heaviest, load);
     }
     if (velocity)
-        add_remark(m, "the record does not say the velocity of every step: that of the case");
+        measured_remark(m, "the record does not say the velocity of every step: that of the case");
     if (temperature)
-        add_remark(m, "the record does not say the temperature of every step: that of the case");
+        measured_remark(m,
+                        "the record does not say the temperature of every step: that of the case");
     if (pressure)
-        add_remark(m, "the record does not say the nominal pressure of every step: that of the "
-                      "case");
+        measured_remark(m,
+                        "the record does not say the nominal pressure of every step: that of the "
+                        "case");
     if (pressure && heaviest > same_load * lightest)
-        add_remark(m, "the load changes between the steps, and the pressure with it: what the "
-                      "steps of another load say is not of the theory alone");
+        measured_remark(m, "the load changes between the steps, and the pressure with it: what the "
+                           "steps of another load say is not of the theory alone");
 }
 
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,

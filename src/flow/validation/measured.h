@@ -24,6 +24,8 @@ typedef struct measured {
 
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
                         wt_error *err) WT_NODISCARD;
+/* One more in the key remarks. */
+void measured_remark(measured *m, const char *words);
 void measured_clear(measured *m);
 /* How many steps from `first` on have its temperature and pressure. */
 size_t measured_alike(const measured *m, size_t first);

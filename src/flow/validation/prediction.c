@@ -20,23 +20,24 @@ static double *numbers_of(double *out, size_t n, prediction_part part)
     return out + (size_t)part * n;
 }
 
-/* One contact: hysteresis, and by how much friction grows with the shear stress of the bulk. */
+/* One contact: friction without a shear stress of the bulk, which is the hysteresis and what cracks
+ * cost, and by how much it grows with that. */
 static wt_status compute_contact(const group *g, wt_drawn *drawn, size_t replicate,
-                                 wt_layer_state layer, double shear_factor,
-                                 wt_friction_point *points, double *hysteresis, double *by_shear,
-                                 wt_error *err)
+                                 wt_layer_state layer, wt_friction_point *points,
+                                 double *hysteresis, double *by_shear, wt_error *err)
 {
     sliding_contact c = {0};
     wt_status status = sliding_contact_make(&g->sliding, g->work, replicate, drawn, layer, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, g->velocity, g->n, points, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++) {
-        const double warm = points[i].temperature.value;
-        hysteresis[i] = points[i].hysteresis.value;
-        by_shear[i] = shear_factor *
-                      wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
-                                      isnan(warm) ? c.temperature : warm) *
-                      points[i].area_ratio.value / c.pressure;
+        const double warm = points[i].temperature.value, area = points[i].area_ratio.value,
+                     cracks = sliding_layer_shear(g->known, 0, layer, area),
+                     of_bulk = wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
+                                               isnan(warm) ? c.temperature : warm);
+        hysteresis[i] = points[i].hysteresis.value + cracks * area / c.pressure;
+        by_shear[i] =
+            (sliding_layer_shear(g->known, of_bulk, layer, area) - cracks) * area / c.pressure;
     }
     sliding_contact_clear(&c);
     return status;
@@ -49,16 +50,16 @@ static wt_status compute_group(const group *g, wt_drawn *drawn, size_t replicate
     wt_friction_point *const points = malloc((g->n + 1) * sizeof *points);
     if (points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = compute_contact(g, drawn, replicate, none, 1, points,
-                                       numbers_of(out, g->n, PART_HYSTERESIS),
-                                       numbers_of(out, g->n, PART_BY_SHEAR), err);
+    wt_status status =
+        compute_contact(g, drawn, replicate, none, points, numbers_of(out, g->n, PART_HYSTERESIS),
+                        numbers_of(out, g->n, PART_BY_SHEAR), err);
     for (size_t i = 0; i < g->n; i++)
         numbers_of(out, g->n, PART_HYSTERESIS_LAYER)[i] =
             numbers_of(out, g->n, PART_BY_SHEAR_LAYER)[i] = (double)NAN;
     if (status == WT_OK && g->known != NULL) {
         const wt_layer_state layer = sliding_layer(g->known, g->work->seed, replicate);
-        status = compute_contact(g, drawn, replicate, layer, sliding_layer_shear(g->known, layer),
-                                 points, numbers_of(out, g->n, PART_HYSTERESIS_LAYER),
+        status = compute_contact(g, drawn, replicate, layer, points,
+                                 numbers_of(out, g->n, PART_HYSTERESIS_LAYER),
                                  numbers_of(out, g->n, PART_BY_SHEAR_LAYER), err);
     }
     free(points);

@@ -5,7 +5,6 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
-#include "base/normal.h"
 #include "base/param.h"
 #include "data/tables/rows.h"
 
@@ -101,7 +100,9 @@ static void add_step(const validation *v, size_t i, table_writer *t)
         fill_ratio(v, false, i, &row.predicted, &row.ratio);
         fill_ratio(v, true, i, &row.with_layer, &row.ratio_with_layer);
         const double error = step_error(&v->shear, i), value = v->shear.value[i],
-                     half = NORMAL_95 * error;
+                     df =
+                         agreement_df(error * error, v->shear.fit.scatter, v->shear.fit.scatter_df),
+                     half = agreement_quantile(df) * error;
         row.needed = (wt_interval){value, error, value - half, value + half};
     }
     validation_add_row(t, &row);
@@ -216,6 +217,7 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
     return WT_OK;
 }
 
+/* ranges: NULL where no choices were held against the record. */
 static wt_status set_keys(const validation *v, const choice_ranges *ranges,
                           const source_advice *advice, table_writer *t, wt_error *err)
 {
@@ -228,7 +230,7 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
     set_plain(t, VALIDATION_KEY_SHEAR, v->used.sliding.shear_stress.value);
     needed_set_keys(v, t);
     wt_status status = v->has_shear ? cutoff_set_keys(v, t, err) : WT_OK;
-    if (v->job->what_if != NULL && v->has_shear)
+    if (ranges != NULL)
         set_ranges(ranges, t);
     if (status == WT_OK)
         status = set_wear(v, t, err);
@@ -265,6 +267,9 @@ static wt_status begin(validation *v, wt_error *err)
         status = measured_make(&record, job->sliding, &v->steps, err);
     v->known = job->known != NULL && isfinite(job->known->thickness.value) ? job->known : NULL;
     v->layered = v->known != NULL;
+    if (status == WT_OK && job->known != NULL && !v->layered)
+        measured_remark(&v->steps, "without wear the layer grows without end and friction with it "
+                                   "is not known: that without a layer is compared");
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
         status = prediction_make(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
@@ -293,7 +298,8 @@ static wt_status make_tables(const validation *v, wt_validation_tables *tables, 
         }
         add_step(v, i, &t);
     }
-    t.status = t.status == WT_OK ? set_keys(v, &ranges, &advice, &t, err) : t.status;
+    const choice_ranges *const held = tables->choices != NULL ? &ranges : NULL;
+    t.status = t.status == WT_OK ? set_keys(v, held, &advice, &t, err) : t.status;
     return table_end(&t, &tables->validation);
 }
 
@@ -309,6 +315,18 @@ static void validation_clear(validation *v)
     measured_clear(&v->steps);
 }
 
+static wt_status check_job(const wt_validation_job *job, wt_error *err)
+{
+    const wt_status status = param_check(wt_validation_job_params(), job, err);
+    if (status != WT_OK || job->plausible_low < job->plausible_high)
+        return status;
+    wt_fail(err, WT_E_RANGE, "no shear stress is plausible");
+    wt_error_place(err, "plausible-shear-from, plausible-shear-to");
+    wt_error_expected(err, "the first below the second");
+    wt_error_found(err, "%g Pa and %g Pa", job->plausible_low, job->plausible_high);
+    return WT_E_RANGE;
+}
+
 wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
                              wt_validation_tables *tables, wt_error *err)
 {
@@ -316,7 +334,7 @@ wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
         return wt_fail(err, WT_E_ARG, "no validation job");
     validation v = {.job = job, .work = work};
     wt_validation_tables made = {0};
-    wt_status status = param_check(wt_validation_job_params(), job, err);
+    wt_status status = check_job(job, err);
     if (status == WT_OK)
         status = begin(&v, err);
     if (status == WT_OK && v.has_shear)
