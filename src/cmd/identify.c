@@ -12,7 +12,10 @@ int cmd_identify(int argc, char **argv)
                 "thickness: with a wear rate, with the time of its running-in, or both against one "
                 "another, at the velocity given (the middle one of a list); with intervals, their "
                 "correlation and the combination that the data do not determine.",
-        .common = "output formats columns files-from provenance cost"};
+        .common = "output formats columns files-from provenance cost",
+        .first = "material dma roughness pressure velocity observed-thickness specific-wear-rate "
+                 "running-in-time sliding-temperature output",
+        .master = CMD_DMA_OPTIONS};
     wt_identify_job job = wt_identify_job_defaults();
     cmd_sliding s;
     wt_table *table = NULL;

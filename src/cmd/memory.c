@@ -69,6 +69,7 @@ typedef union function {
     void *(*one)(size_t size);
     void *(*two)(size_t n, size_t size);
     void *(*grow)(void *old, size_t size);
+    void *(*aligned)(size_t alignment, size_t size);
 } function;
 
 void *malloc(size_t size)
@@ -91,6 +92,15 @@ void *realloc(void *old, size_t size)
     static function real;
     return next_function(&real.found, "realloc") != NULL ? given_memory(real.grow(old, size), size)
                                                          : NULL;
+}
+
+/* FFTW's. */
+void *memalign(size_t alignment, size_t size)
+{
+    static function real;
+    return next_function(&real.found, "memalign") != NULL
+               ? given_memory(real.aligned(alignment, size), size)
+               : NULL;
 }
 
 #endif

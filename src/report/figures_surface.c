@@ -37,10 +37,9 @@ static const char *base_name(const char *path)
 static const char *name_of(const figure_drawing *d, double scan)
 {
     const table_view *surfaces = &d->tables->surfaces;
-    const size_t row = (size_t)scan - 1;
-    return surfaces->table != NULL && scan >= 1 && row < surfaces->n_rows
-               ? base_name(surfaces_text(surfaces, row, SURFACES_FILE))
-               : "";
+    const bool known = surfaces->table != NULL && scan >= 1 &&
+                       scan < (double)surfaces->n_rows + 1; /* NaN is not */
+    return known ? base_name(surfaces_text(surfaces, (size_t)scan - 1, SURFACES_FILE)) : "";
 }
 
 /* Rows [row, end) as data of the figure. */

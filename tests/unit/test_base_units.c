@@ -228,13 +228,13 @@ static void largest_of_each(void **state)
         const char *unit;
         double most;
     } rows[] = {
-        {"1", 1e30},     {"s", 1e30},        {"m", 1e6},         {"V", 1e6},      {"N", 1e9},
-        {"rad", 1e6},    {"Hz", 1e30},       {"rad/s", 1e30},    {"Pa", 1e15},    {"1/Pa", 1e6},
-        {"rad/m", 1e15}, {"m^4", 1e12},      {"m^3", 1e12},      {"m/s", 1e9},    {"N/m", 1e9},
-        {"m/V", 1e3},    {"m^2/N", 1e3},     {"J/m^3", 1e30},    {"W/m^3", 1e30}, {"1/s", 1e30},
-        {"byte", 1e30},  {"K", 1e5},         {"m.Hz^-0.5", 1},   {"m^2/Hz", 1},   {"V^2/Hz", 1e6},
-        {"kg/m^3", 1e6}, {"V.Hz^-0.5", 1e3}, {"1/K", 1e3},       {"m^2", 1e12},   {"kg", 1e9},
-        {"m^2/s", 1e6},  {"J", 1e12},        {"J/(m^3 K)", 1e12}};
+        {"1", 1e30},     {"s", 1e30},        {"m", 1e6},          {"V", 1e6},      {"N", 1e9},
+        {"rad", 1e6},    {"Hz", 1e30},       {"rad/s", 1e30},     {"Pa", 1e15},    {"1/Pa", 1e6},
+        {"rad/m", 1e15}, {"m^4", 1e12},      {"m^3", 1e12},       {"m/s", 1e9},    {"N/m", 1e9},
+        {"m/V", 1e3},    {"m^2/N", 1e3},     {"J/m^3", 1e30},     {"W/m^3", 1e30}, {"1/s", 1e30},
+        {"byte", 1e30},  {"K", 1e5},         {"m.Hz^-0.5", 1},    {"m^2/Hz", 1},   {"V^2/Hz", 1e6},
+        {"kg/m^3", 1e6}, {"V.Hz^-0.5", 1e3}, {"1/K", 1e3},        {"m^2", 1e12},   {"kg", 1e9},
+        {"m^2/s", 1e6},  {"J", 1e12},        {"J/(m^3 K)", 1e12}, {"J/mol", 1e12}};
     for (int q = 1; q < (int)WT_Q_COUNT; q++) {
         const wt_quantity quantity = (wt_quantity)q;
         double most = (double)NAN;

@@ -57,6 +57,11 @@ static const expectation list[] = {
     {&layer_schema, "specific_wear_rate", "knnn"},
     {&layer_schema, "observed_thickness", "...."}, /* not of a given critical energy */
     {&layer_schema, "thickness", "kkkn"},
+    {&layer_schema, "hysteresis_power", "...."}, /* of the energy of shearing */
+    {&layer_schema, "shear_power", "...."},
+    {&layer_schema, "unloaded_rate", "...."}, /* of the activated closure */
+    {&layer_schema, "shelf_life", "...."},
+    {&layer_schema, "severe_wear_rate", "...."}, /* of the severity law */
 };
 
 static wt_rubber rubber[WAYS];

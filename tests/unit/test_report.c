@@ -447,7 +447,7 @@ static void test_missing_tables(void **state)
 static void test_nothing_to_draw(void **state)
 {
     (void)state;
-    fixture_change changes[90];
+    fixture_change changes[100];
     const wt_result *produced = fixture_produced();
     const size_t n = wt_result_n_tables(produced);
     assert_true(n <= sizeof changes / sizeof changes[0]);

@@ -70,7 +70,7 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
         const double at = used + tenth * i;
         if (i != 0 && (at < low || at > high))
             continue;
-        /* 10^log10(q1) may lie beyond q1, where the spectrum ends */
+        /* of that used the logarithm may lie beyond the last density by a rounding error */
         const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), limit_high(&v->used));
         status = likelihood_at(v, q1, value, &s->likelihood[s->n], err);
         s->log_q1[s->n++] = at;
