@@ -375,7 +375,9 @@
       s.approach ? null : at(s.force, ySize), at(s.fit, ySize),
       s.fit === null ? null : (s.force - s.fit) / ySize]).sort((a, b) => a[0] - b[0]);
     const lines = axis === 'displacement' ? 1 : 0;
-    const common = {connectSeparatedPoints: true, axisLineColor: '#888', gridLineColor: '#ddd',
+    /* half a label: without room at the end the last would be moved away from its place */
+    const common = {rightGap: 26, connectSeparatedPoints: true, axisLineColor: '#888',
+      gridLineColor: '#ddd',
       highlightCircleSize: 3, drawPoints: true, pointSize: 1.2,
       underlayCallback: (context, area, g) => {
         if (curve.contact === null) return;
@@ -388,7 +390,7 @@
     const options = {...common, labels, colors: ['#222', '#999', '#c00'],
       series: {approach: {strokeWidth: lines}, retract: {strokeWidth: lines},
         fit: {strokeWidth: 2, drawPoints: false}},
-      xlabel: `${axis} (${xPrefix}m)`, ylabel: `force (${yPrefix}N)`, legend: 'always',
+      xlabel: `${axis} from the contact point (${xPrefix}m)`, ylabel: `force (${yPrefix}N)`, legend: 'always',
       axes: {x: {pixelsPerLabel: 45}, y: {axisLabelWidth: 52}},
       legendFormatter: (legend) => legend.series.map((s) =>
         `<span style="color:${s.color}">&#9644; ${s.label}${s.y === undefined ? '' :

@@ -51,6 +51,20 @@ static void span_described(value_span *span, const figure_drawing *d, size_t gro
         span_add_section(span, d, d->data[group], place_of(d, column), axis->scale == AXIS_LOG);
 }
 
+/* A column plus and minus its standard error. */
+static void span_errors(value_span *span, const figure_drawing *d, size_t group, unsigned column,
+                        const figure_axis *axis)
+{
+    const wt_table *const section = d->sections[d->data[group]];
+    const size_t y = place_of(d, column),
+                 e = place_of(d, d->figure->table->columns[column].standard_error);
+    for (size_t row = 0; row < drawing_rows(d, d->data[group]); row++)
+        for (int side = -1; side <= 1; side += 2)
+            span_add(span,
+                     wt_table_number(section, row, y) + side * wt_table_number(section, row, e),
+                     axis->scale == AXIS_LOG);
+}
+
 static void span_curve(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const schema_field *column = &d->figure->table->columns[curve->column];
@@ -61,7 +75,8 @@ static void span_curve(figure_drawing *d, size_t group, const figure_curve *curv
     if (curve->with_errors && column->high != 0) {
         span_described(&d->y[curve->panel], d, group, column->low, axis);
         span_described(&d->y[curve->panel], d, group, column->high, axis);
-    }
+    } else if (curve->with_errors)
+        span_errors(&d->y[curve->panel], d, group, curve->column, axis);
 }
 
 bool drawing_data(figure_drawing *d)
@@ -229,7 +244,10 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
     add_place(&item, d, "x", &d->figure->x, d->figure->x.column, false);
     text_add(&item, ":");
     add_place(&item, d, "y", axis, curve->column, curve->above_zero);
-    if (curve->with_errors) {
+    if (curve->with_errors && column->high == 0) {
+        text_add(&item, ":");
+        add_place(&item, d, "y", axis, column->standard_error, false);
+    } else if (curve->with_errors) {
         text_add(&item, ":");
         add_place(&item, d, "y", axis, column->low, false);
         text_add(&item, ":");

@@ -29,7 +29,7 @@ typedef enum curve_form {
     CURVE_NONE,
     CURVE_LINE,
     CURVE_POINTS,
-    CURVE_BARS,        /* points with an interval */
+    CURVE_BARS,        /* points with an interval, or a standard error where it has none */
     CURVE_JOINED_BARS, /* the same, joined by a line */
     CURVE_FIT,         /* a fitted law over the data: does not widen the axis */
     CURVE_OWN,         /* the function of the figure draws it */

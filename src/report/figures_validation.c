@@ -11,6 +11,13 @@ static void caption_verdict(figure_drawing *d)
                 validation_words(d->table, VALIDATION_KEY_VERDICT));
 }
 
+/* Where measured and predicted agree. */
+static void mark_agreement(figure_drawing *d)
+{
+    span_add(&d->y[0], 1, false);
+    text_add(&d->script, "set arrow from graph 0, first 1 to graph 1, first 1 nohead back ls 12\n");
+}
+
 const figure_description figures_validation[] = {
     {.name = "validation",
      .title = "Friction, measured and predicted",
@@ -20,12 +27,13 @@ const figure_description figures_validation[] = {
      .y = {{VALIDATION_MEASURED, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(VALIDATION_MEASURED, BARS, .style = 1, .title = "measured",
                       .with_errors = true),
-                CURVE(VALIDATION_PREDICTED, LINE, .style = 21, .title = "predicted", .band = 71),
-                CURVE(VALIDATION_WITH_LAYER, LINE, .style = 24, .title = "predicted with layer",
-                      .band = 74)},
+                CURVE(VALIDATION_PREDICTED, JOINED_BARS, .style = 21, .title = "predicted",
+                      .with_errors = true),
+                CURVE(VALIDATION_WITH_LAYER, JOINED_BARS, .style = 24,
+                      .title = "predicted with layer", .with_errors = true)},
      .words = "Friction coefficient of the steady part of every step of the records, with its "
-              "interval of 95 %, and as predicted at its velocity, temperature and pressure. "
-              "Bands: one standard error.",
+              "interval of 95 %, and as predicted at its velocity, temperature and pressure, with "
+              "one standard error; a line joins steps of one temperature and pressure.",
      .caption = caption_verdict},
     {.name = "validation_ratio",
      .title = "Friction, measured over predicted",
@@ -38,8 +46,10 @@ const figure_description figures_validation[] = {
                 CURVE(VALIDATION_RATIO_LAYER, BARS, .style = 4, .title = "with the layer",
                       .with_errors = true)},
      .nothing = "no shear stress is given, so that friction is not predicted",
-     .words = "Measured over predicted friction of every step of the records, with its interval of "
-              "95 % by both errors and the scatter between the steps.",
+     .words =
+         "Measured over predicted friction of every step of the records, with its interval of "
+         "95 % by both errors and the scatter between the steps. At the dotted line they agree.",
+     .prepare = mark_agreement,
      .caption = caption_verdict},
     {.name = NULL},
 };

@@ -171,13 +171,17 @@ static const char *schema_type(const wt_param *param, const char *name)
     }
 }
 
+/* Whether what is written now stands in an xs:sequence of the schema: xs:all has nothing twice. */
+static bool in_sequence;
+
 static void put_element(const wt_param *param, const char *name, const char *set,
                         const char *indent)
 {
     const bool required = (param->flags & PARAM_REQUIRED) != 0;
     if (indent != NULL) {
-        printf("%s<xs:element name=\"%s\" type=\"%s\"%s/>\n", indent, name,
-               schema_type(param, name), required ? "" : " minOccurs=\"0\"");
+        printf("%s<xs:element name=\"%s\" type=\"%s\"%s%s/>\n", indent, name,
+               schema_type(param, name), required ? "" : " minOccurs=\"0\"",
+               param->kind == PARAM_TEXTS && in_sequence ? " maxOccurs=\"unbounded\"" : "");
         return;
     }
     char text[TEXT];
@@ -513,6 +517,8 @@ int main(int argc, char **argv)
     }
     while (fgets(line, sizeof line, in) != NULL) {
         const char *word = line + strspn(line, " ");
+        if (strcmp(word, "<xs:sequence>\n") == 0 || strcmp(word, "<xs:all>\n") == 0)
+            in_sequence = strcmp(word, "<xs:sequence>\n") == 0;
         if (strcmp(word, ".\\\" end\n") == 0 || strcmp(word, "<!-- end -->\n") == 0)
             inside = false;
         if (inside)

@@ -72,26 +72,37 @@ wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_
     return keep_text(c, xmlNodeGetContent(node), text, err);
 }
 
+static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *param,
+                                const char *name, case_setting *setting, wt_error *err)
+{
+    const char *text = NULL;
+    wt_status status = keep_text(c, xmlGetProp(section, (const xmlChar *)name), &text, err);
+    if (status == WT_OK)
+        status =
+            wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
+    if (status != WT_OK)
+        wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(section), name,
+                       (const char *)section->name);
+    return status;
+}
+
+/* Every element of the name: the schema lets only that of a list stand there again. */
 static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
                             case_setting *setting, wt_error *err)
 {
     const char *name = case_param_name((const char *)section->name, param), *text = NULL;
-    const xmlChar *attribute = (const xmlChar *)name;
     const xmlNode *node = case_child(section, name);
-    if (node == NULL && xmlHasProp(section, attribute) == NULL)
-        return WT_OK;
-    wt_status status = keep_text(
-        c, node != NULL ? xmlNodeGetContent(node) : xmlGetProp(section, attribute), &text, err);
-    if (status == WT_OK)
-        status =
-            wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
-    if (status == WT_OK)
-        return WT_OK;
-    if (node != NULL)
-        return case_at(node, status, err);
-    wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(section), name,
-                   (const char *)section->name);
-    return status;
+    if (node == NULL && xmlHasProp(section, (const xmlChar *)name) != NULL)
+        return read_attribute(c, section, param, name, setting, err);
+    for (; node != NULL; node = case_next(node, name)) {
+        wt_status status = keep_text(c, xmlNodeGetContent(node), &text, err);
+        if (status == WT_OK)
+            status = wt_params_set(setting->params, param, setting->structure, text,
+                                   &setting->given, err);
+        if (status != WT_OK)
+            return case_at(node, status, err);
+    }
+    return WT_OK;
 }
 
 wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,

@@ -59,6 +59,9 @@ static wt_status schema_error(const complaint *c, wt_error *err)
     char *tail = strstr(said, " Expected is");
     if (tail != NULL)
         *tail = '\0';
+    const size_t length = strlen(said);
+    if (length > 0 && said[length - 1] == '.') /* more follows in the sentence */
+        said[length - 1] = '\0';
     wt_fail(err, WT_E_SCHEMA, "%s", said[0] != '\0' ? said : c->message);
     wt_error_place(err, "line %ld", c->line);
     if (expected[0] != '\0')

@@ -93,8 +93,8 @@ static const wt_param rows[] = {
     {PARAM_TEXTS_OF("loads", wt_layer_job, loads, n_loads), .value = "NAME=VALUE,...", .unset = "",
      .help = "also the modified rubber under loads that follow one another, each such as "
              "time=900s,pressure=0.4MPa,velocity=5mm/s,temperature=20degC,specific-wear-rate="
-             "1e-3mm^3/(N m); what is left out is that of the sliding, and the last lasts for "
-             "ever; repeatable"},
+             "1e-3mm^3/(N m), several parted by ';'; what is left out is that of the sliding, and "
+             "the last lasts for ever"},
     {PARAM_FLAG_OF("running-in-friction", wt_layer_job, running_in),
      .help = "also friction in time while the layer grows; needs the modulus ratio"},
     {PARAM_FLAG_OF("acts-back", wt_layer_job, acts_back),

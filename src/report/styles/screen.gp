@@ -48,10 +48,10 @@ set style line 15 lc rgb '#111111' lw 2.24 dt (8,4)
 set style line 16 lc rgb '#ffffff' lw 7.0 dt solid pt 6 ps 1.12
 
 # 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more and 81 to 86, of groups: bands of error, see-through
-set style line 21 lc rgb '#111111' lw 3.36 dt solid
-set style line 22 lc rgb '#0b4f8a' lw 3.08 dt (10,4)
+set style line 21 lc rgb '#111111' lw 3.36 dt solid pt 6 ps 0.7
+set style line 22 lc rgb '#0b4f8a' lw 3.08 dt (10,4) pt 7 ps 0.7
 set style line 23 lc rgb '#2f9bd6' lw 3.08 dt (10,4,2,4)
-set style line 24 lc rgb '#e88a0c' lw 3.36 dt (6,3)
+set style line 24 lc rgb '#e88a0c' lw 3.36 dt (6,3) pt 8 ps 0.7
 set style fill solid 1 noborder
 set style line 71 lc rgb '#c0555555'
 set style line 72 lc rgb '#c00b4f8a'
