@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "flow/sliding/counter_surface.h"
+#include "flow/work/draws.h"
 #include "truth.h"
 #include "weartrack/flow.h"
 
@@ -371,6 +372,51 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
+/* Places of two sizes are drawn each for itself: ends of the spectrum, of wide scans alone and of
+ * narrow ones alone, go their own ways and by their own errors, and a bin between by both. */
+static void test_places_of_two_sizes(void **state)
+{
+    (void)state;
+    enum { DRAWS = 2000, POINTS = 3 };
+    double q[POINTS] = {1e5, 1e6, 1e7}, density[POINTS] = {1e-24, 1e-27, 1e-31}, none[POINTS] = {0},
+           parts[2 * POINTS] = {0.5, 0, 0.4, 0.3, 0, 2}, product[POINTS] = {0},
+           square[POINTS] = {0};
+    wt_surface surface = {
+        .q0 = (double)NAN,
+        .q1 = (double)NAN,
+        .c0 = {1, 0.2, 0, "1"},
+        .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
+        .modes_error = none,
+        .place_parts = parts};
+    for (size_t i = 0; i < DRAWS; i++) {
+        double c[POINTS], ln[POINTS];
+        wt_roughness *r = NULL;
+        const double factor =
+            flow_draw_positive(surface.c0, 7, i, FLOW_DRAW_DENSITY); /* as a contact has it */
+        assert_int_equal(flow_surface_draw(&surface, factor, 7, i, &r, NULL), WT_OK);
+        r->law->density(r, q, POINTS, c);
+        wt_roughness_free(r);
+        for (size_t k = 0; k < POINTS; k++) {
+            ln[k] = log(c[k] / density[k]);
+            square[k] += ln[k] * ln[k] / DRAWS;
+            product[k] += ln[0] * ln[k] / DRAWS;
+        }
+        assert_near_abs(ln[0], 0.5 * log(factor), 1e-9);
+        assert_near_abs(ln[1], 0.4 * log(factor) + 0.15 * ln[2], 1e-9);
+    }
+    assert_near(sqrt(square[0]), 0.1, 0.06);
+    assert_near(sqrt(square[1]), 0.1, 0.06);
+    assert_near(sqrt(square[2]), 0.4, 0.06);
+    assert_near_abs(product[2] / sqrt(square[0] * square[2]), 0, 0.08);
+    surface.c0.standard_error = 0; /* held */
+    wt_roughness *r = NULL;
+    double c = 0;
+    assert_int_equal(flow_surface_draw(&surface, 1, 7, 3, &r, NULL), WT_OK);
+    r->law->density(r, &q[2], 1, &c);
+    assert_near(c, density[2], 1e-12);
+    wt_roughness_free(r);
+}
+
 /* A height map stands where a spectrum does, and is what its own spectrum would be; of several the
  * error of the places comes with them. */
 static void test_map_as_roughness(void **state)
@@ -504,15 +550,11 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_heights),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_alone),
-        cmocka_unit_test(test_numerical_errors),
-        cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_map_as_roughness),
+        cmocka_unit_test(test_whole),         cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_heights),       cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_alone),         cmocka_unit_test(test_numerical_errors),
+        cmocka_unit_test(test_replicates),    cmocka_unit_test(test_places_of_two_sizes),
+        cmocka_unit_test(test_failures),      cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),
     };
     return cmocka_run_group_tests(tests, begin, end);
