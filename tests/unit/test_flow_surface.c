@@ -417,6 +417,57 @@ static void test_places_of_two_sizes(void **state)
     wt_roughness_free(r);
 }
 
+/* A copy whose heights are twice as large. */
+static void write_doubled(const char *from, const char *to)
+{
+    enum { VALUES = 112 * 112 }; /* behind the head */
+    static char bytes[1 << 16];
+    FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
+    assert_true(in != NULL && out != NULL);
+    const size_t n = fread(bytes, 1, sizeof bytes, in), head = n - VALUES * sizeof(float);
+    for (size_t i = 0; i < VALUES; i++) {
+        float value;
+        memcpy(&value, bytes + head + i * sizeof value, sizeof value);
+        value *= 2;
+        memcpy(bytes + head + i * sizeof value, &value, sizeof value);
+    }
+    assert_int_equal(fwrite(bytes, 1, n, out), n);
+    assert_int_equal(fclose(in), 0);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* Two places that differ by four in C, and a narrow scan elsewhere: each end of the spectrum has
+ * the error of its own places, and the numbers hold that two places tell little of their scatter.
+ */
+static void test_scatter_of_places(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/weartrack-place-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && close(fd) == 0);
+    write_doubled(SURFACE "place-1.gsf", path);
+    const char *const files[] = {SURFACE "place-1.gsf", path, SURFACE "near-by.gsf"};
+    const double t_of_one = 12.7062 / 1.95996, scatter = log(4) / sqrt(2);
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, files, 2);
+    assert_int_equal(m.status, WT_OK);
+    const wt_table *t = m.tables.power_spectrum;
+    assert_near(key(t, "place_error"), t_of_one * scatter / sqrt(2), 0.05);
+    assert_true(error_of(t, "rms_height") / key(t, "rms_height") > key(t, "place_error") / 2);
+    assert_true(isnan(cell(t, 0, "places_wide")));
+    clear(&m);
+    make(&m, files, 3);
+    assert_int_equal(m.status, WT_OK);
+    t = m.tables.power_spectrum;
+    const size_t last = wt_table_n_rows(t) - 1;
+    const double wide = cell(t, 0, "places_wide"), narrow = cell(t, last, "places_narrow");
+    assert_near(narrow, wide * sqrt(2), 1e-6); /* one scan, and two */
+    assert_near_abs(cell(t, 0, "places_narrow"), 0, 0);
+    assert_near_abs(cell(t, last, "places_wide"), 0, 0);
+    clear(&m);
+    unlink(path);
+}
+
 /* A height map stands where a spectrum does, and is what its own spectrum would be; of several the
  * error of the places comes with them. */
 static void test_map_as_roughness(void **state)
@@ -550,11 +601,17 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),         cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_heights),       cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_alone),         cmocka_unit_test(test_numerical_errors),
-        cmocka_unit_test(test_replicates),    cmocka_unit_test(test_places_of_two_sizes),
-        cmocka_unit_test(test_failures),      cmocka_unit_test(test_map_as_roughness),
+        cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_numerical_errors),
+        cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_places_of_two_sizes),
+        cmocka_unit_test(test_scatter_of_places),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),
     };
     return cmocka_run_group_tests(tests, begin, end);
