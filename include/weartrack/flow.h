@@ -734,9 +734,13 @@ typedef struct wt_surface {
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
-    double reliable_to;  /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
-    double steep;        /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
-    bool places_known;   /* how its places differ, though the error of c0 be 0 */
+    /* [2 * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of each
+     * point has by the places of the widest scans, and by those of all others, which are drawn for
+     * themselves. NULL: all have all of it together. */
+    double *place_parts;
+    double reliable_to; /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
+    double steep;       /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
+    bool places_known;  /* how its places differ, though the error of c0 be 0 */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%", the path of a

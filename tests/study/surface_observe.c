@@ -119,7 +119,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     (void)prepared;
     for (int i = 0; i < all; i++) {
         char name[24];
-        made_surface here = surface_of(s, random, i < wide ? side : side / 10);
+        made_surface here =
+            surface_of(s, random, i < wide ? side : side / (s->smaller > 0 ? s->smaller : 10));
         here.c0 *= exp(s->scatter * random_normal(random));
         snprintf(name, sizeof name, "scan%d.gsf", i + 1);
         arguments[4 + i] = trial_file(t, name);

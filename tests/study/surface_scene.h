@@ -9,7 +9,8 @@
 typedef struct surface_scene {
     facts facts;
     int places;      /* scans; 0: one */
-    int near_by;     /* more of them, ten times as small */
+    int near_by;     /* more of them, smaller */
+    double smaller;  /* by this; 0: ten times */
     int profiles;    /* lines of 250 points instead, each of another surface */
     double hurst;    /* 0: 0.8 */
     double roll_off; /* [rad/m]; 0: 6e5, in the range */

@@ -20,6 +20,8 @@ const surface_scene surface_scenes[] = {
      .end = 1.6e7},
     {NAMED("S15", "four places and four near by that scatter"), STATED, .places = 4, .near_by = 4,
      .scatter = 0.3},
+    {NAMED("S17", "four places and four a quarter as large that scatter"), .places = 4,
+     .near_by = 4, .smaller = 4, .scatter = 0.5},
     {NAMED("S13", "texture of 0.4 at 35 deg"), STATED, .stretch = 0.4, .texture = 0.6},
     {NAMED("S14", "texture of 0.8 along x, two places"), STATED, .places = 2, .stretch = 0.8},
     {NAMED("S16", "texture of 0.4 at 35 deg, six places"), STATED, .places = 6, .stretch = 0.4,

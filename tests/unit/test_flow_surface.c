@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "flow/sliding/counter_surface.h"
+#include "flow/work/draws.h"
 #include "truth.h"
 #include "weartrack/flow.h"
 
@@ -371,6 +372,102 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
+/* Places of two sizes are drawn each for itself: ends of the spectrum, of wide scans alone and of
+ * narrow ones alone, go their own ways and by their own errors, and a bin between by both. */
+static void test_places_of_two_sizes(void **state)
+{
+    (void)state;
+    enum { DRAWS = 2000, POINTS = 3 };
+    double q[POINTS] = {1e5, 1e6, 1e7}, density[POINTS] = {1e-24, 1e-27, 1e-31}, none[POINTS] = {0},
+           parts[2 * POINTS] = {0.5, 0, 0.4, 0.3, 0, 2}, product[POINTS] = {0},
+           square[POINTS] = {0};
+    wt_surface surface = {
+        .q0 = (double)NAN,
+        .q1 = (double)NAN,
+        .c0 = {1, 0.2, 0, "1"},
+        .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
+        .modes_error = none,
+        .place_parts = parts};
+    for (size_t i = 0; i < DRAWS; i++) {
+        double c[POINTS], ln[POINTS];
+        wt_roughness *r = NULL;
+        const double factor =
+            flow_draw_positive(surface.c0, 7, i, FLOW_DRAW_DENSITY); /* as a contact has it */
+        assert_int_equal(flow_surface_draw(&surface, factor, 7, i, &r, NULL), WT_OK);
+        r->law->density(r, q, POINTS, c);
+        wt_roughness_free(r);
+        for (size_t k = 0; k < POINTS; k++) {
+            ln[k] = log(c[k] / density[k]);
+            square[k] += ln[k] * ln[k] / DRAWS;
+            product[k] += ln[0] * ln[k] / DRAWS;
+        }
+        assert_near_abs(ln[0], 0.5 * log(factor), 1e-9);
+        assert_near_abs(ln[1], 0.4 * log(factor) + 0.15 * ln[2], 1e-9);
+    }
+    assert_near(sqrt(square[0]), 0.1, 0.06);
+    assert_near(sqrt(square[1]), 0.1, 0.06);
+    assert_near(sqrt(square[2]), 0.4, 0.06);
+    assert_near_abs(product[2] / sqrt(square[0] * square[2]), 0, 0.08);
+    surface.c0.standard_error = 0; /* held */
+    wt_roughness *r = NULL;
+    double c = 0;
+    assert_int_equal(flow_surface_draw(&surface, 1, 7, 3, &r, NULL), WT_OK);
+    r->law->density(r, &q[2], 1, &c);
+    assert_near(c, density[2], 1e-12);
+    wt_roughness_free(r);
+}
+
+/* A copy whose heights are twice as large. */
+static void write_doubled(const char *from, const char *to)
+{
+    enum { VALUES = 112 * 112 }; /* behind the head */
+    static char bytes[1 << 16];
+    FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
+    assert_true(in != NULL && out != NULL);
+    const size_t n = fread(bytes, 1, sizeof bytes, in), head = n - VALUES * sizeof(float);
+    for (size_t i = 0; i < VALUES; i++) {
+        float value;
+        memcpy(&value, bytes + head + i * sizeof value, sizeof value);
+        value *= 2;
+        memcpy(bytes + head + i * sizeof value, &value, sizeof value);
+    }
+    assert_int_equal(fwrite(bytes, 1, n, out), n);
+    assert_int_equal(fclose(in), 0);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* Two places that differ by four in C, and a narrow scan elsewhere: each end of the spectrum has
+ * the error of its own places, and the numbers hold that two places tell little of their scatter.
+ */
+static void test_scatter_of_places(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/weartrack-place-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && close(fd) == 0);
+    write_doubled(SURFACE "place-1.gsf", path);
+    const char *const files[] = {SURFACE "place-1.gsf", path, SURFACE "near-by.gsf"};
+    const double t_of_one = 12.7062 / 1.95996, scatter = log(4) / sqrt(2);
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, files, 2);
+    assert_int_equal(m.status, WT_OK);
+    const wt_table *t = m.tables.power_spectrum;
+    assert_near(key(t, "place_error"), t_of_one * scatter / sqrt(2), 0.05);
+    assert_true(error_of(t, "rms_height") / key(t, "rms_height") > key(t, "place_error") / 2);
+    assert_true(isnan(cell(t, 0, "places_wide")));
+    clear(&m);
+    make(&m, files, 3);
+    assert_int_equal(m.status, WT_OK);
+    t = m.tables.power_spectrum;
+    const size_t last = wt_table_n_rows(t) - 1;
+    const double wide = cell(t, 0, "places_wide"), narrow = cell(t, last, "places_narrow");
+    assert_near(narrow, wide * sqrt(2), 1e-6); /* one scan, and two */
+    assert_near_abs(cell(t, 0, "places_narrow"), 0, 0);
+    assert_near_abs(cell(t, last, "places_wide"), 0, 0);
+    clear(&m);
+    unlink(path);
+}
+
 /* A height map stands where a spectrum does, and is what its own spectrum would be; of several the
  * error of the places comes with them. */
 static void test_map_as_roughness(void **state)
@@ -511,6 +608,8 @@ int main(void)
         cmocka_unit_test(test_alone),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_places_of_two_sizes),
+        cmocka_unit_test(test_scatter_of_places),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),

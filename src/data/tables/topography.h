@@ -19,6 +19,13 @@
       "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
       "together",                                                                                  \
       NUMBER, SPARSE)                                                                              \
+    X(POWER_SPECTRUM_PLACES_WIDE, AS(places_wide),                                                 \
+      "of scans of several sizes: standard error of ln C by the places of the widest scans, all "  \
+      "rows together",                                                                             \
+      NUMBER, SPARSE)                                                                              \
+    X(POWER_SPECTRUM_PLACES_NARROW, AS(places_narrow),                                             \
+      "by those of all narrower scans, likewise, and not together with that of the widest",        \
+      NUMBER, SPARSE)                                                                              \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \

@@ -46,6 +46,20 @@ double surface_freedom_of(double variance);
 /* The interval of the truth behind a mean. */
 wt_interval surface_interval(double mean, double freedom);
 
+/* ---- places: surface_places.c -----------------------------------------------------------------
+ */
+
+typedef enum surface_scans {
+    SURFACE_ALL_SCANS,
+    SURFACE_WIDE_SCANS,  /* that begin with the longest waves */
+    SURFACE_NARROW_SCANS /* all others */
+} surface_scans;
+/* Whether bins are of other scans than others are. */
+bool surface_places_differ(const wt_surface_spectrum *s);
+/* Standard error of ln C of a bin by the places of these scans, over the scatter of one place.
+ * Where they are not kept all count alike, and as wide. */
+double surface_places_part(const wt_surface_spectrum *s, size_t bin, surface_scans which);
+
 /* ---- C of C1: surface_invert.c ------------------------------------------------------------------
  */
 

@@ -147,12 +147,15 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
     to->place_scatter = sqrt(fmax(0, squares / to->place_freedom - noise / (double)n));
 }
 
-/* What the places give the mean: a bin that one size alone tells has the places of that only. */
+/* What the places give the mean: a bin that one size alone tells has the places of that only, and
+ * one of two sizes next to those of the scans that have most of its modes. */
 static void find_place_error(wt_surface_spectrum *to)
 {
     double sum = 0;
-    for (size_t k = 0; k < to->n; k++)
-        sum += 1 / (double)to->bins[k].scans;
+    for (size_t k = 0; k < to->n; k++) {
+        const double part = surface_places_part(to, k, SURFACE_ALL_SCANS);
+        sum += part * part;
+    }
     to->place_error = to->place_scatter * sqrt(sum / (double)to->n);
 }
 
@@ -293,7 +296,8 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place = spectrum->place_scatter / sqrt((double)b->scans) *
+        const double place = spectrum->place_scatter *
+                             surface_places_part(spectrum, bin, SURFACE_ALL_SCANS) *
                              students_t_quantile(spectrum->place_freedom) / NORMAL_95;
         freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
     }

@@ -67,7 +67,7 @@ static bool stated_roughness(const setting *s)
 static void hold_roughness(setting *s)
 {
     s->surface.c0.standard_error = 0;
-    s->surface.modes_error = s->surface.law_error = NULL;
+    s->surface.modes_error = s->surface.law_error = s->surface.place_parts = NULL;
 }
 
 /* What the spots tell, and what is known beside them: parts of one variance. */

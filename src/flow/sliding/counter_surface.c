@@ -20,6 +20,7 @@ void wt_surface_clear(wt_surface *surface)
     wt_power_spectrum_clear(&surface->spectrum);
     free(surface->modes_error);
     free(surface->law_error);
+    free(surface->place_parts);
     *surface = (wt_surface){0};
 }
 
@@ -107,6 +108,29 @@ static double *column_errors(const wt_table *table, power_spectrum_column which,
     return errors;
 }
 
+/* What scans of several sizes have of the places, if any row does. */
+static bool take_places(const wt_table *table, wt_surface *surface)
+{
+    const size_t n = surface->spectrum.n;
+    double *const wide = column_errors(table, POWER_SPECTRUM_PLACES_WIDE, n),
+                  *const narrow = column_errors(table, POWER_SPECTRUM_PLACES_NARROW, n),
+                  *parts = malloc((2 * n + 1) * sizeof *parts);
+    const bool made = wide != NULL && narrow != NULL && parts != NULL;
+    bool any = false;
+    for (size_t i = 0; made && i < n; i++) {
+        parts[2 * i] = wide[i] / surface->c0.standard_error;
+        parts[2 * i + 1] = narrow[i] / surface->c0.standard_error;
+        any = any || wide[i] > 0 || narrow[i] > 0;
+    }
+    free(wide);
+    free(narrow);
+    if (any)
+        surface->place_parts = parts;
+    else
+        free(parts);
+    return made;
+}
+
 /* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
  * were read. */
 static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
@@ -129,6 +153,8 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
         surface->c0.standard_error = place.value;
         surface->places_known = true;
     }
+    if (surface->c0.standard_error > 0 && !take_places(table, surface))
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
     surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
     surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
     return WT_OK;
@@ -374,14 +400,24 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    /* each point has a draw of its own, behind all others, and the law that of one more point */
+    /* each point has a draw of its own, behind all others, the law that of one more point, and the
+     * places of narrow scans that of another */
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
+    const double *const parts = surface->place_parts;
+    const double places = surface->c0.standard_error / surface->c0.value,
+                 narrow = parts == NULL
+                              ? 0
+                              : places * flow_draw_normal(seed, replicate,
+                                                          (flow_draw)(FLOW_DRAW_MODES + s->n + 1));
     for (size_t i = 0; i < s->n; i++) {
         const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
         const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
         drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
+        if (parts != NULL)
+            drawn.spectrum.density[i] *= pow(factor, parts[2 * i]) * exp(parts[2 * i + 1] * narrow);
     }
-    const wt_status status = wt_surface_roughness(&drawn, factor, roughness, err);
+    const wt_status status =
+        wt_surface_roughness(&drawn, parts != NULL ? 1 : factor, roughness, err);
     free(drawn.spectrum.density);
     return status;
 }

@@ -14,7 +14,7 @@ void flow_surface_cost(const wt_surface *surface, const wt_job *work);
 /* Whether they make a law; a roll-off that is not given is q0. */
 wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* The law of a replicate, all densities multiplied by `factor` and each by its own scatter; without
- * that for WT_NO_REPLICATE. */
+ * that for WT_NO_REPLICATE. Of scans of several sizes `factor` is that of the widest. */
 wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t seed,
                             size_t replicate, wt_roughness **roughness, wt_error *err) WT_NODISCARD;
 /* A measured spectrum as a surface, uncut; the densities are not checked. The errors of one that

@@ -3,6 +3,7 @@
 #ifndef WEARTRACK_FLOW_SURFACE_SURFACE_H
 #define WEARTRACK_FLOW_SURFACE_SURFACE_H
 
+#include "fit/surface/surface.h"
 #include "flow/work/inputs.h"
 
 /* Heights less their form, thinned: a map (none of a profile), and a line of it. */
@@ -59,6 +60,9 @@ double surface_law_error(const surface_whole *w, double wavenumber);
 /* What the places give all of the spectrum; with few of them it is hardly known itself: half an
  * interval of 95 %, over 1.96. NaN: not known. */
 double surface_place_error(const wt_surface_spectrum *s);
+/* Of scans of several sizes, what the places of these give a knot, likewise; the law beyond has
+ * that of the last bin. NaN: not known, or every bin is of all scans. */
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

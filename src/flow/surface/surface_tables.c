@@ -21,7 +21,8 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, law_error, self_affine, modes, scans; const char *source;)
+          double modes_error, law_error, places_wide, places_narrow, self_affine, modes, scans;
+          const char *source;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
@@ -52,11 +53,22 @@ double surface_place_error(const wt_surface_spectrum *s)
                               : s->place_error;
 }
 
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which)
+{
+    const size_t bin = knot < s->n ? knot : s->n - 1;
+    return s->place_error > 0 && surface_places_differ(s)
+               ? s->place_scatter * surface_places_part(s, bin, which) *
+                     students_t_quantile(s->place_freedom) / NORMAL_95
+               : (double)NAN;
+}
+
 double surface_law_error(const surface_whole *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 places = surface_place_error(&w->spectrum), common = places > 0 ? places : 0;
+                 last = surface_knot_places(&w->spectrum, w->spectrum.n, SURFACE_ALL_SCANS),
+                 places = isnan(last) ? surface_place_error(&w->spectrum) : last,
+                 common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
 }
 
@@ -82,8 +94,10 @@ static void add_rows(table_writer *t, const surface_whole *w)
                   : law ? of_law(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
-                  bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? surface_law_error(w, q) : nan,
+                  surface_knot_places(&w->spectrum, i, SURFACE_WIDE_SCANS),
+                  surface_knot_places(&w->spectrum, i, SURFACE_NARROW_SCANS),
+                  wt_self_affine_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
