@@ -1137,7 +1137,12 @@ static void test_surface(void **state)
                                         WT_SOURCE_DIR "/fixtures/surface/place-2.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/near-by.gsf"};
     static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
+    /* of two sizes, whose places scatter, for they are of two surfaces */
+    static const char *const sizes[] = {WT_SOURCE_DIR "/fixtures/surface/road.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
+                                        WT_SOURCE_DIR "/fixtures/case/road-*-near.gsf"};
     see_surfaces(files, COUNT_OF(files));
+    see_surfaces(sizes, COUNT_OF(sizes));
     see_surfaces(profile, 1);
 }
 
