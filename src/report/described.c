@@ -55,6 +55,8 @@ static void span_described(value_span *span, const figure_drawing *d, size_t gro
 static void span_errors(value_span *span, const figure_drawing *d, size_t group, unsigned column,
                         const figure_axis *axis)
 {
+    if (d->data[group] == NO_SECTION)
+        return;
     const wt_table *const section = d->sections[d->data[group]];
     const size_t y = place_of(d, column),
                  e = place_of(d, d->figure->table->columns[column].standard_error);
