@@ -76,108 +76,114 @@ static void friction_table(page_writer *page)
                NULL, 0, rows, n);
 }
 
+/* What stands on the page, in this order, of the tables that there are. */
+static const struct result_part {
+    size_t view;
+    const char *caption;
+    bool keys;               /* of the table, else its rows */
+    const unsigned *columns; /* NULL: all */
+    size_t n_columns;
+    void (*own)(page_writer *page); /* in the place of all rows */
+} result_parts[] = {
+#define ROWS(table, words)                                                                         \
+    {                                                                                              \
+        offsetof(bound_tables, table), words, false, NULL, 0, NULL                                 \
+    }
+#define KEYS(table, words)                                                                         \
+    {                                                                                              \
+        offsetof(bound_tables, table), words, true, NULL, 0, NULL                                  \
+    }
+#define COLUMNS(table, words, list)                                                                \
+    {                                                                                              \
+        offsetof(bound_tables, table), words, false, list, COUNT_OF(list), NULL                    \
+    }
+    COLUMNS(modulus_groups, "Modulus by group", group_columns),
+    ROWS(modulus_budget, "Error of the modulus by group"),
+    ROWS(modulus_depth, "Modulus against depth, of all curves of a group"),
+    ROWS(comparison, "Wear track against bulk: ratio of geometric means, by indentation rate"),
+    KEYS(comparison, "Wear track against bulk: what was compared"),
+    ROWS(dma_comparison, "Indentation against DMA at the equivalent frequency"),
+    ROWS(collection, "Cases, by sample and condition"),
+    ROWS(ratio_pairs, "Modulus ratios of cases of one sample or condition against one another"),
+    KEYS(ratio_pairs, "Modulus ratios against one another: what was compared"),
+    KEYS(material_ratio, "Materials: what was compared"),
+    COLUMNS(shift_factors, "Shift factors", shift_columns),
+    KEYS(shift_factors, "Shifting, law and superposition"),
+    KEYS(common_law, "One law for several samples"),
+    ROWS(prony, "Prony series at the reference temperature"),
+    KEYS(prony, "Prony series: constants"),
+    ROWS(prony_reduced, "Prony series with few terms, for finite elements"),
+    KEYS(prony_reduced, "Prony series with few terms: constants, what it is off"),
+    ROWS(glass_transition, "Glass transition: temperatures of the peaks at each frequency"),
+    KEYS(glass_transition, "Glass transition: where"),
+    ROWS(moduli_at, "Moduli at temperatures"),
+    ROWS(payne, "Softening with strain (Payne effect)"),
+    KEYS(roughness, "Counter surface"),
+    {offsetof(bound_tables, friction), NULL, false, NULL, 0, friction_table},
+    KEYS(friction, "Conditions of the friction"),
+    ROWS(record, "Friction as measured, by the steps of the records"),
+    ROWS(wear, "Wear as measured"),
+    KEYS(validation, "Measured against predicted friction"),
+    ROWS(validation, "Measured against predicted friction, by the steps of the records"),
+    KEYS(validation_sources, "What would narrow measured over predicted most"),
+    ROWS(validation_sources, "Where the error of measured over predicted comes from"),
+    KEYS(validation_choices, "Choices of the model, by the record"),
+    ROWS(validation_choices, "What the record says of each choice of the model"),
+    KEYS(directions, "What the directions of the material do"),
+    KEYS(softening, "What softening with strain does"),
+    KEYS(flash, "What the flash temperature does"),
+    KEYS(anisotropy, "What the direction of sliding does"),
+    KEYS(friction_map, "Friction at several temperatures and pressures"),
+    KEYS(friction_decades, "Which length scales make the friction"),
+    KEYS(layer, "Balance of the modified layer"),
+    KEYS(layer_bands, "Modified bands in time"),
+    KEYS(running_in, "Friction with the layer in running-in"),
+    KEYS(layer_balances, "Balances of a layer that acts back on its energy"),
+    ROWS(layer_balances, "Balances of a layer that acts back, and folds"),
+    KEYS(existence, "Where a layer exists"),
+    ROWS(what_if, "What if: one choice of the model moved in each row, and the relative changes "
+                  "by it, at the reference velocity"),
+    KEYS(what_if, "What if: what was not tried"),
+    KEYS(error_budget, "Where the errors come from"),
+    ROWS(error_budget, "Error budget: what each source alone does to the numbers at the reference "
+                       "velocity, and the time it takes to know it"),
+    KEYS(coverage, "How often the intervals hold"),
+    ROWS(coverage, "Coverage: the share of trials, drawn from the fit of the case, in which an "
+                   "interval holds the truth"),
+    KEYS(work_precision, "What more work buys"),
+    ROWS(work_precision, "Error against run time"),
+};
+
+static const table_view *view_of(const page_writer *page, const struct result_part *part)
+{
+    return (const table_view *)(const void *)((const char *)page->tables + part->view);
+}
+
+static void put_part(page_writer *page, const struct result_part *part)
+{
+    const table_view *const view = view_of(page, part);
+    if (part->own != NULL)
+        part->own(page);
+    else if (part->keys)
+        page_keys(page, view, part->caption);
+    else
+        page_whole_table(page, view, part->caption, part->columns, part->n_columns);
+}
+
 void page_results(page_writer *page)
 {
-    const bound_tables *t = page->tables;
-    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,  &t->comparison,
-                                       &t->dma_comparison, &t->material_ratio, &t->shift_factors,
-                                       &t->prony,          &t->prony_reduced,  &t->glass_transition,
-                                       &t->moduli_at,      &t->payne,          &t->roughness,
-                                       &t->friction,       &t->layer,          &t->what_if,
-                                       &t->error_budget,   &t->coverage,       &t->work_precision,
-                                       &t->directions,     &t->softening,      &t->common_law,
-                                       &t->modulus_budget, &t->record,         &t->wear,
-                                       &t->anisotropy,     &t->friction_map,   &t->friction_decades,
-                                       &t->flash,          &t->collection,     &t->ratio_pairs,
-                                       &t->validation,     &t->layer_bands,    &t->running_in,
-                                       &t->layer_balances, &t->existence};
     bool any = false;
-    for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
-        any = shown[i]->table != NULL;
+    for (size_t i = 0; i < COUNT_OF(result_parts) && !any; i++)
+        any = view_of(page, &result_parts[i])->table != NULL;
     if (!any)
         return;
     page_fold(page, "tables", "Tables", PAGE_PRINTED);
-    page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
-                     COUNT_OF(group_columns));
-    page_whole_table(page, &t->modulus_budget, "Error of the modulus by group", NULL, 0);
-    page_whole_table(page, &t->modulus_depth, "Modulus against depth, of all curves of a group",
-                     NULL, 0);
-    page_whole_table(page, &t->comparison,
-                     "Wear track against bulk: ratio of geometric means, by indentation rate", NULL,
-                     0);
-    page_keys(page, &t->comparison, "Wear track against bulk: what was compared");
-    page_whole_table(page, &t->dma_comparison,
-                     "Indentation against DMA at the equivalent frequency", NULL, 0);
-    page_whole_table(page, &t->collection, "Cases, by sample and condition", NULL, 0);
-    page_whole_table(page, &t->ratio_pairs,
-                     "Modulus ratios of cases of one sample or condition against one another", NULL,
-                     0);
-    page_keys(page, &t->ratio_pairs, "Modulus ratios against one another: what was compared");
-    page_keys(page, &t->material_ratio, "Materials: what was compared");
-    page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
-                     COUNT_OF(shift_columns));
-    page_keys(page, &t->shift_factors, "Shifting, law and superposition");
-    page_keys(page, &t->common_law, "One law for several samples");
-    page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
-    page_keys(page, &t->prony, "Prony series: constants");
-    page_whole_table(page, &t->prony_reduced, "Prony series with few terms, for finite elements",
-                     NULL, 0);
-    page_keys(page, &t->prony_reduced, "Prony series with few terms: constants, what it is off");
-    page_whole_table(page, &t->glass_transition,
-                     "Glass transition: temperatures of the peaks at each frequency", NULL, 0);
-    page_keys(page, &t->glass_transition, "Glass transition: where");
-    page_whole_table(page, &t->moduli_at, "Moduli at temperatures", NULL, 0);
-    page_whole_table(page, &t->payne, "Softening with strain (Payne effect)", NULL, 0);
-    page_keys(page, &t->roughness, "Counter surface");
-    friction_table(page);
-    page_keys(page, &t->friction, "Conditions of the friction");
-    page_whole_table(page, &t->record, "Friction as measured, by the steps of the records", NULL,
-                     0);
-    page_whole_table(page, &t->wear, "Wear as measured", NULL, 0);
-    page_keys(page, &t->validation, "Measured against predicted friction");
-    page_whole_table(page, &t->validation,
-                     "Measured against predicted friction, by the steps of the records", NULL, 0);
-    page_keys(page, &t->validation_sources, "What would narrow measured over predicted most");
-    page_whole_table(page, &t->validation_sources,
-                     "Where the error of measured over predicted comes from", NULL, 0);
-    page_keys(page, &t->validation_choices, "Choices of the model, by the record");
-    page_whole_table(page, &t->validation_choices,
-                     "What the record says of each choice of the model", NULL, 0);
-    page_keys(page, &t->directions, "What the directions of the material do");
-    page_keys(page, &t->softening, "What softening with strain does");
-    page_keys(page, &t->flash, "What the flash temperature does");
-    page_keys(page, &t->anisotropy, "What the direction of sliding does");
-    page_keys(page, &t->friction_map, "Friction at several temperatures and pressures");
-    page_keys(page, &t->friction_decades, "Which length scales make the friction");
-    page_keys(page, &t->layer, "Balance of the modified layer");
-    page_keys(page, &t->layer_bands, "Modified bands in time");
-    page_keys(page, &t->running_in, "Friction with the layer in running-in");
-    page_keys(page, &t->layer_balances, "Balances of a layer that acts back on its energy");
-    page_whole_table(page, &t->layer_balances, "Balances of a layer that acts back, and folds",
-                     NULL, 0);
-    page_keys(page, &t->existence, "Where a layer exists");
-    page_whole_table(page, &t->what_if,
-                     "What if: one choice of the model moved in each row, and the relative changes "
-                     "by it, at the reference velocity",
-                     NULL, 0);
-    page_keys(page, &t->what_if, "What if: what was not tried");
-    page_keys(page, &t->error_budget, "Where the errors come from");
-    page_whole_table(page, &t->error_budget,
-                     "Error budget: what each source alone does to the numbers at the reference "
-                     "velocity, and the time it takes to know it",
-                     NULL, 0);
-    page_keys(page, &t->coverage, "How often the intervals hold");
-    page_whole_table(page, &t->coverage,
-                     "Coverage: the share of trials, drawn from the fit of the case, in which an "
-                     "interval holds the truth",
-                     NULL, 0);
-    page_keys(page, &t->work_precision, "What more work buys");
-    page_whole_table(page, &t->work_precision, "Error against run time", NULL, 0);
+    for (size_t i = 0; i < COUNT_OF(result_parts); i++)
+        put_part(page, &result_parts[i]);
     page_fold_end(page);
 }
 
-/* ---- curves without a modulus, or with a doubtful one
- * ---------------------------------------------------------------- */
+/* ---- curves without a modulus, or with a doubtful one --------------------------------------- */
 
 static void rejected_of(page_writer *page, const table_view *table)
 {
