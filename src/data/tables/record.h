@@ -10,7 +10,7 @@
     X(RECORD_VELOCITY, IN(at, velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"),      \
       SPARSE)                                                                                      \
     X(RECORD_ROTATION, IN(at, rotation), "rotation of the disc", SI(ANGULAR_FREQUENCY),            \
-      LABEL("Rotation"), SPARSE)                                                                   \
+      LABEL("Rotation"), OPTIONAL, SPARSE)                                                         \
     X(RECORD_NORMAL_FORCE, IN(at, normal_force), "normal force", SI(NORMAL_FORCE), LABEL("Load"),  \
       SPARSE)                                                                                      \
     X(RECORD_PRESSURE, IN(at, pressure), "nominal pressure that the record says", SI(PRESSURE),    \

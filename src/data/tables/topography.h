@@ -18,14 +18,14 @@
     X(POWER_SPECTRUM_LAW_ERROR, AS(law_error),                                                     \
       "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
       "together",                                                                                  \
-      NUMBER, SPARSE)                                                                              \
+      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(POWER_SPECTRUM_PLACES_WIDE, AS(places_wide),                                                 \
       "of scans of several sizes: standard error of ln C by the places of the widest scans, all "  \
       "rows together",                                                                             \
-      NUMBER, SPARSE)                                                                              \
+      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(POWER_SPECTRUM_PLACES_NARROW, AS(places_narrow),                                             \
       "by those of all narrower scans, likewise, and not together with that of the widest",        \
-      NUMBER, SPARSE)                                                                              \
+      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \
@@ -73,7 +73,7 @@
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
     X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
       LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
-    X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention))                        \
+    X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention), OPTIONAL)              \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
 
 /* A direction in each row, half a turn of them: the other half is the same. */

@@ -1,0 +1,36 @@
+#!/bin/sh
+# Results of an earlier version, whose tables had fewer columns, are read by what reads those of today.
+# Usage: earlier.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+weartrack=$1 fixtures=$2 work=$3
+rm -rf "$work"; mkdir -p "$work"; cd "$work"
+
+# A text stream without these columns and keys, parted by blanks.
+strip() {
+  awk -F '\t' -v OFS='\t' -v names=" $1 " '
+    /^## column: / { name = $1; sub(/^## column: /, "", name); if (index(names, " " name " ")) next }
+    /^## [a-z_]+: / { name = $1; sub(/^## /, "", name); sub(/: .*/, "", name); if (index(names, " " name " ")) next }
+    /^# / {
+      for (i = 1; i <= NF; i++) {
+        name = $i; sub(/^# /, "", name); sub(/\[.*/, "", name)
+        out[i] = index(names, " " name " ") > 0
+      }
+    }
+    /^##/ { print; next }
+    { row = ""
+      for (i = 1; i <= NF; i++)
+        if (!out[i]) row = row (row == "" ? "" : OFS) $i
+      print row }'
+}
+
+"$weartrack" psd -q "$fixtures/surface/place-1.gsf" "$fixtures/surface/place-2.gsf" "$fixtures/surface/near-by.gsf" |
+  strip "law_error places_wide places_narrow convention" >psd.tsv
+"$weartrack" record -q --load 5N "$fixtures/record/steps.csv" | strip rotation >record.tsv
+! grep -q 'law_error\|places_wide\|rotation' psd.tsv record.tsv
+for result in psd record; do
+  "$weartrack" summary -q $result.tsv >/dev/null
+  "$weartrack" report -q $result.tsv -o $result.html
+done
+"$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
+"$weartrack" friction -q -m m.h5 --roughness psd.tsv -p 0.4MPa -v 1m/s -o friction.tsv
+"$weartrack" validate -q "$fixtures/case/stated-road.xml" record.tsv -o validation.tsv
