@@ -158,6 +158,9 @@ void cmd_end(cmd_session *s, wt_status made);
 /* The same after writing the tables, in this order, and the record behind them, if they were made;
  * those that are NULL are left out. Takes them all. */
 void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n);
+/* Runs a case with what every call that does has in common; its result is that of the session, and
+ * *n_failed stages or files are in its table "failures". */
+wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, size_t *n_failed);
 /* Returns the exit status. */
 int cmd_session_free(cmd_session *s);
 

@@ -57,9 +57,10 @@ int cmd_collect(int argc, char **argv)
     const bool room = cases != NULL && results != NULL;
     const size_t n = room ? read_cases(&s, cases, results) : 0;
     wt_status made = room ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
-    if (made == WT_OK && n == 0)
+    if (made == WT_OK && n == 0) {
         s.status = CMD_FAILED;
-    else if (made == WT_OK)
+        cmd_end(&s, WT_OK);
+    } else if (made == WT_OK)
         made = wt_collect(cases, n, &job, &tables, &s.err);
     wt_table **const made_tables[] = {&tables.collection, &tables.collected_modulus,
                                       &tables.collected_friction, &tables.ratio_pairs};

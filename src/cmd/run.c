@@ -118,13 +118,7 @@ static wt_status compute_run(run_call *r)
 {
     cmd_session *s = &r->s;
     size_t n_failed = 0;
-    r->run.progress = cmd_progress_start(s);
-    r->run.no_provenance = !s->common.provenance;
-    r->run.formats = s->common.formats;
-    r->run.columns = s->common.columns;
-    r->run.n_columns = s->common.n_columns;
-    wt_status status = wt_run(r->the_case, &r->run, s->log, &s->result, &n_failed, &s->err);
-    cmd_progress_end(s);
+    wt_status status = cmd_run_case(s, r->the_case, &r->run, &n_failed);
     cmd_say_log(s, s->log, false);
     if (s->result != NULL && n_failed > 0)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));

@@ -174,6 +174,19 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
     cmd_end(s, made);
 }
 
+wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, size_t *n_failed)
+{
+    *n_failed = 0;
+    run->formats = s->common.formats;
+    run->columns = s->common.columns;
+    run->n_columns = s->common.n_columns;
+    run->no_provenance = !s->common.provenance;
+    run->progress = cmd_progress_start(s);
+    const wt_status status = wt_run(c, run, s->log, &s->result, n_failed, &s->err);
+    cmd_progress_end(s);
+    return status;
+}
+
 int cmd_session_free(cmd_session *s)
 {
     for (size_t i = 0; i < s->n_parts; i++)

@@ -27,14 +27,8 @@ static wt_status validate_case(cmd_session *s, wt_run_options *run, cmd_part *jo
     if (status == WT_OK)
         status =
             wt_case_validate(c, s->files + 1, s->n_files - 1, job->structure, job->given, &s->err);
-    run->formats = s->common.formats;
-    run->columns = s->common.columns;
-    run->n_columns = s->common.n_columns;
-    run->progress = cmd_progress_start(s);
-    run->no_provenance = !s->common.provenance;
     if (status == WT_OK)
-        status = wt_run(c, run, s->log, &s->result, &n_failed, &s->err);
-    cmd_progress_end(s);
+        status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
