@@ -15,6 +15,8 @@ static double velocity[STEPS];
 static wt_layer_known known;
 static wt_table *record, *what_if;
 static size_t at_rest = SIZE_MAX; /* row of the record */
+static bool by_rotation;          /* which alone says so */
+static double warm; /* temperature of every second row, of the others none; 0: of none */
 
 static void set_up(void)
 {
@@ -65,7 +67,13 @@ static void make_record(double shear, double q1, double power, double error, boo
     for (size_t i = 0; i < STEPS; i++) {
         const double mu = number_cell(f.friction, i, layered ? "friction_with_layer" : "friction") *
                           pow(velocity[i], power) * (shear < 0 ? 0.8 : 1);
-        const double row[][2] = {{RECORD_VELOCITY, i == at_rest ? 0 : velocity[i]},
+        const double nan = (double)NAN;
+        const bool rests = i == at_rest;
+        const double row[][2] = {{RECORD_VELOCITY, !rests        ? velocity[i]
+                                                   : by_rotation ? nan
+                                                                 : 0},
+                                 {RECORD_ROTATION, rests && by_rotation ? 0 : nan},
+                                 {RECORD_TEMPERATURE, warm > 0 && i % 2 == 1 ? warm : nan},
                                  {RECORD_FRICTION, mu},
                                  {RECORD_FRICTION_STANDARD_ERROR, error * mu},
                                  {RECORD_FRICTION_LOW, mu * (1 - 2 * error)},
@@ -311,15 +319,68 @@ static void test_rest(void **state)
 {
     (void)state;
     set_up();
-    at_rest = 2;
-    make_record(8e6, surface.q1, 0, 0.003, false);
-    at_rest = SIZE_MAX;
+    for (int rotation = 0; rotation < 2; rotation++) {
+        at_rest = 2;
+        by_rotation = rotation == 1;
+        make_record(8e6, surface.q1, 0, 0.003, false);
+        at_rest = SIZE_MAX;
+        const wt_validation_job job = job_of(false);
+        wt_validation_tables t = made(&job);
+        assert_int_equal(wt_table_n_rows(t.validation), STEPS);
+        assert_string_equal(wt_table_key(t.validation, "n_left_out"), "1");
+        assert_string_equal(text_cell(t.validation, STEPS - 1, "note"), "nothing slides in it");
+        assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 8e6 - 1) < 1e-6);
+        wt_validation_tables_clear(&t);
+    }
+}
+
+/* Steps whose temperature is not known are no steps of another one: each is predicted at its own.
+ */
+static void test_temperatures(void **state)
+{
+    (void)state;
+    set_up();
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF, .wlf = {293.15, 6.5, 110}};
+    rubber.temperature_min = rubber.temperature_max = (double)NAN;
+    warm = 333.15;
+    make_record(5e6, surface.q1, 0, 0.003, false);
+    warm = 0;
     const wt_validation_job job = job_of(false);
     wt_validation_tables t = made(&job);
-    assert_int_equal(wt_table_n_rows(t.validation), STEPS);
-    assert_string_equal(wt_table_key(t.validation, "n_left_out"), "1");
-    assert_string_equal(text_cell(t.validation, STEPS - 1, "note"), "nothing slides in it");
-    assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 8e6 - 1) < 1e-6);
+    wt_friction_tables cold = {0}, hot = {0};
+    work.replicates = 0;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &cold, NULL), WT_OK);
+    sliding.temperature.value = 333.15;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &hot, NULL), WT_OK);
+    size_t n_hot = 0;
+    for (size_t row = 0; row < STEPS; row++) {
+        const bool is_hot = number_cell(t.validation, row, "temperature") == 333.15;
+        size_t i = 0;
+        while (fabs(velocity[i] / number_cell(t.validation, row, "velocity") - 1) > 1e-9)
+            i++;
+        assert_int_equal(is_hot, i % 2);
+        n_hot += is_hot;
+        const double expected = number_cell(is_hot ? hot.friction : cold.friction, i, "friction");
+        assert_true(fabs(number_cell(t.validation, row, "friction_predicted") / expected - 1) <
+                    1e-9);
+    }
+    assert_int_equal(n_hot, STEPS / 2);
+    wt_friction_tables_clear(&cold);
+    wt_friction_tables_clear(&hot);
+    wt_validation_tables_clear(&t);
+}
+
+/* Without replicates the errors of the prediction are in nothing, which is said. */
+static void test_no_replicates(void **state)
+{
+    (void)state;
+    set_up();
+    make_record(5e6, surface.q1, 0, 0.003, false);
+    work.replicates = 0;
+    const wt_validation_job job = job_of(false);
+    wt_validation_tables t = made(&job);
+    assert_non_null(strstr(wt_table_key(t.validation, "test"), "without replicates"));
+    assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "which take replicates"));
     wt_validation_tables_clear(&t);
 }
 
@@ -365,6 +426,8 @@ int main(void)
         cmocka_unit_test(test_below_hysteresis),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_temperatures),
+        cmocka_unit_test(test_no_replicates),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

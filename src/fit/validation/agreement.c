@@ -3,8 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/validation/agreement.h"
 
-#include "base/normal.h"
+#include "base/array.h"
 #include "fit/dense.h"
+#include "fit/students_t.h"
 #include "model/cholesky.h"
 
 #include <gsl/gsl_cdf.h>
@@ -15,12 +16,6 @@
 
 /* ---- the curve ------------------------------------------------------------------------------- */
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* How many velocities there are, and their ends. */
 static wt_status count_places(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
 {
@@ -28,7 +23,7 @@ static wt_status count_places(const agreement_data *d, size_t *n, double ends[2]
     if (sorted == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     memcpy(sorted, d->place, d->n * sizeof *sorted);
-    qsort(sorted, d->n, sizeof *sorted, by_size);
+    numbers_sort(sorted, d->n);
     double last = sorted[0];
     *n = 1;
     for (size_t i = 1; i < d->n; i++)
@@ -227,7 +222,7 @@ void agreement_row(const agreement *a, size_t i, double *row)
 
 double agreement_quantile(double df)
 {
-    return isfinite(df) ? gsl_cdf_tdist_Pinv(0.975, df) : NORMAL_95;
+    return students_t_quantile(isfinite(df) ? df : (double)INFINITY);
 }
 
 double agreement_df(double variance, double scatter, double df)

@@ -224,6 +224,12 @@ static void say_flash(telling *t, const table_view *table)
 static void say_layer(telling *t, const table_view *table)
 {
     const wt_estimate critical = layer_value(table, LAYER_KEY_CRITICAL_ENERGY);
+    const char *const closure = layer_words(table, LAYER_KEY_CLOSURE);
+    if (closure != NULL) {
+        tell(t, "The thickness of the modified layer follows from its formation by this law: %s.",
+             closure);
+        return;
+    }
     tell(t,
          "The thickness of the modified layer follows from the energy dissipated below the "
          "surface over a critical energy of %s (%s).",

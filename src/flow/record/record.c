@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Below, the mean of a cycle holds a part of its wave that changes from cycle to cycle. */
 static const double fewest_samples = 20;
@@ -339,11 +340,12 @@ static wt_status take_stored(const wt_job *work, const flow_file *file, bool wea
     return status;
 }
 
-/* A pipe can be read once only, and is taken for a measured record. */
+/* A pipe, with a name too, can be read once only, and is taken for a measured record. */
 static bool is_stored(const flow_file *file)
 {
     wt_input *input = NULL;
-    const bool stored = strcmp(file->path, "-") != 0 &&
+    struct stat found;
+    const bool stored = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
                         wt_input_open(file->path, &input, NULL) == WT_OK &&
                         stored_record_begins(input);
     wt_input_close(input);

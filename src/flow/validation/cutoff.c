@@ -114,10 +114,16 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
     size_t best = 0;
     char text[256];
     const wt_status status = scan_make(v, &s, err);
+    if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) { /* beside it all else stands */
+        validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE,
+                            "not known: friction is not predicted at every wavenumber tried");
+        return WT_OK;
+    }
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < s.n; i++)
-        best = s.likelihood[i] > s.likelihood[best] ? i : best;
+        if (s.likelihood[i] > s.likelihood[best] || isnan(s.likelihood[best]))
+            best = i;
     const double at = place_of_best(&s, best), first = pow(10, s.log_q1[0]),
                  last = pow(10, s.log_q1[s.n - 1]);
     if (isnan(at)) {

@@ -32,8 +32,11 @@ static bool is_used(const measured_step *s)
     return s->note[0] == '\0';
 }
 
+/* What is not known is alike, and behind all that is. */
 static int by_value(double a, double b)
 {
+    if (isnan(a) || isnan(b))
+        return (isnan(a) ? 1 : 0) - (isnan(b) ? 1 : 0);
     return (a > b) - (a < b);
 }
 
@@ -108,13 +111,16 @@ wt_status measured_make(const table_view *record, const wt_sliding *sliding, mea
                      temperature = record_get(record, i, RECORD_TEMPERATURE),
                      pressure = record_get(record, i, RECORD_PRESSURE);
         measured_step *const s = &m->step[m->n_all++];
-        *s = (measured_step){
-            .velocity = isnan(velocity) ? flow_reference_velocity(sliding) : velocity,
-            .temperature = temperature > 0 ? temperature : sliding->temperature.value,
-            .pressure = pressure > 0 ? pressure : sliding->pressure.value,
-            .friction = record_get(record, i, RECORD_FRICTION),
-            .error = record_get(record, i, RECORD_FRICTION_STANDARD_ERROR),
-            .file = record_text(record, i, RECORD_FILE)};
+        const bool rests = isnan(velocity) && record_get(record, i, RECORD_ROTATION) == 0;
+        *s = (measured_step){.velocity = rests             ? 0
+                                         : isnan(velocity) ? flow_reference_velocity(sliding)
+                                                           : velocity,
+                             .temperature =
+                                 temperature > 0 ? temperature : sliding->temperature.value,
+                             .pressure = pressure > 0 ? pressure : sliding->pressure.value,
+                             .friction = record_get(record, i, RECORD_FRICTION),
+                             .error = record_get(record, i, RECORD_FRICTION_STANDARD_ERROR),
+                             .file = record_text(record, i, RECORD_FILE)};
         s->measured =
             (wt_interval){s->friction, s->error, record_get(record, i, RECORD_FRICTION_LOW),
                           record_get(record, i, RECORD_FRICTION_HIGH)};

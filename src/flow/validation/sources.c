@@ -66,13 +66,16 @@ static source *find_source(source_list *list, const char *words, const char *rem
 
 /* ---- the variance by sources ----------------------------------------------------------------- */
 
-static void add_rest(source_list *list, const trial_parts *parts, const trial_parts *needed)
+static void add_rest(source_list *list, bool with_surface, const trial_parts *parts,
+                     const trial_parts *needed)
 {
     const struct {
         const char *words, *remedy;
         double variance, needed;
-    } rest[] = {{"material", "a second DMA run; temperatures known better", parts->material,
-                 needed->material},
+    } rest[] = {{with_surface ? "material, and scatter of the measured spectrum" : "material",
+                 with_surface ? "a second DMA run; more scans of the counter surface"
+                              : "a second DMA run; temperatures known better",
+                 parts->material, needed->material},
                 {"record", "longer records, or more of them", parts->record, needed->record},
                 {"scatter between the steps",
                  "more records at each velocity: the steps scatter by more than their errors",
@@ -95,7 +98,7 @@ static void list_sources(const validation *v, const trial_parts *parts, const tr
         s->variance += parts->line[u];
         s->needed += needed->line[u];
     }
-    add_rest(list, parts, needed);
+    add_rest(list, v->used.surface.modes_error != NULL, parts, needed);
 }
 
 /* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope

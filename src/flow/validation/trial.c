@@ -79,7 +79,7 @@ static void take_mean(splitting *s)
 
 /* The numbers that are drawn are standard normal, so their part of the covariance follows from the
  * slopes without scatter; of the rest it is that of the draws. */
-static void find_covariance(splitting *s)
+static wt_status find_covariance(splitting *s, wt_error *err)
 {
     trial *const t = s->t;
     const bool lines = s->n_good >= FOR_EACH * s->columns && take_lines(s);
@@ -87,8 +87,13 @@ static void find_covariance(splitting *s)
         s->columns = 1;
         take_mean(s);
     }
+    if (s->p->n_draws == 0) /* not asked for */
+        return WT_OK;
     if (s->n_good <= s->columns)
-        return;
+        return wt_fail(err, WT_E_RANGE,
+                       "of %zu replicates %zu have a friction: too few for the errors of the "
+                       "prediction",
+                       s->p->n_draws, s->n_good);
     for (size_t i = 0; i < t->n; i++)
         for (size_t j = 0; j < t->n; j++) {
             double sum = 0;
@@ -99,6 +104,7 @@ static void find_covariance(splitting *s)
             for (size_t u = 0; lines && u < t->n_lines; u++)
                 t->common[i * t->n + j] += t->slope[u * t->n + i] * t->slope[u * t->n + j];
         }
+    return WT_OK;
 }
 
 static wt_status split_draws(const prediction *p, trial_value *of, const void *user, uint64_t seed,
@@ -107,11 +113,11 @@ static wt_status split_draws(const prediction *p, trial_value *of, const void *u
     splitting s = {.p = p, .t = t, .columns = p->n_lines + 1};
     s.z = malloc((p->n_draws + 1) * s.columns * sizeof *s.z);
     s.value = malloc((p->n_draws + 1) * t->n * sizeof *s.value);
-    const wt_status status =
+    wt_status status =
         s.z == NULL || s.value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
         collect_draws(&s, of, user, seed);
-        find_covariance(&s);
+        status = find_covariance(&s, err);
     }
     free(s.z);
     free(s.value);

@@ -147,9 +147,11 @@ static void set_verdicts(const validation *v, table_writer *t)
         "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
         "velocity, is from %.3g to %.3g; does not: at some step the interval that holds 95 %% at "
         "all "
-        "steps at once is outside; else it cannot say. Errors of record, scatter between steps and "
-        "stated errors of the prediction are in it, choices of the model are not",
-        1 / (1 + v->job->margin), 1 + v->job->margin);
+        "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
+        "are in it, %s, choices of the model are not",
+        1 / (1 + v->job->margin), 1 + v->job->margin,
+        v->p.n_draws > 0 ? "and stated errors of the prediction"
+                         : "errors of the prediction are not, without replicates");
 }
 
 static void set_ratio(const validation *v, table_writer *t)
@@ -160,13 +162,7 @@ static void set_ratio(const validation *v, table_writer *t)
     set_interval(t, VALIDATION_KEY_RATIO, VALIDATION_KEY_RATIO_LOW, VALIDATION_KEY_RATIO_HIGH,
                  validation_factor(v->mean.value, v->mean.error, v->mean.df));
     if (fit->terms > 1) {
-        double error = 0;
-        for (size_t i = 0; i < fit->n; i++)
-            for (size_t k = 0; k < fit->n; k++) {
-                const trial *const r = &v->ratio[v->layered];
-                error += fit->weight[fit->n + i] * fit->weight[fit->n + k] *
-                         (r->common[i * fit->n + k] + (i == k ? r->own[i] + fit->scatter : 0));
-            }
+        const double error = trial_variance(&v->ratio[v->layered], fit->weight + fit->n).all;
         validation_set_value(t, VALIDATION_KEY_TREND, expm1(fit->coefficient[1] / fit->span),
                              exp(fit->coefficient[1] / fit->span) * sqrt(error) / fit->span,
                              (double)NAN);
@@ -273,6 +269,9 @@ static wt_status begin(validation *v, wt_error *err)
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
         status = prediction_make(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
+    if (status == WT_OK && v->p.n_draws == 0)
+        measured_remark(&v->steps, "no interval and no verdict holds errors of the prediction, "
+                                   "which take replicates");
     return status;
 }
 
