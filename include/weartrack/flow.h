@@ -869,8 +869,11 @@ WT_API wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *wor
  * every velocity and pressure at the nominal temperature. One preparation of the kernel at the
  * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
  * WT_E_ARG if neither temperatures nor pressures are given. */
-WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_job *work,
-                                      wt_table **table, wt_error *err) WT_NODISCARD;
+/* Without the layer `known` (NULL: none), but with the crack opening that its shear stress has on
+ * the bare surface, too. */
+WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_known *known,
+                                      const wt_job *work, wt_table **table,
+                                      wt_error *err) WT_NODISCARD;
 /* Table "friction_decades": what the roughness of each decade of the wavenumber makes of the
  * hysteresis friction, at the slowest, the reference and the fastest velocity. */
 WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_job *work,

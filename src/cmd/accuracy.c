@@ -31,6 +31,8 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
     size_t n_failed = 0;
     wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
+        status = cmd_try_output(s->common.output, &s->err);
+    if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
         status = wt_case_ask(c, covers ? first : "error_budget work_precision", &s->err);

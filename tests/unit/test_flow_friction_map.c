@@ -29,11 +29,13 @@ static void set_up(void)
     work.replicates = 0;
 }
 
+static const wt_layer_known *layer; /* NULL: none */
+
 static wt_table *make_map(void)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_map_make(&sliding, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_make(&sliding, layer, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -45,7 +47,7 @@ static wt_table *make_friction(double temperature, double pressure)
     wt_friction_tables tables = {0};
     there.temperature.value = temperature;
     there.pressure.value = pressure;
-    assert_int_equal(wt_friction_make(&there, NULL, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_friction_make(&there, layer, &work, &tables, NULL), WT_OK);
     return tables.friction;
 }
 
@@ -99,6 +101,13 @@ static void map_is_friction(void **state)
     sliding.pressures = pressures;
     sliding.n_pressures = PRESSURES;
     check_map();
+    /* opening cracks costs friction on the bare surface, too */
+    const wt_layer_shear cracks = {.exponent = 1, .crack_energy = 1, .spacing = 1e-5};
+    const wt_layer_known cracked = {
+        .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &cracks};
+    layer = &cracked;
+    check_map();
+    layer = NULL;
     sliding.anisotropy.amplitude[0] = 0.6;
     sliding.anisotropy.angle[0] = 0.5;
     sliding.gamma = 0.5;
@@ -135,17 +144,17 @@ static void map_that_cannot_be(void **state)
     wt_table *map = NULL;
     wt_error err = WT_ERROR_INIT;
     set_up();
-    assert_int_equal(wt_friction_map_make(&sliding, &work, &map, &err), WT_E_ARG);
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_ARG);
     static const double cold[] = {150, 293.15};
     sliding.temperatures = cold;
     sliding.n_temperatures = 2;
-    assert_int_equal(wt_friction_map_make(&sliding, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.found, "-123.15"));
     rubber.law.kind = WT_LAW_NONE;
-    assert_int_equal(wt_friction_map_make(&sliding, &work, &map, &err), WT_E_MISSING);
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_MISSING);
     sliding.anisotropy.amplitude[0] = 0.9;
     sliding.anisotropy.amplitude[1] = -0.9;
-    assert_int_equal(wt_friction_map_make(&sliding, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "negative"));
     assert_null(map);
 }

@@ -772,7 +772,7 @@ static void test_flash(void **state)
     static const double temperature = 293.15;
     sliding.temperatures = &temperature;
     sliding.n_temperatures = 1;
-    if (wt_friction_map_make(&sliding, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_make(&sliding, NULL, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_non_null(
         strstr(wt_table_key(table, "material_statement"), "no flash temperature is found"));

@@ -43,6 +43,12 @@ wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size
 {
     if (wavenumber == NULL || c1 == NULL || c == NULL || n < 2)
         return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
+    for (size_t k = 0; k < n; k++)
+        if (!(c1[k] > 0) || !isfinite(c1[k])) {
+            wt_fail(err, WT_E_RANGE, "density %zu of %zu of the profile is not above 0", k + 1, n);
+            wt_error_found(err, "%g m^3", c1[k]);
+            return WT_E_RANGE;
+        }
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
     if (rule == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");

@@ -197,10 +197,11 @@ static void describe_options(const friction_task *task, const sliding_contact *c
     const wt_shear_law *law = &s->shear_law;
     snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
-    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL &&
-        !sliding_layer_shear_is_plain(task->layer->shear))
-        sliding_layer_shear_describe(task->layer->shear, keys->layer_shear,
-                                     sizeof keys->layer_shear);
+    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
+        const wt_layer_shear shear = sliding_layer_shear_of(task->layer);
+        if (!sliding_layer_shear_is_plain(&shear))
+            sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
+    }
     if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
         return;
     clocale_print(keys->shear_law, sizeof keys->shear_law,

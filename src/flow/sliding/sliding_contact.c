@@ -221,14 +221,20 @@ wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t 
     return state;
 }
 
+wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
+{
+    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
+    if (known->bulk_shear)
+        shear.exponent = 0;
+    return shear;
+}
+
 double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
                            double area_ratio)
 {
     if (known == NULL)
         return bulk;
-    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
-    if (known->bulk_shear)
-        shear.exponent = 0;
+    const wt_layer_shear shear = sliding_layer_shear_of(known);
     return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
 }
 

@@ -38,6 +38,8 @@ double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
 wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate);
 /* Shear stress with a layer, of that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or as the
  * layer says; cracks are opened without one, too. `known` NULL: that of the bulk. */
+/* Its law: that of the bulk has no power of the modulus ratio. */
+wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known);
 double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
                            double area_ratio);
 /* The modulus ratio at once and no cracks, which need no words; the law in words. */

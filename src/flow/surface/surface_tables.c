@@ -123,7 +123,8 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
 {
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
-        clocale_print(to, size, "cannot say: profiles; a height map would tell");
+        clocale_print(to, size,
+                      "cannot say: profiles are among the scans; height maps alone would tell");
     else if (surface_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
@@ -302,6 +303,9 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
                               wt_topography_tables *tables, wt_error *err)
 {
     wt_topography_tables made = {.power_spectrum = NULL};
+    bool maps = false;
+    for (size_t i = 0; i < n; i++)
+        maps = maps || scans[i].map.ny > 1;
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = make_angular(whole, &made.angular_spectrum, err);
@@ -311,7 +315,7 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
         status = make_scans(scans, n, &made.scan_spectra, err);
     if (status == WT_OK && job->heights)
         status = surface_view_profiles(scans, n, &made.height_profile, err);
-    if (status == WT_OK && job->heights && !isnan(whole->directions.amplitude))
+    if (status == WT_OK && job->heights && maps)
         status = surface_view_maps(scans, n, &made.height_map, err);
     if (status == WT_OK)
         *tables = made;

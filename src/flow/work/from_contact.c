@@ -35,23 +35,43 @@ typedef struct contact_of_curve {
     double point, offset, tilt, max_force;
 } contact_of_curve;
 
-/* The row of the curve in a table of indentation, if it has one; n_rows: none. */
-static size_t find_row(const table_view *view, const flow_file *file, size_t curve)
+/* Rows of a curve, of which the one that has the very name of the file comes before others whose
+ * paths end alike. */
+typedef struct row_search {
+    const flow_file *file;
+    size_t curve;
+    flow_naming best;
+    bool twice; /* there is another as good */
+    contact_of_curve contact;
+    char verdict[64];
+} row_search;
+
+static void search_table(row_search *s, const table_view *view)
 {
     for (size_t row = 0; row < view->n_rows; row++) {
-        const char *name = indentation_text(view, row, INDENTATION_FILE);
         const double number = indentation_get(view, row, INDENTATION_CURVE);
-        if (number >= 0 && (size_t)number == curve &&
-            flow_file_is(file, name, strlen(name)) != FLOW_OTHER_FILE)
-            return row;
+        if (!(number >= 0 && (size_t)number == s->curve))
+            continue;
+        const char *name = indentation_text(view, row, INDENTATION_FILE);
+        const flow_naming as = flow_file_is(s->file, name, strlen(name));
+        if (as == FLOW_OTHER_FILE || as < s->best)
+            continue;
+        s->twice = as == s->best;
+        s->best = as;
+        s->contact = (contact_of_curve){indentation_get(view, row, INDENTATION_CONTACT_POINT),
+                                        indentation_get(view, row, INDENTATION_BASELINE_OFFSET),
+                                        indentation_get(view, row, INDENTATION_BASELINE_TILT),
+                                        indentation_get(view, row, INDENTATION_MAX_FORCE)};
+        snprintf(s->verdict, sizeof s->verdict, "%s",
+                 indentation_text(view, row, INDENTATION_VERDICT));
     }
-    return view->n_rows;
 }
 
 static wt_status find_contact(const contact_points *points, const flow_file *file, size_t curve,
                               contact_of_curve *to, wt_error *err)
 {
     const char *const prefix = indentation_schema.name;
+    row_search s = {.file = file, .curve = curve, .best = FLOW_OTHER_FILE};
     for (size_t i = 0; i < wt_result_n_tables(points->tables); i++) {
         const wt_table *table = wt_result_table(points->tables, i);
         table_view view;
@@ -61,21 +81,22 @@ static wt_status find_contact(const contact_points *points, const flow_file *fil
                                             wt_table_name(table) + strlen(prefix), &view, err);
         if (status != WT_OK)
             return status;
-        const size_t row = find_row(&view, file, curve);
-        if (row == view.n_rows)
-            continue;
-        *to = (contact_of_curve){indentation_get(&view, row, INDENTATION_CONTACT_POINT),
-                                 indentation_get(&view, row, INDENTATION_BASELINE_OFFSET),
-                                 indentation_get(&view, row, INDENTATION_BASELINE_TILT),
-                                 indentation_get(&view, row, INDENTATION_MAX_FORCE)};
-        if (isfinite(to->point) && isfinite(to->offset) && isfinite(to->tilt))
-            return WT_OK;
-        return wt_fail(err, WT_E_NOT_FOUND, "no contact point in %s: %s", points->path,
-                       indentation_text(&view, row, INDENTATION_VERDICT));
+        search_table(&s, &view);
     }
-    const wt_status status = wt_fail(err, WT_E_NOT_FOUND, "the curve is not in %s", points->path);
-    wt_error_advice(err, "give the result that weartrack indent made of this file");
-    return status;
+    if (s.best == FLOW_OTHER_FILE) {
+        wt_fail(err, WT_E_NOT_FOUND, "the curve is not in %s", points->path);
+        wt_error_advice(err, "give the result that weartrack indent made of this file");
+        return WT_E_NOT_FOUND;
+    }
+    if (s.twice) {
+        wt_fail(err, WT_E_AMBIGUOUS, "two files of %s are called so", points->path);
+        wt_error_advice(err, "name the file by the path that it has there");
+        return WT_E_AMBIGUOUS;
+    }
+    *to = s.contact;
+    if (isfinite(to->point) && isfinite(to->offset) && isfinite(to->tilt))
+        return WT_OK;
+    return wt_fail(err, WT_E_NOT_FOUND, "no contact point in %s: %s", points->path, s.verdict);
 }
 
 static void name_channel(wt_channel *channel, wt_quantity quantity, const char *name)
