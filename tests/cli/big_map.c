@@ -20,7 +20,7 @@
 
 #define BARE "-q", "--no-provenance"
 #define MAP "map.jpk-force-map"
-enum { ASKED = 65536, MOST_MB = 100, MOST_CALLS = 12 };
+enum { ASKED = 65536, MOST_MB = 100, MOST_CALLS = 12, RUNS = 3 };
 
 extern char **environ;
 
@@ -262,8 +262,10 @@ static void run(const char *program, const trial *t, size_t n, double peaks[MOST
     }
     if (waitpid(writer, &state, 0) != writer || state != 0)
         abort();
-    for (size_t i = 0; i < MOST_CALLS && t->calls[i][0] != NULL; i++)
-        peaks[i] = peak(program, t->calls[i]);
+    for (size_t i = 0; i < MOST_CALLS && t->calls[i][0] != NULL; i++) {
+        const double found = peak(program, t->calls[i]);
+        peaks[i] = peaks[i] > 0 ? fmin(peaks[i], found) : found;
+    }
     for (size_t i = 0; t->moduli[i] != NULL; i++)
         compare(t->moduli[i], false, n);
     if (t->only_moduli != NULL)
@@ -284,10 +286,27 @@ static void tell(const char *const *call)
             (void)printf("%s ", *call);
 }
 
+/* The number of calls that need more than they may. */
+static size_t count_above(const trial *t, size_t only, const double *small, const double *large)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < MOST_CALLS && t->calls[i][0] != NULL; i++) {
+        const double at_most = only > 0
+                                   ? large[i]
+                                   : large[i] + (large[i] - small[i]) * (double)(ASKED - t->large) /
+                                                    (double)(t->large - t->small);
+        tell(t->calls[i]);
+        (void)printf("%.1f MB, of %zu curves %.0f MB\n", large[i], only > 0 ? only : (size_t)ASKED,
+                     at_most);
+        n += !(at_most < MOST_MB);
+    }
+    return n;
+}
+
 int main(int argc, char **argv)
 {
     double small[MOST_CALLS] = {0}, large[MOST_CALLS] = {0};
-    size_t which = 0;
+    size_t which = 0, n_above = 0;
     while (which < TRIALS && (argc < 4 || strcmp(argv[3], trials[which].name) != 0))
         which++;
     if (which == TRIALS || (mkdir(argv[2], 0777) != 0 && access(argv[2], W_OK) != 0) ||
@@ -299,19 +318,14 @@ int main(int argc, char **argv)
     if (samples > 1 && samples <= MOST_SAMPLES)
         t.samples = samples;
     make_kinds(t.samples);
-    if (only == 0)
-        run(argv[1], &t, t.small, small);
-    run(argv[1], &t, only > 0 ? only : t.large, large);
-    for (size_t i = 0; i < MOST_CALLS && t.calls[i][0] != NULL; i++) {
-        const double at_most = only > 0
-                                   ? large[i]
-                                   : large[i] + (large[i] - small[i]) * (double)(ASKED - t.large) /
-                                                    (double)(t.large - t.small);
-        tell(t.calls[i]);
-        (void)printf("%.1f MB, of %zu curves %.0f MB\n", large[i], only > 0 ? only : (size_t)ASKED,
-                     at_most);
-        if (!(at_most < MOST_MB))
-            n_bad++;
+    /* What a process has at its peak differs by a megabyte from run to run, and here counts 24
+     * times: a program that keeps what it reads is above the limit in each. */
+    for (size_t i = 0; i < RUNS && (i == 0 || n_above > 0); i++) {
+        if (only == 0)
+            run(argv[1], &t, t.small, small);
+        run(argv[1], &t, only > 0 ? only : t.large, large);
+        n_above = count_above(&t, only, small, large);
     }
+    n_bad += n_above;
     return n_bad == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
