@@ -56,7 +56,12 @@ static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
         return wt_fail(err, WT_E_MISSING,
                        "the activated closure of a layer needs a barrier, an activation volume "
                        "and a temperature");
-    return WT_OK;
+    if (!activated || !a->ageing || p->incubation)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the balance of rates knows no ageing, which goes on at every depth");
+    wt_error_place(err, "ageing");
+    wt_error_advice(err, "leave out ageing, or no-incubation: the transport of damage has it");
+    return WT_E_ARG;
 }
 
 void layer_rates_clear(layer_rates *rates)

@@ -45,6 +45,17 @@ static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness
     return seconds(time, moved + time * (2 * rates->error + 64 * DBL_EPSILON));
 }
 
+/* Rubber of every depth is modified in time, however fast it is worn. */
+static void age_everywhere(wt_layer_balance *b, bool without_errors)
+{
+    b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
+    b->thickness.value = HUGE_VAL;
+    b->thickness.numerical_error = without_errors ? (double)NAN : 0;
+    b->regime = WT_LAYER_THICK;
+    b->relaxation_time = seconds(HUGE_VAL, 0);
+    b->eigenvalue = 0;
+}
+
 wt_status wt_layer_balance_compute(const wt_energy_source *source,
                                    const wt_layer_parameters *parameters, wt_layer_balance *balance,
                                    wt_error *err)
@@ -80,7 +91,9 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     b.relaxation_time = relaxation_of(&r, b.thickness);
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
     b.removal_time = seconds((double)NAN, (double)NAN);
-    if (b.regime == WT_LAYER_NONE) {
+    if (r.background > 0) {
+        age_everywhere(&b, r.without_errors);
+    } else if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
             b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
         else

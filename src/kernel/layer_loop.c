@@ -46,6 +46,12 @@ static loop_point point_at(loop_search *s, double thickness)
     s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
     if (s->status == WT_OK)
         s->status = layer_rates_make(&source, &parameters, &rates, s->err);
+    if (s->status == WT_OK && rates.background > 0) {
+        s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
+        wt_error_place(s->err, "ageing");
+        wt_error_advice(s->err, "leave out ageing, or acts-back");
+        layer_rates_clear(&rates);
+    }
     if (s->status == WT_OK) {
         p = (loop_point){.formation = layer_formation(&rates, thickness),
                          .wear = rates.wear,

@@ -389,8 +389,9 @@ static bool check_number(const rig *r, const case_line *line)
     else if (strcmp(line->key, "background") == 0)
         assert_near(wt_activation_background(&r->p.activation), *v, DIGITS);
     else if (strcmp(line->key, "incubation") == 0 || strcmp(line->key, "unworn_incubation") == 0) {
-        at.p.incubation = line->key[0] == 'i';
-        at.p.activation.ageing = !at.p.incubation;
+        at.p.incubation = true;
+        at.p.activation.ageing = line->key[0] == 'u';
+        at.p.specific_wear_rate = line->key[0] == 'u' ? 0 : r->p.specific_wear_rate;
         assert_near(balance_of(&at).incubation_time.value, *v, DIGITS);
     } else if (strcmp(line->key, "formation_at") == 0) {
         assert_int_equal(layer_rates_make(&r->source, &r->p, &rates, &err), WT_OK);
@@ -561,6 +562,22 @@ static void rest_ages_only(void **state)
     assert_true(points[0].thickness.value == 0 && isinf(points[1].thickness.value));
     assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
     assert_true(balance.incubation_time.value <= life * (1 + 1e-12));
+    /* and there is no balance, of whatever wear */
+    assert_true(isinf(balance.thickness.value) && balance.thickness.numerical_error == 0);
+    assert_true(isinf(balance.ratio) && isinf(balance.relaxation_time.value));
+    assert_true(isinf(balance.critical_specific_wear_rate) && balance.eigenvalue == 0);
+    assert_int_equal(balance.regime, WT_LAYER_THICK);
+    assert_true(isnan(balance.removal_time.value));
+    /* also where wear is done with the energy long before the age, or there is no energy */
+    p.specific_wear_rate = 1e-6;
+    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
+    assert_near(balance.incubation_time.value, life, 1e-9);
+    assert_int_equal(wt_layer_balance_compute(&source, &p, &balance, &err), WT_OK);
+    assert_near(balance.incubation_time.value, life, 1e-12);
+    p.incubation = false;
+    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_E_ARG);
+    assert_int_equal(wt_layer_history(&working, &p, times, 2, points, &err), WT_E_ARG);
+    assert_string_equal(err.place, "ageing");
 }
 
 /* Where k is constant and where its growth has no power to work on, the numbers are the same. */
