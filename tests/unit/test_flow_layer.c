@@ -294,6 +294,53 @@ static void existence_ends_where_it_says(void **state)
     wt_table_free(existence);
 }
 
+/* Where the layer begins again and goes on beyond the list, it ends at no velocity of it. */
+static void existence_of_two_ranges(void **state)
+{
+    (void)state;
+    enum { LIST = 45 };
+    double list[LIST], term[] = {10e6, 10e6}, tau[] = {1e-5, 10}, wear = 1e-12;
+    for (size_t i = 0; i < LIST; i++)
+        list[i] = 1e-8 * pow(10, 0.25 * (double)i);
+    sliding_set_up(list, LIST);
+    rubber.prony.n = 2;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    surface.q1 = 2e4;
+    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_job job = job_of();
+    wt_table *existence = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    /* R goes with 1/k: a wear rate between the two peaks of R and the valley */
+    size_t first = 0, valley = 0, last = 0;
+    double ratio[LIST];
+    for (size_t i = 0; i < LIST; i++)
+        ratio[i] = cell(existence, i, "ratio");
+    wt_table_free(existence);
+    while (ratio[first + 1] > ratio[first])
+        first++;
+    for (valley = first; valley + 1 < LIST && ratio[valley + 1] < ratio[valley];)
+        valley++;
+    for (last = valley; last + 1 < LIST && ratio[last + 1] > ratio[last];)
+        last++;
+    assert_true(first > 0 && valley > first && last > valley && last + 1 < LIST);
+    wear *= sqrt(ratio[valley] * fmin(ratio[first], ratio[last]));
+    job.specific_wear_rate.value = wear;
+    for (int whole = 0; whole < 2; whole++) {
+        sliding.n_velocity = whole ? LIST : last + 1;
+        assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+        const double from = key_number(existence, "from_velocity"),
+                     to = key_number(existence, "to_velocity"),
+                     power = key_number(existence, "to_power");
+        assert_true(from < list[first]);
+        assert_true(whole ? to > list[last] : isnan(to));
+        assert_int_equal(isnan(power), !whole);
+        assert_non_null(strstr(wt_table_key(existence, "words"), "up to"));
+        wt_table_free(existence);
+    }
+}
+
 static void refuses(void **state)
 {
     (void)state;
@@ -329,15 +376,11 @@ static void refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(energies_add_up),
-        cmocka_unit_test(severity_is_a_rate),
-        cmocka_unit_test(bands_are_the_layer),
-        cmocka_unit_test(loads_in_parts),
-        cmocka_unit_test(running_in_joins_both),
-        cmocka_unit_test(one_shear_stress),
-        cmocka_unit_test(shearing_the_layer),
-        cmocka_unit_test(existence_ends_where_it_says),
-        cmocka_unit_test(refuses),
+        cmocka_unit_test(energies_add_up),         cmocka_unit_test(severity_is_a_rate),
+        cmocka_unit_test(bands_are_the_layer),     cmocka_unit_test(loads_in_parts),
+        cmocka_unit_test(running_in_joins_both),   cmocka_unit_test(one_shear_stress),
+        cmocka_unit_test(shearing_the_layer),      cmocka_unit_test(existence_ends_where_it_says),
+        cmocka_unit_test(existence_of_two_ranges), cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
