@@ -349,7 +349,7 @@ typedef wt_status (*wt_layer_energy_fn)(double thickness, void *user, wt_energy_
                                         wt_layer_parameters *parameters, wt_error *err);
 
 /* A thickness at which formation under it equals wear. 0: the bare surface, where formation does
- * not exceed wear. */
+ * not exceed wear; unstable: a threshold thinner than any layer, which then grows. */
 typedef struct wt_layer_root {
     double thickness;  /* [m] */
     bool stable;       /* a layer near it comes back to it */

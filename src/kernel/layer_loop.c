@@ -110,13 +110,14 @@ static void add_fold(loop_search *s, double low, double high, bool maximum, wt_l
         (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
 }
 
-/* A balance below the grid, where the bare surface is modified and a layer of its first thickness
- * is worn: so near to 0 that it is 0 where the energy jumps there, as that of shearing does. */
-static void add_thinnest(loop_search *s, double log_low, wt_layer_loop *loop)
+/* A balance below the grid, where of the bare surface and a layer of the first thickness one is
+ * modified and the other worn: so near to 0 that it is 0 where the energy jumps there, as that of
+ * shearing does. It is stable if the bare surface is modified, else a threshold. */
+static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_loop *loop)
 {
     const double least = log_low + log(below_grid);
     double root = -HUGE_VAL;
-    if (log_ratio_at(least, s) > 0) {
+    if ((log_ratio_at(least, s) > 0) == grows) {
         const wt_status status = root_find(log_ratio_at, s, least, log_low, 0, &root, s->err);
         s->status = s->status == WT_OK ? status : s->status;
     }
@@ -125,7 +126,7 @@ static void add_thinnest(loop_search *s, double log_low, wt_layer_loop *loop)
     if (isfinite(root))
         add_root(s, exp(root), loop);
     else
-        loop->root[loop->n_roots++] = (wt_layer_root){0, true, (double)NAN, (double)NAN};
+        loop->root[loop->n_roots++] = (wt_layer_root){0, grows, (double)NAN, (double)NAN};
 }
 
 /* Crossings and extrema of values on a grid of ln d. */
@@ -168,8 +169,8 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
         x[i] = log(low) + log(high / low) * (double)i / (double)(grid - 1);
         value[i] = log_ratio_at(x[i], &s);
     }
-    if (s.status == WT_OK && bare > 0 && !(value[0] > 0))
-        add_thinnest(&s, x[0], &l);
+    if (s.status == WT_OK && (bare > 0) != (value[0] > 0))
+        add_thinnest(&s, x[0], bare > 0, &l);
     if (s.status == WT_OK)
         search_grid(&s, x, value, grid, &l);
     free(x);

@@ -260,6 +260,41 @@ static void shearing_the_layer(void **state)
     }
 }
 
+/* A bare surface that is worn where any layer of a stiffer rubber grows: between the two stable
+ * balances is a threshold, at 0 where the shear stress jumps, else below any thickness looked at.
+ */
+static void threshold_of_a_stiff_layer(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    const wt_layer_known known = {.modulus_ratio = {4, 0, 0, "1"}};
+    wt_error err = WT_ERROR_INIT;
+    wt_table *balances = NULL;
+    wt_layer_job job = job_of();
+    job.acts_back = true;
+    job.energy = WT_LAYER_SHEAR;
+    wt_table *layer = layer_of(&job);
+    job.specific_wear_rate.value = key_number(layer, "critical_specific_wear_rate") / 0.58;
+    wt_table_free(layer);
+    for (int k = 0; k < 2; k++) {
+        job.shear.reach = k ? 1e-11 : 0;
+        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+                         WT_OK);
+        static const char *const stable[] = {"stable", "unstable", "stable"};
+        const size_t kind = (size_t)wt_table_find(balances, "kind"),
+                     at = (size_t)wt_table_find(balances, "stable");
+        for (size_t row = 0; row < 3; row++) {
+            assert_string_equal(wt_table_text(balances, row, kind), "balance");
+            assert_string_equal(wt_table_text(balances, row, at), stable[row]);
+        }
+        const double threshold = cell(balances, 1, "thickness");
+        assert_true(cell(balances, 0, "thickness") == 0);
+        assert_true(k ? threshold > 0 && threshold < 1e-10 : threshold == 0);
+        assert_true(cell(balances, 2, "thickness") > 1e-7);
+        wt_table_free(balances);
+    }
+}
+
 /* At the edge R is 1, and beyond it there is no layer and no change of friction. */
 static void existence_ends_where_it_says(void **state)
 {
@@ -376,11 +411,17 @@ static void refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(energies_add_up),         cmocka_unit_test(severity_is_a_rate),
-        cmocka_unit_test(bands_are_the_layer),     cmocka_unit_test(loads_in_parts),
-        cmocka_unit_test(running_in_joins_both),   cmocka_unit_test(one_shear_stress),
-        cmocka_unit_test(shearing_the_layer),      cmocka_unit_test(existence_ends_where_it_says),
-        cmocka_unit_test(existence_of_two_ranges), cmocka_unit_test(refuses),
+        cmocka_unit_test(energies_add_up),
+        cmocka_unit_test(severity_is_a_rate),
+        cmocka_unit_test(bands_are_the_layer),
+        cmocka_unit_test(loads_in_parts),
+        cmocka_unit_test(running_in_joins_both),
+        cmocka_unit_test(one_shear_stress),
+        cmocka_unit_test(shearing_the_layer),
+        cmocka_unit_test(threshold_of_a_stiff_layer),
+        cmocka_unit_test(existence_ends_where_it_says),
+        cmocka_unit_test(existence_of_two_ranges),
+        cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
