@@ -147,6 +147,44 @@ static void loads_in_parts(void **state)
     wt_table_free(cut);
 }
 
+/* However many loads there are, all are told. */
+static void loads_are_told(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    enum { LOADS = 40 };
+    char load[LOADS][64];
+    const char *loads[LOADS];
+    wt_layer_job job = job_of();
+    wt_table *bands = NULL;
+    wt_error err = WT_ERROR_INIT;
+    for (size_t i = 0; i < LOADS; i++) {
+        snprintf(load[i], sizeof load[i], "time=%zus,pressure=%zukPa", 10 + i, 300 + i);
+        loads[i] = load[i];
+    }
+    job.loads = loads;
+    job.n_loads = LOADS;
+    static const double times[] = {10, 1000};
+    job.time = times;
+    job.n_time = 2;
+    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
+    const char *text = wt_table_key(bands, "loads");
+    assert_non_null(text);
+    for (size_t i = 0; text != NULL && i < LOADS; i++) {
+        char told[64];
+        snprintf(told, sizeof told, "%zu s at 0.%zu MPa, ", 10 + i, 300 + i);
+        if (i % 10 == 0) /* 0.31 MPa */
+            snprintf(told, sizeof told, "%zu s at 0.%zu MPa, ", 10 + i, (300 + i) / 10);
+        if (i == 0)
+            snprintf(told, sizeof told, "10 s at 0.3 MPa, ");
+        text = strstr(text, told);
+        if (text == NULL)
+            fail_msg("%s is not told", told);
+    }
+    assert_non_null(strstr(text, "mm^3/(N m)"));
+    wt_table_free(bands);
+}
+
 /* It begins with the friction of the bulk, and ends with that of the balance. */
 static void running_in_joins_both(void **state)
 {
@@ -415,6 +453,7 @@ int main(void)
         cmocka_unit_test(severity_is_a_rate),
         cmocka_unit_test(bands_are_the_layer),
         cmocka_unit_test(loads_in_parts),
+        cmocka_unit_test(loads_are_told),
         cmocka_unit_test(running_in_joins_both),
         cmocka_unit_test(one_shear_stress),
         cmocka_unit_test(shearing_the_layer),
