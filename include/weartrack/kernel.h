@@ -249,8 +249,9 @@ typedef struct wt_layer_balance {
     double wear_rate;                   /* Qw [m/s] */
     double ratio;                       /* R = Qf(0)/Qw, infinity without wear or with ageing */
     double critical_specific_wear_rate; /* k* [m^2/N], of the k before the severity */
-    wt_estimate thickness;              /* delta_total [m]; infinity likewise */
-    double eigenvalue;                  /* of the balance [1/s]; 0 if there is none or no wear */
+    double ratio_error; /* relative numerical error of both, and of a calibrated critical energy */
+    wt_estimate thickness;       /* delta_total [m]; infinity likewise */
+    double eigenvalue;           /* of the balance [1/s]; 0 if there is none or no wear */
     wt_estimate relaxation_time; /* 1/(kappa Qw), kappa = w / int w there; infinity without wear */
     wt_estimate incubation_time; /* until any depth is modified, with wear if `incubation`, else as
                                     if there were none; NaN if never */

@@ -22,6 +22,7 @@ typedef struct layer_rates {
     double threshold;            /* ln(U_c Lambda), or ln Lambda of an activated closure */
     double background;           /* unloaded damage over Lambda [1/s]; 0 = none that counts */
     double error;                /* relative, of a tail */
+    double wear_error;           /* relative, of the wear where it follows the power; else 0 */
     double duty;
     bool without_errors;
 } layer_rates;

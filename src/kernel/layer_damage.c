@@ -89,7 +89,7 @@ double damage_at(double depth, void *user)
 
 double damage_error(const layer_rates *rates)
 {
-    return rates->error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
+    return rates->error + rates->wear_error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
 }
 
 /* Adds a course with the logarithm of its weight. */

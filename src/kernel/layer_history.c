@@ -24,7 +24,8 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
             grown.value = old;
             grown.numerical_error = rates->without_errors
                                         ? (double)NAN
-                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
+                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start) +
+                                              rates->wear_error * rates->wear * at[i].time;
         }
         at[i].point->thickness = grown;
     }
@@ -44,13 +45,15 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
                                 const double *time, size_t n, wt_layer_point *points)
 {
     const double relative = rates->error + 8 * DBL_EPSILON;
+    const double least_wear = rates->wear * fmax(0, 1 - rates->wear_error),
+                 most_wear = rates->wear * (1 + rates->wear_error);
     for (size_t i = 0; i < n; i++) {
         const double formation = rates->formation;
         const double value = wt_layer_exponential(start, kappa, formation, rates->wear, time[i]);
         const double more =
-            wt_layer_exponential(start, kappa, formation * (1 + relative), rates->wear, time[i]);
+            wt_layer_exponential(start, kappa, formation * (1 + relative), least_wear, time[i]);
         const double less = wt_layer_exponential(start, kappa, formation * fmax(0, 1 - relative),
-                                                 rates->wear, time[i]);
+                                                 most_wear, time[i]);
         points[i].thickness = (wt_estimate){
             .value = value,
             .numerical_error = fmax(more - value, value - less) +

@@ -94,6 +94,35 @@ static void severity_is_a_rate(void **state)
     wt_table_free(constant);
 }
 
+static double key_error(const wt_table *table, const char *name)
+{
+    const char *text = wt_table_key(table, name), *at = NULL;
+    if (text != NULL)
+        at = strstr(text, "numerical_error=");
+    if (at == NULL)
+        fail_msg("no numerical error of %s", name);
+    return strtod(at + strlen("numerical_error="), NULL);
+}
+
+/* R is not better known than the closure lets it be. */
+static void closure_magnifies_errors(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    job.critical_energy.value = (double)NAN;
+    job.closure = WT_CLOSURE_ACTIVATED;
+    job.barrier.value = 2e-19;
+    job.activation.volume = 5e-27;
+    sliding.temperature.value = rubber.prony.reference_temperature;
+    static const char *const keys[] = {"formation_wear_ratio", "critical_specific_wear_rate"};
+    wt_table *layer = layer_of(&job);
+    const double of_power = key_error(layer, "surface_power") / key_number(layer, "surface_power");
+    for (size_t i = 0; i < 2; i++)
+        assert_true(key_error(layer, keys[i]) / key_number(layer, keys[i]) > 2 * of_power);
+    wt_table_free(layer);
+}
+
 /* The deepest edge is the thickness of the table that was there before. */
 static void bands_are_the_layer(void **state)
 {
@@ -451,6 +480,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energies_add_up),
         cmocka_unit_test(severity_is_a_rate),
+        cmocka_unit_test(closure_magnifies_errors),
         cmocka_unit_test(bands_are_the_layer),
         cmocka_unit_test(loads_in_parts),
         cmocka_unit_test(loads_are_told),
