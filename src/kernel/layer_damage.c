@@ -40,12 +40,6 @@ static double damage_scale(const damage *d)
     return share - r->threshold;
 }
 
-static double log_add(double a, double b)
-{
-    const double high = fmax(a, b);
-    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
-}
-
 /* Where the damage of an earlier load is now that so much more was worn off. */
 static double now_at(const damage *d, size_t i, double depth)
 {
