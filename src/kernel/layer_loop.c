@@ -196,23 +196,10 @@ static double log_formation_at(double thickness, void *user)
     return p.wear == o->wear ? log_formation : log(exp(log_formation) - p.wear + o->wear);
 }
 
-static int by_time(const void *left, const void *right)
-{
-    const layer_instant *a = left, *b = right;
-    return (a->time > b->time) - (a->time < b->time);
-}
-
 static wt_status march_own(loop_search *s, layer_rates *rates, const double *time, size_t n,
                            wt_layer_point *points, wt_error *err)
 {
-    layer_instant *order = calloc(n + 1, sizeof *order);
-    if (order == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
-    for (size_t i = 0; i < n; i++)
-        order[i] = (layer_instant){time[i], &points[i]};
-    qsort(order, n, sizeof *order, by_time);
-    const wt_status status = layer_march(rates, 0, order, n, err);
-    free(order);
+    const wt_status status = layer_history_in_order(rates, 0, false, time, n, points, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
         const loop_point p = point_at(s, points[i].thickness.value);
