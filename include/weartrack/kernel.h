@@ -207,7 +207,8 @@ typedef struct wt_activation {
     wt_attempt attempt; /* default hbar */
     double temperature; /* [K], > 0 */
     double area_ratio;  /* A/A0, (0, 1]; default 1 */
-    bool ageing;        /* the unloaded rate counts as damage, too; default false */
+    bool ageing; /* the unloaded rate counts as damage, too; default false; of a layer only with
+                    `incubation`, and then at every depth: it has no balance */
 } wt_activation;
 /* Unloaded rate A exp(-barrier / kB T) [1/s]; NaN for values that are none. */
 WT_API double wt_activation_background(const wt_activation *parameters);
@@ -246,10 +247,11 @@ typedef struct wt_layer_balance {
     double surface_power;               /* J0 [W/m^2] */
     double formation_rate_zero;         /* Qf(0) [m/s] */
     double wear_rate;                   /* Qw [m/s] */
-    double ratio;                       /* R = Qf(0)/Qw, infinity without wear */
+    double ratio;                       /* R = Qf(0)/Qw, infinity without wear or with ageing */
     double critical_specific_wear_rate; /* k* [m^2/N], of the k before the severity */
-    wt_estimate thickness;              /* delta_total [m]; infinity without wear */
-    double eigenvalue;                  /* of the balance [1/s]; 0 if there is none or no wear */
+    double ratio_error; /* relative numerical error of both, and of a calibrated critical energy */
+    wt_estimate thickness;       /* delta_total [m]; infinity likewise */
+    double eigenvalue;           /* of the balance [1/s]; 0 if there is none or no wear */
     wt_estimate relaxation_time; /* 1/(kappa Qw), kappa = w / int w there; infinity without wear */
     wt_estimate incubation_time; /* until any depth is modified, with wear if `incubation`, else as
                                     if there were none; NaN if never */
@@ -348,7 +350,7 @@ typedef wt_status (*wt_layer_energy_fn)(double thickness, void *user, wt_energy_
                                         wt_layer_parameters *parameters, wt_error *err);
 
 /* A thickness at which formation under it equals wear. 0: the bare surface, where formation does
- * not exceed wear. */
+ * not exceed wear; unstable: a threshold thinner than any layer, which then grows. */
 typedef struct wt_layer_root {
     double thickness;  /* [m] */
     bool stable;       /* a layer near it comes back to it */

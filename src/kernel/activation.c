@@ -108,12 +108,6 @@ double activation_log_density(const activation *a, double depth)
     return a->log_rate + log_gained(a, log_help(a, depth));
 }
 
-static double log_add(double a, double b)
-{
-    const double high = fmax(a, b);
-    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
-}
-
 /* ln of the integral over a stretch, by one rule. */
 static double stretch_integral(const activation *a, const gauss_rule *rule, double low, double high)
 {

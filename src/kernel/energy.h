@@ -8,6 +8,15 @@
 
 #include "weartrack/kernel.h"
 
+#include <math.h>
+
+/* ln(exp(a) + exp(b)) */
+static inline double log_add(double a, double b)
+{
+    const double high = fmax(a, b);
+    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
+}
+
 /* WT_E_RANGE naming what is wrong with a source. */
 wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCARD;
 /* ln of w(z), of int_z^inf w, and of int_z^(z+length) w; -infinity for a source without power. */

@@ -56,7 +56,12 @@ static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
         return wt_fail(err, WT_E_MISSING,
                        "the activated closure of a layer needs a barrier, an activation volume "
                        "and a temperature");
-    return WT_OK;
+    if (!activated || !a->ageing || p->incubation)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the balance of rates knows no ageing, which goes on at every depth");
+    wt_error_place(err, "ageing");
+    wt_error_advice(err, "leave out ageing, or no-incubation: the transport of damage has it");
+    return WT_E_ARG;
 }
 
 void layer_rates_clear(layer_rates *rates)
@@ -97,6 +102,14 @@ double layer_wear_rate(const wt_layer_parameters *p, double power)
                : p->specific_wear_rate;
 }
 
+/* What of the relative error of the power is in the wear: m x / (1 + x), x = (power / E_c)^m. */
+static double wear_follows(const wt_layer_parameters *p, double power)
+{
+    if (!(p->severity_power > 0) || !(power > 0))
+        return 0;
+    return p->severity_exponent / (1 + pow(power / p->severity_power, -p->severity_exponent));
+}
+
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err)
 {
@@ -122,6 +135,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
         r.power += source->power[i];
     status = rates_close(&r, p, err);
     r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
+    r.wear_error = wear_follows(p, r.power) * source->numerical_error;
     /* of a wave the density goes with q, and its bends with the cube */
     const double bends = r.power * r.q_max * r.q_max * r.q_max;
     if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends))) {
@@ -210,8 +224,8 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
 {
     *thickness = (wt_estimate){.unit = "m"};
     double excess = rates->log_ratio - log_scale; /* ln(Qf(0) / (scale Qw)) */
-    const double error =
-        8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) + rates->error;
+    const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
+                         rates->error + rates->wear_error;
     const bool none = !(excess > 0);
     if (none && !rates->without_errors) /* how thick it might be all the same */
         excess += error;

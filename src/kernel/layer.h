@@ -22,6 +22,7 @@ typedef struct layer_rates {
     double threshold;            /* ln(U_c Lambda), or ln Lambda of an activated closure */
     double background;           /* unloaded damage over Lambda [1/s]; 0 = none that counts */
     double error;                /* relative, of a tail */
+    double wear_error;           /* relative, of the wear where it follows the power; else 0 */
     double duty;
     bool without_errors;
 } layer_rates;
@@ -59,6 +60,10 @@ typedef struct layer_instant {
 /* Rate balance: the thickness of the points at n rising times, and no more of them. */
 wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
                       wt_error *err) WT_NODISCARD;
+/* The thickness of the points at n times in any order, by damage transport or the rate balance. */
+wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
+                                 const double *time, size_t n, wt_layer_point *points,
+                                 wt_error *err) WT_NODISCARD;
 /* Rate balance: time from one thickness to another on the way to the balance, or to the bare
  * surface; infinite if it is not on the way. */
 wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,

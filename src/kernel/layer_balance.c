@@ -26,7 +26,7 @@ static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
     if (start == 0)
         return seconds(0, 0);
     const double time = rates->wear > 0 ? start / rates->wear : HUGE_VAL;
-    return seconds(time, 4 * DBL_EPSILON * time);
+    return seconds(time, (4 * DBL_EPSILON + rates->wear_error) * time);
 }
 
 /* 1/(kappa Qw) at the balance; its error is how far that of the thickness and of kappa moves it. */
@@ -42,7 +42,18 @@ static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness
     const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
     const double moved =
         fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
-    return seconds(time, moved + time * (2 * rates->error + 64 * DBL_EPSILON));
+    return seconds(time, moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
+}
+
+/* Rubber of every depth is modified in time, however fast it is worn. */
+static void age_everywhere(wt_layer_balance *b, bool without_errors)
+{
+    b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
+    b->thickness.value = HUGE_VAL;
+    b->thickness.numerical_error = without_errors ? (double)NAN : 0;
+    b->regime = WT_LAYER_THICK;
+    b->relaxation_time = seconds(HUGE_VAL, 0);
+    b->eigenvalue = 0;
 }
 
 wt_status wt_layer_balance_compute(const wt_energy_source *source,
@@ -69,6 +80,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     b.formation_rate_zero = r.formation;
     b.wear_rate = r.wear;
     b.ratio = r.formation == 0 ? 0 : exp(r.log_ratio);
+    b.ratio_error = r.error + r.wear_error;
     wt_layer_parameters unit = *parameters; /* what the power makes of a k of 1 */
     unit.specific_wear_rate = 1;
     b.critical_specific_wear_rate =
@@ -80,7 +92,9 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     b.relaxation_time = relaxation_of(&r, b.thickness);
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
     b.removal_time = seconds((double)NAN, (double)NAN);
-    if (b.regime == WT_LAYER_NONE) {
+    if (r.background > 0) {
+        age_everywhere(&b, r.without_errors);
+    } else if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
             b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
         else

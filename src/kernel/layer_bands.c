@@ -68,10 +68,11 @@ wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *
     if (loads->rates == NULL || loads->past == NULL || loads->begin == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the loads of a layer");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
+        wt_layer_parameters p = stages[i].parameters;
+        p.incubation = true; /* as damage is transported */
         status = stage_check(stages, i, err);
         if (status == WT_OK)
-            status =
-                layer_rates_make(stages[i].source, &stages[i].parameters, &loads->rates[i], err);
+            status = layer_rates_make(stages[i].source, &p, &loads->rates[i], err);
         if (status != WT_OK)
             break;
         loads_take(loads, &loads->rates[i]);

@@ -40,12 +40,6 @@ static double damage_scale(const damage *d)
     return share - r->threshold;
 }
 
-static double log_add(double a, double b)
-{
-    const double high = fmax(a, b);
-    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
-}
-
 /* Where the damage of an earlier load is now that so much more was worn off. */
 static double now_at(const damage *d, size_t i, double depth)
 {
@@ -89,7 +83,7 @@ double damage_at(double depth, void *user)
 
 double damage_error(const layer_rates *rates)
 {
-    return rates->error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
+    return rates->error + rates->wear_error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
 }
 
 /* Adds a course with the logarithm of its weight. */
@@ -351,7 +345,10 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     }
     passage p = {d, depth};
     /* from a way of the shortest wave to one at whose end the longest has died out */
-    const double step = log(4), end = log(1e3 / r->q_min / r->wear);
+    const double step = log(4);
+    double end = log(1e3 / r->q_min / r->wear);
+    if (r->background > 0) /* or to when age alone is enough */
+        end = fmax(end, level - log(r->background) + step);
     double low = -log(r->q_max * r->wear);
     *log_time = (double)INFINITY;
     while (passage_at(low, &p) >= 0)
@@ -391,9 +388,16 @@ wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimat
 {
     *time = (wt_estimate){.value = (double)NAN, .numerical_error = (double)NAN, .unit = "s"};
     damage d = damage_of(rates, with_wear);
-    if (rates->formation == 0 || !isfinite(depth.value))
+    if (!isfinite(depth.value))
         return WT_OK;
     const double error = damage_error(rates);
+    if (rates->formation == 0) {
+        if (rates->background > 0) {
+            time->value = 1 / rates->background;
+            time->numerical_error = rates->without_errors ? (double)NAN : error * time->value;
+        }
+        return WT_OK;
+    }
     const double above = fmax(0, depth.value - depth.numerical_error);
     double log_time = 0, early = 0, late = 0;
     wt_status status = damage_first(&d, depth.value, 0, &log_time, err);

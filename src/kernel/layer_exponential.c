@@ -2,16 +2,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/kernel.h"
+#include "kernel/energy.h"
 
 #include <math.h>
-
-/* ln(exp(a) + exp(b)) */
-static double log_add(double a, double b)
-{
-    const double high = fmax(a, b);
-    return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
-}
 
 /* d delta/dt = Qf0 exp(-kappa delta) - Qw, clamped at 0. With s = kappa Qw t, phi = (1-exp(-s))/s:
  *   delta = d0 + log1p(a) / kappa,  a = kappa t phi (Qf0 exp(-kappa d0) - Qw)

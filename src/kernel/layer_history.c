@@ -24,7 +24,8 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
             grown.value = old;
             grown.numerical_error = rates->without_errors
                                         ? (double)NAN
-                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
+                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start) +
+                                              rates->wear_error * rates->wear * at[i].time;
         }
         at[i].point->thickness = grown;
     }
@@ -44,13 +45,15 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
                                 const double *time, size_t n, wt_layer_point *points)
 {
     const double relative = rates->error + 8 * DBL_EPSILON;
+    const double least_wear = rates->wear * fmax(0, 1 - rates->wear_error),
+                 most_wear = rates->wear * (1 + rates->wear_error);
     for (size_t i = 0; i < n; i++) {
         const double formation = rates->formation;
         const double value = wt_layer_exponential(start, kappa, formation, rates->wear, time[i]);
         const double more =
-            wt_layer_exponential(start, kappa, formation * (1 + relative), rates->wear, time[i]);
+            wt_layer_exponential(start, kappa, formation * (1 + relative), least_wear, time[i]);
         const double less = wt_layer_exponential(start, kappa, formation * fmax(0, 1 - relative),
-                                                 rates->wear, time[i]);
+                                                 most_wear, time[i]);
         points[i].thickness = (wt_estimate){
             .value = value,
             .numerical_error = fmax(more - value, value - less) +
@@ -65,20 +68,18 @@ static int by_time(const void *left, const void *right)
     return (a->time > b->time) - (a->time < b->time);
 }
 
-/* By damage transport or by the rates. */
-static wt_status history_in_order(const layer_rates *rates, const wt_layer_parameters *p,
-                                  const double *time, size_t n, wt_layer_point *points,
-                                  wt_error *err)
+wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
+                                 const double *time, size_t n, wt_layer_point *points,
+                                 wt_error *err)
 {
-    layer_instant *order = calloc(n, sizeof *order);
+    layer_instant *order = calloc(n + 1, sizeof *order);
     if (order == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
     for (size_t i = 0; i < n; i++)
         order[i] = (layer_instant){time[i], &points[i]};
     qsort(order, n, sizeof *order, by_time);
-    const wt_status status = p->incubation
-                                 ? history_damage(rates, p->start_thickness, order, n, err)
-                                 : layer_march(rates, p->start_thickness, order, n, err);
+    const wt_status status = transport ? history_damage(rates, start, order, n, err)
+                                       : layer_march(rates, start, order, n, err);
     free(order);
     return status;
 }
@@ -112,7 +113,8 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     if (kappa > 0 && !parameters->incubation)
         history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
     else
-        status = history_in_order(&rates, parameters, time, n, points, err);
+        status = layer_history_in_order(&rates, parameters->start_thickness, parameters->incubation,
+                                        time, n, points, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
         points[i].formation_rate = layer_formation(&rates, points[i].thickness.value);

@@ -46,6 +46,12 @@ static loop_point point_at(loop_search *s, double thickness)
     s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
     if (s->status == WT_OK)
         s->status = layer_rates_make(&source, &parameters, &rates, s->err);
+    if (s->status == WT_OK && rates.background > 0) {
+        s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
+        wt_error_place(s->err, "ageing");
+        wt_error_advice(s->err, "leave out ageing, or acts-back");
+        layer_rates_clear(&rates);
+    }
     if (s->status == WT_OK) {
         p = (loop_point){.formation = layer_formation(&rates, thickness),
                          .wear = rates.wear,
@@ -104,13 +110,14 @@ static void add_fold(loop_search *s, double low, double high, bool maximum, wt_l
         (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
 }
 
-/* A balance below the grid, where the bare surface is modified and a layer of its first thickness
- * is worn: so near to 0 that it is 0 where the energy jumps there, as that of shearing does. */
-static void add_thinnest(loop_search *s, double log_low, wt_layer_loop *loop)
+/* A balance below the grid, where of the bare surface and a layer of the first thickness one is
+ * modified and the other worn: so near to 0 that it is 0 where the energy jumps there, as that of
+ * shearing does. It is stable if the bare surface is modified, else a threshold. */
+static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_loop *loop)
 {
     const double least = log_low + log(below_grid);
     double root = -HUGE_VAL;
-    if (log_ratio_at(least, s) > 0) {
+    if ((log_ratio_at(least, s) > 0) == grows) {
         const wt_status status = root_find(log_ratio_at, s, least, log_low, 0, &root, s->err);
         s->status = s->status == WT_OK ? status : s->status;
     }
@@ -119,7 +126,7 @@ static void add_thinnest(loop_search *s, double log_low, wt_layer_loop *loop)
     if (isfinite(root))
         add_root(s, exp(root), loop);
     else
-        loop->root[loop->n_roots++] = (wt_layer_root){0, true, (double)NAN, (double)NAN};
+        loop->root[loop->n_roots++] = (wt_layer_root){0, grows, (double)NAN, (double)NAN};
 }
 
 /* Crossings and extrema of values on a grid of ln d. */
@@ -162,8 +169,8 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
         x[i] = log(low) + log(high / low) * (double)i / (double)(grid - 1);
         value[i] = log_ratio_at(x[i], &s);
     }
-    if (s.status == WT_OK && bare > 0 && !(value[0] > 0))
-        add_thinnest(&s, x[0], &l);
+    if (s.status == WT_OK && (bare > 0) != (value[0] > 0))
+        add_thinnest(&s, x[0], bare > 0, &l);
     if (s.status == WT_OK)
         search_grid(&s, x, value, grid, &l);
     free(x);
@@ -189,23 +196,10 @@ static double log_formation_at(double thickness, void *user)
     return p.wear == o->wear ? log_formation : log(exp(log_formation) - p.wear + o->wear);
 }
 
-static int by_time(const void *left, const void *right)
-{
-    const layer_instant *a = left, *b = right;
-    return (a->time > b->time) - (a->time < b->time);
-}
-
 static wt_status march_own(loop_search *s, layer_rates *rates, const double *time, size_t n,
                            wt_layer_point *points, wt_error *err)
 {
-    layer_instant *order = calloc(n + 1, sizeof *order);
-    if (order == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
-    for (size_t i = 0; i < n; i++)
-        order[i] = (layer_instant){time[i], &points[i]};
-    qsort(order, n, sizeof *order, by_time);
-    const wt_status status = layer_march(rates, 0, order, n, err);
-    free(order);
+    const wt_status status = layer_history_in_order(rates, 0, false, time, n, points, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
         const loop_point p = point_at(s, points[i].thickness.value);

@@ -137,9 +137,11 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
-    const double error =
-        rate * (time_error + relative * time + (m->rates->error + relative) * sensitivity) +
-        4 * DBL_EPSILON * thickness;
+    /* to the wear a time is no more sensitive than this and itself */
+    const double of_wear = m->rates->wear_error * (sensitivity + time);
+    const double error = rate * (time_error + relative * time +
+                                 (m->rates->error + relative) * sensitivity + of_wear) +
+                         4 * DBL_EPSILON * thickness;
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
@@ -276,6 +278,7 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
         time->value = march_to(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
                                 (rates->error + relative) * m.sensitivity +
+                                rates->wear_error * (m.sensitivity + time->value) +
                                 (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
     return status;

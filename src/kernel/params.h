@@ -154,7 +154,9 @@
              "of Planck, as the source lists it, or over the plain one, as Eyring has it"},        \
     {                                                                                              \
         PARAM_FLAG_OF("ageing", type, in ageing),                                                  \
-            .help = "of the activated closure: the unloaded rate counts as damage, too"            \
+            .help = "of the activated closure: the unloaded rate counts as damage, too, so that "  \
+                    "all rubber is modified in time and there is no balance; by the transport "    \
+                    "of damage alone"                                                              \
     }
 
 #define ENERGY_PROFILE(type)                                                                       \

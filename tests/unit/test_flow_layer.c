@@ -94,6 +94,35 @@ static void severity_is_a_rate(void **state)
     wt_table_free(constant);
 }
 
+static double key_error(const wt_table *table, const char *name)
+{
+    const char *text = wt_table_key(table, name), *at = NULL;
+    if (text != NULL)
+        at = strstr(text, "numerical_error=");
+    if (at == NULL)
+        fail_msg("no numerical error of %s", name);
+    return strtod(at + strlen("numerical_error="), NULL);
+}
+
+/* R is not better known than the closure lets it be. */
+static void closure_magnifies_errors(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    wt_layer_job job = job_of();
+    job.critical_energy.value = (double)NAN;
+    job.closure = WT_CLOSURE_ACTIVATED;
+    job.barrier.value = 2e-19;
+    job.activation.volume = 5e-27;
+    sliding.temperature.value = rubber.prony.reference_temperature;
+    static const char *const keys[] = {"formation_wear_ratio", "critical_specific_wear_rate"};
+    wt_table *layer = layer_of(&job);
+    const double of_power = key_error(layer, "surface_power") / key_number(layer, "surface_power");
+    for (size_t i = 0; i < 2; i++)
+        assert_true(key_error(layer, keys[i]) / key_number(layer, keys[i]) > 2 * of_power);
+    wt_table_free(layer);
+}
+
 /* The deepest edge is the thickness of the table that was there before. */
 static void bands_are_the_layer(void **state)
 {
@@ -145,6 +174,44 @@ static void loads_in_parts(void **state)
         assert_near(cell(cut, row, "lower"), cell(whole, row, "lower"), 1e-11);
     wt_table_free(whole);
     wt_table_free(cut);
+}
+
+/* However many loads there are, all are told. */
+static void loads_are_told(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    enum { LOADS = 40 };
+    char load[LOADS][64];
+    const char *loads[LOADS];
+    wt_layer_job job = job_of();
+    wt_table *bands = NULL;
+    wt_error err = WT_ERROR_INIT;
+    for (size_t i = 0; i < LOADS; i++) {
+        snprintf(load[i], sizeof load[i], "time=%zus,pressure=%zukPa", 10 + i, 300 + i);
+        loads[i] = load[i];
+    }
+    job.loads = loads;
+    job.n_loads = LOADS;
+    static const double times[] = {10, 1000};
+    job.time = times;
+    job.n_time = 2;
+    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
+    const char *text = wt_table_key(bands, "loads");
+    assert_non_null(text);
+    for (size_t i = 0; text != NULL && i < LOADS; i++) {
+        char told[64];
+        snprintf(told, sizeof told, "%zu s at 0.%zu MPa, ", 10 + i, 300 + i);
+        if (i % 10 == 0) /* 0.31 MPa */
+            snprintf(told, sizeof told, "%zu s at 0.%zu MPa, ", 10 + i, (300 + i) / 10);
+        if (i == 0)
+            snprintf(told, sizeof told, "10 s at 0.3 MPa, ");
+        text = strstr(text, told);
+        if (text == NULL)
+            fail_msg("%s is not told", told);
+    }
+    assert_non_null(strstr(text, "mm^3/(N m)"));
+    wt_table_free(bands);
 }
 
 /* It begins with the friction of the bulk, and ends with that of the balance. */
@@ -260,6 +327,41 @@ static void shearing_the_layer(void **state)
     }
 }
 
+/* A bare surface that is worn where any layer of a stiffer rubber grows: between the two stable
+ * balances is a threshold, at 0 where the shear stress jumps, else below any thickness looked at.
+ */
+static void threshold_of_a_stiff_layer(void **state)
+{
+    (void)state;
+    sliding_set_up(velocity, VELOCITIES);
+    const wt_layer_known known = {.modulus_ratio = {4, 0, 0, "1"}};
+    wt_error err = WT_ERROR_INIT;
+    wt_table *balances = NULL;
+    wt_layer_job job = job_of();
+    job.acts_back = true;
+    job.energy = WT_LAYER_SHEAR;
+    wt_table *layer = layer_of(&job);
+    job.specific_wear_rate.value = key_number(layer, "critical_specific_wear_rate") / 0.58;
+    wt_table_free(layer);
+    for (int k = 0; k < 2; k++) {
+        job.shear.reach = k ? 1e-11 : 0;
+        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+                         WT_OK);
+        static const char *const stable[] = {"stable", "unstable", "stable"};
+        const size_t kind = (size_t)wt_table_find(balances, "kind"),
+                     at = (size_t)wt_table_find(balances, "stable");
+        for (size_t row = 0; row < 3; row++) {
+            assert_string_equal(wt_table_text(balances, row, kind), "balance");
+            assert_string_equal(wt_table_text(balances, row, at), stable[row]);
+        }
+        const double threshold = cell(balances, 1, "thickness");
+        assert_true(cell(balances, 0, "thickness") == 0);
+        assert_true(k ? threshold > 0 && threshold < 1e-10 : threshold == 0);
+        assert_true(cell(balances, 2, "thickness") > 1e-7);
+        wt_table_free(balances);
+    }
+}
+
 /* At the edge R is 1, and beyond it there is no layer and no change of friction. */
 static void existence_ends_where_it_says(void **state)
 {
@@ -292,6 +394,53 @@ static void existence_ends_where_it_says(void **state)
     assert_near(key_number(layer, "surface_power"), key_number(existence, "to_power"), 1e-9);
     wt_table_free(layer);
     wt_table_free(existence);
+}
+
+/* Where the layer begins again and goes on beyond the list, it ends at no velocity of it. */
+static void existence_of_two_ranges(void **state)
+{
+    (void)state;
+    enum { LIST = 45 };
+    double list[LIST], term[] = {10e6, 10e6}, tau[] = {1e-5, 10}, wear = 1e-12;
+    for (size_t i = 0; i < LIST; i++)
+        list[i] = 1e-8 * pow(10, 0.25 * (double)i);
+    sliding_set_up(list, LIST);
+    rubber.prony.n = 2;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    surface.q1 = 2e4;
+    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_job job = job_of();
+    wt_table *existence = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    /* R goes with 1/k: a wear rate between the two peaks of R and the valley */
+    size_t first = 0, valley = 0, last = 0;
+    double ratio[LIST];
+    for (size_t i = 0; i < LIST; i++)
+        ratio[i] = cell(existence, i, "ratio");
+    wt_table_free(existence);
+    while (ratio[first + 1] > ratio[first])
+        first++;
+    for (valley = first; valley + 1 < LIST && ratio[valley + 1] < ratio[valley];)
+        valley++;
+    for (last = valley; last + 1 < LIST && ratio[last + 1] > ratio[last];)
+        last++;
+    assert_true(first > 0 && valley > first && last > valley && last + 1 < LIST);
+    wear *= sqrt(ratio[valley] * fmin(ratio[first], ratio[last]));
+    job.specific_wear_rate.value = wear;
+    for (int whole = 0; whole < 2; whole++) {
+        sliding.n_velocity = whole ? LIST : last + 1;
+        assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+        const double from = key_number(existence, "from_velocity"),
+                     to = key_number(existence, "to_velocity"),
+                     power = key_number(existence, "to_power");
+        assert_true(from < list[first]);
+        assert_true(whole ? to > list[last] : isnan(to));
+        assert_int_equal(isnan(power), !whole);
+        assert_non_null(strstr(wt_table_key(existence, "words"), "up to"));
+        wt_table_free(existence);
+    }
 }
 
 static void refuses(void **state)
@@ -331,12 +480,16 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energies_add_up),
         cmocka_unit_test(severity_is_a_rate),
+        cmocka_unit_test(closure_magnifies_errors),
         cmocka_unit_test(bands_are_the_layer),
         cmocka_unit_test(loads_in_parts),
+        cmocka_unit_test(loads_are_told),
         cmocka_unit_test(running_in_joins_both),
         cmocka_unit_test(one_shear_stress),
         cmocka_unit_test(shearing_the_layer),
+        cmocka_unit_test(threshold_of_a_stiff_layer),
         cmocka_unit_test(existence_ends_where_it_says),
+        cmocka_unit_test(existence_of_two_ranges),
         cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

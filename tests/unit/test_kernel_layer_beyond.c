@@ -389,8 +389,9 @@ static bool check_number(const rig *r, const case_line *line)
     else if (strcmp(line->key, "background") == 0)
         assert_near(wt_activation_background(&r->p.activation), *v, DIGITS);
     else if (strcmp(line->key, "incubation") == 0 || strcmp(line->key, "unworn_incubation") == 0) {
-        at.p.incubation = line->key[0] == 'i';
-        at.p.activation.ageing = !at.p.incubation;
+        at.p.incubation = true;
+        at.p.activation.ageing = line->key[0] == 'u';
+        at.p.specific_wear_rate = line->key[0] == 'u' ? 0 : r->p.specific_wear_rate;
         assert_near(balance_of(&at).incubation_time.value, *v, DIGITS);
     } else if (strcmp(line->key, "formation_at") == 0) {
         assert_int_equal(layer_rates_make(&r->source, &r->p, &rates, &err), WT_OK);
@@ -561,6 +562,22 @@ static void rest_ages_only(void **state)
     assert_true(points[0].thickness.value == 0 && isinf(points[1].thickness.value));
     assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
     assert_true(balance.incubation_time.value <= life * (1 + 1e-12));
+    /* and there is no balance, of whatever wear */
+    assert_true(isinf(balance.thickness.value) && balance.thickness.numerical_error == 0);
+    assert_true(isinf(balance.ratio) && isinf(balance.relaxation_time.value));
+    assert_true(isinf(balance.critical_specific_wear_rate) && balance.eigenvalue == 0);
+    assert_int_equal(balance.regime, WT_LAYER_THICK);
+    assert_true(isnan(balance.removal_time.value));
+    /* also where wear is done with the energy long before the age, or there is no energy */
+    p.specific_wear_rate = 1e-6;
+    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
+    assert_near(balance.incubation_time.value, life, 1e-9);
+    assert_int_equal(wt_layer_balance_compute(&source, &p, &balance, &err), WT_OK);
+    assert_near(balance.incubation_time.value, life, 1e-12);
+    p.incubation = false;
+    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_E_ARG);
+    assert_int_equal(wt_layer_history(&working, &p, times, 2, points, &err), WT_E_ARG);
+    assert_string_equal(err.place, "ageing");
 }
 
 /* Where k is constant and where its growth has no power to work on, the numbers are the same. */
@@ -585,6 +602,63 @@ static void severity_off_changes_nothing(void **state)
     p.severity_power = 400; /* k is twice as large */
     assert_int_equal(wt_layer_balance_compute(&source, &p, &other, &err), WT_OK);
     assert_near(other.wear_rate, 2 * plain.wear_rate, 1e-15);
+}
+
+/* An error of the power is in R, critical wear rate, thickness and times, as the activated closure
+ * and the severity magnify it. */
+static void errors_of_the_power(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double error = 1e-6;
+        double power[2][2] = {{400, 300}, {400 * (1 + error), 300 * (1 + error)}};
+        wt_energy_source source = {.n = 2,
+                                   .wavenumber = (double[]){1e6, 4e6},
+                                   .profile = WT_PROFILE_PERSSON,
+                                   .numerical_error = error};
+        wt_layer_parameters p = wt_layer_defaults();
+        wt_layer_balance b[2];
+        wt_layer_point point[2];
+        wt_error err = WT_ERROR_INIT;
+        const double start = k < 2 ? 0 : 5e-6;
+        p.pressure = 4e5;
+        p.velocity = 5e-3;
+        p.critical_energy = k < 2 ? 2e8 : 2e10;
+        p.specific_wear_rate = 1e-12;
+        p.start_thickness = start;
+        p.incubation = k % 2;
+        if (k % 2) {
+            p.closure = WT_CLOSURE_ACTIVATED;
+            p.activation.barrier = 1.2 * ELECTRONVOLT;
+            p.activation.volume = 5e-27;
+            p.activation.temperature = 298;
+            p.activation.area_ratio = 0.05;
+            p.damage = k == 1 ? 1e-6 : 1e-3;
+        }
+        if (k != 1) {
+            p.severity_power = 100;
+            p.severity_exponent = 3;
+        }
+        for (int i = 0; i < 2; i++) {
+            source.power = power[i];
+            assert_int_equal(wt_layer_balance_compute(&source, &p, &b[i], &err), WT_OK);
+        }
+        const double moved = fabs(b[1].ratio / b[0].ratio - 1);
+        assert_int_equal(b[0].ratio > 1, k < 2);
+        assert_true(moved > 1.5 * error && moved < b[0].ratio_error);
+        assert_true(fabs(b[1].critical_specific_wear_rate / b[0].critical_specific_wear_rate - 1) <
+                    b[0].ratio_error);
+        assert_true(fabs(b[1].thickness.value - b[0].thickness.value) <=
+                    b[0].thickness.numerical_error * (1 + 1e-3));
+        for (double time = 1; time < 1e6; time *= 10) {
+            for (int i = 0; i < 2; i++) {
+                source.power = power[i];
+                assert_int_equal(wt_layer_history(&source, &p, &time, 1, &point[i], &err), WT_OK);
+            }
+            assert_true(fabs(point[1].thickness.value - point[0].thickness.value) <=
+                        point[0].thickness.numerical_error * (1 + 1e-3));
+        }
+    }
 }
 
 static void refuses(void **state)
@@ -620,9 +694,9 @@ static void refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),  cmocka_unit_test(restart_changes_nothing),
-        cmocka_unit_test(rest_ages_only), cmocka_unit_test(severity_off_changes_nothing),
-        cmocka_unit_test(refuses),
+        cmocka_unit_test(numeric_cases),       cmocka_unit_test(restart_changes_nothing),
+        cmocka_unit_test(rest_ages_only),      cmocka_unit_test(severity_off_changes_nothing),
+        cmocka_unit_test(errors_of_the_power), cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -402,8 +402,10 @@ static void answer_thickness(answer_story *story)
             MM3_PER_N_M * layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value);
     else if (isinf(thickness.number.value))
         answer_say(story, how_thick, "thickness",
-                   "Without wear it grows without end, ever more slowly; the table layer gives its "
-                   "thickness in time.");
+                   "%s; the table layer gives its thickness in time.",
+                   layer_ages(&story->found)
+                       ? "It has no balance: the rubber ages, and in time all of it is modified"
+                       : "Without wear it grows without end, ever more slowly");
     else
         answer_say(story, how_thick, "thickness",
                    "%s. That is where formation balances wear, at %s and %s; %s. Formation over "

@@ -245,13 +245,21 @@ static const char *without_ratio(const finding *f)
                                    : "";
 }
 
+bool layer_ages(const finding_tables *tables)
+{
+    return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
+           layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
+}
+
 void tell_thickness(telling *t, const finding_tables *tables)
 {
     const finding thickness = finding_of_thickness(tables);
     const finding_words range = words_of_range(&thickness);
     const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
     if (isinf(thickness.number.value))
-        tell(t, "without wear the layer grows without end");
+        tell(t, "%s",
+             layer_ages(tables) ? "the rubber ages: in time all of it is modified"
+                                : "without wear the layer grows without end");
     else if (!(thickness.number.value > 0))
         tell(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
              words_of_origin(tables));

@@ -61,6 +61,8 @@ void tell_ratio(telling *t, const finding_tables *tables);
 /* ", for the rates are ...; the moduli of all rates have the ratio 0.175", where it is another. */
 void tell_rates(telling *t, const finding_tables *tables);
 /* "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c" */
+/* There is no balance because the rubber ages without load, not because nothing is worn. */
+bool layer_ages(const finding_tables *tables);
 void tell_thickness(telling *t, const finding_tables *tables);
 /* "open whether the layer lowers or raises friction: -18 % (...)" */
 void tell_change(telling *t, const finding_tables *tables, bool with_choices);

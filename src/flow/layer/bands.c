@@ -13,8 +13,10 @@
 #include <string.h>
 
 /* Times of a load that another one follows, from this part of it on, in equal ratios. */
-enum { TIMES_OF_LOAD = 20, MOST_EVENTS = 12 };
+enum { TIMES_OF_LOAD = 20 };
 static const double first_part = 1e-3;
+/* Events that are told, and what the words of a load and of an event need at most. */
+enum { MOST_EVENTS = 12, LOAD_WORDS = 192, EVENT_WORDS = 96 };
 
 typedef struct bands_task {
     const wt_sliding *sliding;
@@ -25,7 +27,8 @@ typedef struct bands_task {
     wt_layer_stage *stage; /* [n] */
     double *time;          /* [n_times] */
     size_t n_times;
-    char loads[512], events[512];
+    char *loads; /* [(n + 1) LOAD_WORDS] */
+    char events[(MOST_EVENTS + 1) * EVENT_WORDS];
 } bands_task;
 
 TABLE_ROW(layer_bands, LAYER_BANDS, double time, load, worn, band; wt_estimate upper, lower;)
@@ -36,13 +39,13 @@ TABLE_KEYS(layer_bands, LAYER_BANDS, const char *loads, *events, *method;)
 static void say_load(bands_task *task, const layer_load *load)
 {
     const wt_layer_parameters *p = &task->stage[task->n].parameters;
-    const size_t used = strlen(task->loads);
+    const size_t used = strlen(task->loads), size = (task->n + 1) * LOAD_WORDS;
     char lasts[48] = "for ever", warm[32] = "";
     if (!isnan(load->temperature))
         clocale_print(warm, sizeof warm, ", %.1f degC", load->temperature - WT_ZERO_CELSIUS);
     if (!isnan(load->time))
         clocale_print(lasts, sizeof lasts, "%.4g s", load->time);
-    clocale_print(task->loads + used, sizeof task->loads - used,
+    clocale_print(task->loads + used, size - used,
                   "%s%s at %.4g MPa, %.4g mm/s, k = %.3g mm^3/(N m)%s", used > 0 ? "; then " : "",
                   lasts, 1e-6 * p->pressure, 1e3 * p->velocity, 1e9 * p->specific_wear_rate, warm);
 }
@@ -73,7 +76,8 @@ static wt_status take_loads(bands_task *task, wt_error *err)
     const layer_load only = {unset, unset, unset, unset, unset};
     task->energy = calloc(n + 1, sizeof *task->energy);
     task->stage = calloc(n + 1, sizeof *task->stage);
-    if (task->energy == NULL || task->stage == NULL)
+    task->loads = calloc(n + 1, LOAD_WORDS);
+    if (task->energy == NULL || task->stage == NULL || task->loads == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = n == 0 ? add_load(task, &only, err) : WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
@@ -140,6 +144,10 @@ static wt_status find_events(bands_task *task, wt_error *err)
                                              MOST_EVENTS, &n, err);
     for (size_t i = 0; status == WT_OK && i < n && i < MOST_EVENTS; i++)
         say_event(&events[i], task->events, sizeof task->events);
+    const size_t used = strlen(task->events);
+    if (status == WT_OK && n > MOST_EVENTS)
+        snprintf(task->events + used, sizeof task->events - used, "; and %zu more",
+                 n - MOST_EVENTS);
     if (status == WT_OK && n == 0)
         snprintf(task->events, sizeof task->events, "nothing is ever modified");
     return status;
@@ -214,6 +222,7 @@ wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job
         layer_energy_clear(&task.energy[i]);
     free(task.energy);
     free(task.stage);
+    free(task.loads);
     free(task.time);
     return status;
 }

@@ -111,6 +111,8 @@ static void add_edge(existence_task *task, double low, double high, bool begins)
         task->edge[k] = spot.velocity;
         task->power[k] = b.surface_power;
     }
+    if (begins) /* what ends before is not the last */
+        task->edge[1] = task->power[1] = (double)NAN;
     task->n_edges++;
 }
 

@@ -202,10 +202,22 @@ static void find_axes(double energy, double wear, double product, identification
         clocale_print(r->loose, sizeof r->loose, "k U_c^%.2f", 1 / tan(angle));
 }
 
-static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
+/* Why an interval of a way is none; NULL if it is one. */
+static const char *no_interval(const identify_task *task, bool wear, bool time)
 {
     const wt_identify_job *const job = task->job;
-    const wt_estimate other = by == BY_WEAR ? job->specific_wear_rate : job->running_in_time;
+    if (!(job->observed_thickness.standard_error > 0))
+        return "no interval: no error is stated of the thickness";
+    if (wear && !(job->specific_wear_rate.standard_error > 0))
+        return "no interval: no error is stated of the wear rate";
+    if (time && !(job->running_in_time.standard_error > 0))
+        return "no interval: no error is stated of the running-in time";
+    return task->work->replicates == 0 ? "no interval: no replicates are drawn" : NULL;
+}
+
+static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
+{
+    const char *const none = no_interval(task, by == BY_WEAR, by != BY_WEAR);
     identification_row row = {.by = way_words[by],
                               .correlation = (double)NAN,
                               .loose_error = (double)NAN,
@@ -214,17 +226,12 @@ static void add_way(const identify_task *task, way by, const identified *found, 
         return;
     row.energy = interval_of(found, LN_ENERGY + by);
     row.wear = interval_of(found, LN_WEAR + by);
-    if (!(job->observed_thickness.standard_error > 0) || !(other.standard_error > 0)) {
+    if (none != NULL) {
         const double energy = row.energy.value, wear = row.wear.value;
         row.energy = row.wear = not_known;
         row.energy.value = energy;
         row.wear.value = wear;
-        snprintf(row.note, sizeof row.note, "no interval: no error is stated of the %s",
-                 !(job->observed_thickness.standard_error > 0) ? "thickness"
-                 : by == BY_WEAR                               ? "wear rate"
-                                                               : "running-in time");
-    } else if (task->work->replicates == 0) {
-        snprintf(row.note, sizeof row.note, "no interval: no replicates are drawn");
+        snprintf(row.note, sizeof row.note, "%s", none);
     } else {
         find_axes(found->error[LN_ENERGY + by], found->error[LN_WEAR + by],
                   found->error[LN_PRODUCT], &row);
@@ -261,26 +268,33 @@ static void add_thickness_alone(const identify_task *task, wt_interval product, 
     identification_add_row(t, &row);
 }
 
-/* Two ways that both hold ask for one k. */
-static void say_agreement(const identified *found, table_writer *t)
+/* Two ways that both hold ask for one k. An interval that lacks the error of one of the three would
+ * contradict what agrees. */
+static void say_agreement(const identify_task *task, const identified *found, table_writer *t)
 {
+    const char *const none = no_interval(task, true, true);
     char text[400] = "";
     for (way by = BY_RATES; by < WAYS; by++) {
         const size_t used = strlen(text);
         if (isnan(found->value[LN_APART + by]))
             return;
         const wt_interval apart = interval_of(found, LN_APART + by);
-        const bool known = apart.high > apart.low;
+        const bool known = none == NULL && apart.high > apart.low;
+        char range[64] = "";
+        if (known)
+            clocale_print(range, sizeof range, " (95 %%: %.3g to %.3g)", apart.low, apart.high);
         clocale_print(text + used, sizeof text - used,
-                      "%s%s the running-in asks for %.3g times the wear rate that was measured "
-                      "(95 %%: %.3g to %.3g), %s",
+                      "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
+                      "%s",
                       used > 0 ? "; " : "",
                       by == BY_RATES ? "by the balance of rates" : "by the transport of damage",
-                      apart.value, apart.low, apart.high,
-                      !known                              ? "cannot say"
+                      apart.value, range,
+                      !known                              ? "which cannot be judged"
                       : apart.low <= 1 && apart.high >= 1 ? "which agrees"
                                                           : "which contradicts it");
     }
+    if (none != NULL)
+        clocale_print(text + strlen(text), sizeof text - strlen(text), " (%s)", none);
     identification_set_text(t, IDENTIFICATION_KEY_AGREES, text);
 }
 
@@ -298,7 +312,7 @@ static wt_status make_table(const identify_task *task, const identified *found, 
                              (double)NAN);
     identification_set_value(&t, IDENTIFICATION_KEY_RATIO, ratio, ratio * found->error[LN_RATIO],
                              (double)NAN);
-    say_agreement(found, &t);
+    say_agreement(task, found, &t);
     identification_set_value(&t, IDENTIFICATION_KEY_VELOCITY, task->velocity, 0, 0);
     identification_set(&t, IDENTIFICATION_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
     identification_set(&t, IDENTIFICATION_KEY_THICKNESS,

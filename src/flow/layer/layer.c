@@ -31,10 +31,10 @@ typedef struct layer_run {
 /* Single numbers of a run with their keys; the thicknesses in time follow them. */
 #define NUMBERS(X)                                                                                 \
     X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
-    X(FORMATION_WEAR_RATIO, of_power(run, run->balance.ratio))                                     \
+    X(FORMATION_WEAR_RATIO, of_rates(run, run->balance.ratio))                                     \
     X(INCUBATION_TIME, run->balance.incubation_time)                                               \
     X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
-    X(CRITICAL_WEAR_RATE, of_power(run, run->balance.critical_specific_wear_rate))                 \
+    X(CRITICAL_WEAR_RATE, of_rates(run, run->balance.critical_specific_wear_rate))                 \
     X(REMOVAL_TIME, run->balance.removal_time)                                                     \
     X(CRITICAL_ENERGY, run->critical_energy)                                                       \
     X(SURFACE_POWER, of_power(run, run->balance.surface_power))                                    \
@@ -65,6 +65,12 @@ static wt_estimate of_power(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value,
                          .numerical_error = fabs(value) * run->energy.source.numerical_error};
+}
+
+/* What goes with formation and wear, which the closure and the severity make of the power. */
+static wt_estimate of_rates(const layer_run *run, double value)
+{
+    return (wt_estimate){.value = value, .numerical_error = fabs(value) * run->balance.ratio_error};
 }
 
 static void put_numbers(const layer_run *run, wt_estimate *out)
@@ -99,9 +105,9 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
             p->critical_energy = wt_layer_calibrate(
                 &run->energy.source, p,
                 flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
-        run->critical_energy = calibrated ? of_power(run, p->critical_energy)
-                                          : (wt_estimate){.value = p->critical_energy};
         status = wt_layer_balance_compute(&run->energy.source, p, &run->balance, err);
+        run->critical_energy = calibrated ? of_rates(run, p->critical_energy)
+                                          : (wt_estimate){.value = p->critical_energy};
     }
     wt_estimate most = run->balance.thickness;
     most.value *= 0.9;

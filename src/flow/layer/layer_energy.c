@@ -32,7 +32,6 @@ static wt_status find_area(const wt_sliding *sliding, const wt_layer_job *job,
         wt_friction_compute(c->workspace, c->pressure, &velocity, 1, &e->point, err);
     if (status != WT_OK)
         return status;
-    e->has_point = true;
     const double area = e->point.area_ratio.value;
     e->shear_power =
         wt_layer_shear_stress(&job->shear, sliding_shear(sliding, c, &e->point), layer, area) *

@@ -10,7 +10,6 @@ typedef struct layer_energy {
     double hysteresis_power, shear_power; /* of the contact, whatever counts [W/m^2]; the second NaN
                                              where it is not asked for */
     wt_friction_point point;              /* of the friction, likewise */
-    bool has_point;
 } layer_energy;
 
 /* Whether a job needs friction and contact area beside the energy. */

@@ -21,7 +21,7 @@ typedef struct running_task {
     size_t n;
     wt_layer_point *points;   /* [n] */
     layer_friction *friction; /* [n] */
-    double thickness;         /* at balance; NaN: there is none */
+    double thickness;         /* at balance; NaN or infinite: there is none */
     layer_friction bare, balance;
     char shear[256];
 } running_task;
@@ -31,9 +31,14 @@ TABLE_ROW(running_in, RUNNING_IN, double time, thickness, hysteresis, area_ratio
 TABLE_KEYS(running_in, RUNNING_IN, double velocity, modulus_ratio;
            wt_estimate bare, balance, thickness, settled; const char *shear, *back, *errors;)
 
+/* Not known where there is no balance, and where age has modified all rubber. */
 static wt_status friction_of(const running_task *task, double thickness, layer_friction *friction,
                              wt_error *err)
 {
+    const double unknown = (double)NAN;
+    *friction = (layer_friction){unknown, unknown, unknown, unknown};
+    if (!isfinite(thickness))
+        return WT_OK;
     layer_spot spot = layer_here();
     spot.layer = (wt_layer_state){thickness, thickness > 0 ? task->back.modulus_ratio : 1};
     return layer_friction_at(task->back.sliding, &task->job, task->back.work, spot, friction, err);
@@ -88,7 +93,7 @@ static wt_status grow(running_task *task, wt_error *err)
     if (status == WT_OK && task->job.acts_back)
         status = grow_back(task, err);
     else if (status == WT_OK) {
-        task->thickness = isfinite(balance.thickness.value) ? balance.thickness.value : (double)NAN;
+        task->thickness = balance.thickness.value;
         status = wt_layer_history(&source, &p, task->time, task->n, task->points, err);
     }
     wt_energy_source_clear(&source);
@@ -136,8 +141,7 @@ static wt_status find_settled(const running_task *task, double *settled, wt_erro
 static wt_status follow_friction(running_task *task, wt_error *err)
 {
     wt_status status = friction_of(task, 0, &task->bare, err);
-    task->balance = (layer_friction){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    if (status == WT_OK && !isnan(task->thickness))
+    if (status == WT_OK)
         status = friction_of(task, task->thickness, &task->balance, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
         status = friction_of(task, task->points[i].thickness.value, &task->friction[i], err);
@@ -167,12 +171,16 @@ static wt_status make_table(running_task *task, double velocity, wt_table **tabl
                   f->area_ratio, f->shear_stress, f->total);
     }
     say_shear(task);
+    const bool ages = task->job.closure == WT_CLOSURE_ACTIVATED && task->job.activation.ageing;
     TABLE_SET(running_in, &t, velocity, task->back.modulus_ratio,
               layer_alone(known_friction(&task->bare)), layer_alone(known_friction(&task->balance)),
               layer_alone(task->thickness), layer_alone(settled), task->shear,
               task->job.acts_back
                   ? "the layer acts back on the energy that makes it; by the rate balance "
                     "(reconstructed)"
+              : ages
+                  ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
+                    "not known (nan) once age has modified rubber of every depth"
                   : "the energy is that of the bulk, friction that with the layer (reconstructed)",
               "of the values themselves: the standard errors are in the tables layer and friction");
     return table_end(&t, table);

@@ -326,8 +326,8 @@ static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
     if (isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
         wt_error_found(err, "%g m", layer->thickness.value);
-        wt_error_advice(err, "without wear the layer grows without end: give a specific wear rate "
-                             "or an observed thickness");
+        wt_error_advice(err, "without wear, or where it ages, the layer grows without end: give a "
+                             "specific wear rate or an observed thickness, or leave out ageing");
         return WT_E_RANGE;
     }
     return param_check(wt_layer_known_params(), layer, err);

@@ -264,8 +264,9 @@ static wt_status begin(validation *v, wt_error *err)
     v->known = job->known != NULL && isfinite(job->known->thickness.value) ? job->known : NULL;
     v->layered = v->known != NULL;
     if (status == WT_OK && job->known != NULL && !v->layered)
-        measured_remark(&v->steps, "without wear the layer grows without end and friction with it "
-                                   "is not known: that without a layer is compared");
+        measured_remark(&v->steps,
+                        "without wear, or where it ages, the layer grows without end "
+                        "and friction with it is not known: that without a layer is compared");
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
         status = prediction_make(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
