@@ -127,6 +127,33 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
     return indent_together_add(&task->together, &it->fit, &task->options, err);
 }
 
+static bool is_described_alike(const wt_tip *a, const wt_tip *b)
+{
+    char words[2][256];
+    wt_tip_describe(a, words[0], sizeof words[0]);
+    wt_tip_describe(b, words[1], sizeof words[1]);
+    return strcmp(words[0], words[1]) == 0;
+}
+
+/* What the curve was measured with, for what is said of all. */
+static wt_status note_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
+{
+    task->k_low = fmin(task->k_low, used->spring_constant);
+    task->k_high = fmax(task->k_high, used->spring_constant);
+    task->s_low = fmin(task->s_low, used->sensitivity);
+    task->s_high = fmax(task->s_high, used->sensitivity);
+    task->by_sensitivity = task->by_sensitivity || used->sensitivity_given;
+    for (size_t i = 0; i < task->n_tips; i++)
+        if (task->tips[i] == task->file_tip || is_described_alike(task->tips[i], task->file_tip))
+            return WT_OK;
+    const wt_tip **tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
+    if (tips == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->tips = tips;
+    task->tips[task->n_tips++] = task->file_tip;
+    return WT_OK;
+}
+
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -156,12 +183,10 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
         return task->rows.status;
     task->n_accepted++;
     task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
-    task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
-    task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
-    task->by_sensitivity = task->by_sensitivity || it->curve.cantilever.sensitivity_given;
+    status = note_calibration(task, &it->curve.cantilever, err);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    if (alike)
+    if (status == WT_OK && alike)
         status = common_errors_keep(&task->common, &it->curve, err);
     if (status == WT_OK && task->job->keep != NULL)
         status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
