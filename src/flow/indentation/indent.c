@@ -283,8 +283,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     if (status == WT_OK)
-        status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
-                                   task.scratch, err);
+        status = common_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);
     if (status == WT_OK) {
         set_keys(&task, &files, &task.rows);
         status = indent_say_together(&task.together, job, work, &task.rows, err);

@@ -173,8 +173,9 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->n_curves++;
     status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit, task->file_contact,
                               &job.options, err);
-    /* what all curves share is asked of those that are fitted alike */
-    const bool alike = task->file_contact == task->contact && isnan(it->choice.contact_point);
+    const bool own_tip = task->file_contact != task->contact,
+               as_fitted = isnan(it->choice.contact_point);
+    const bool alike = !own_tip && as_fitted;
     if (status == WT_OK && alike && (task->work->left_out & WT_EXTRA_MODULUS_DEPTH) == 0)
         status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
     if (status != WT_OK)
@@ -186,8 +187,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     status = note_calibration(task, &it->curve.cantilever, err);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    if (status == WT_OK && alike)
-        status = common_errors_keep(&task->common, &it->curve, err);
+    if (status == WT_OK && as_fitted) /* a contact point by hand is not that of moved sources */
+        status = common_errors_keep(&task->common, &it->curve, task->file_contact, own_tip, err);
     if (status == WT_OK && task->job->keep != NULL)
         status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
                        : curve_set_give_up(task->job->keep);
@@ -229,17 +230,14 @@ static void write_done(indent_task *task)
 static void fit_item(const indent_task *task, item *it, wt_indent_workspace *workspace)
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
-    tip_move moves[CURVE_TIP_MOVES], any_radius = workspace->any_radius;
     const bool own_tip = task->file_contact != task->contact;
-    memcpy(moves, workspace->tip_move, sizeof moves);
-    if (own_tip) {
-        memset(workspace->tip_move, 0, sizeof workspace->tip_move);
-        workspace->any_radius = (tip_move){0};
-    }
+    told_tips told;
+    if (own_tip)
+        told = common_errors_untell(workspace);
     it->status = wt_indent_force_curve(task->file_contact, &options, &it->curve, workspace,
                                        &it->fit, &it->error);
-    memcpy(workspace->tip_move, moves, sizeof moves);
-    workspace->any_radius = any_radius;
+    if (own_tip)
+        common_errors_tell_again(&told, workspace);
     if (it->status == WT_OK)
         choices_judge(&it->choice, &it->fit);
 }
