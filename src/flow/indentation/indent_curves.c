@@ -5,6 +5,7 @@
 #include "flow/indentation/indent_task.h"
 
 #include "base/array.h"
+#include "base/utf8.h"
 #include "fit/indentation/curve.h"
 
 #include <math.h>
@@ -109,7 +110,7 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 {
     curve_fit_empty(fit);
     fit->verdict = WT_CURVE_UNREADABLE;
-    snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
+    utf8_copy(fit->reason, sizeof fit->reason, error->message);
 }
 
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
