@@ -382,7 +382,7 @@ typedef struct wt_group_data {
     const char *copy_of[2];      /* files of the first copy; borrowed from the table */
     wt_estimate spring_constant; /* of the table; NaN if it has none */
     double sensitivity_gain;     /* mean of the curves, NaN if unknown */
-    wt_estimate sensitivity;     /* that was given; NaN if none was */
+    wt_estimate sensitivity;     /* that was given; NaN if none was, or several */
     /* relative standard errors, NaN if not stated, and what 1 of each does to ln E, NaN if unknown
      */
     double common_error[WT_COMMON_SOURCES];
@@ -393,6 +393,7 @@ typedef struct wt_group_data {
     double misfit_error;           /* likewise of what the contact law misses */
     const char *tip;               /* in words; borrowed from the table; NULL if unknown */
     bool several_levers;           /* the curves have several spring constants */
+    bool several_sensitivities, several_tips;
     bool spots_given;              /* the user named the spots */
     wt_curve_verdict rejected_for; /* the commonest verdict of the rejected curves */
     size_t n_rejected_for;         /* that have it */

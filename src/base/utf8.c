@@ -64,6 +64,13 @@ size_t utf8_cut(const char *text, size_t length, size_t limit)
     return length;
 }
 
+void utf8_copy(char *to, size_t size, const char *text)
+{
+    const size_t n = utf8_cut(text, strlen(text), size - 1);
+    memcpy(to, text, n);
+    to[n] = '\0';
+}
+
 void utf8_tidy(char *text)
 {
     const size_t length = strlen(text);

@@ -12,6 +12,8 @@ size_t utf8_character(const char *text, size_t length);
 size_t utf8_check(const char *text, size_t length);
 /* Largest number of bytes <= limit at which `text` may be cut without splitting a character. */
 size_t utf8_cut(const char *text, size_t length, size_t limit);
+/* Copies what of a text has room, in whole characters, and ends it. size > 0. */
+void utf8_copy(char *to, size_t size, const char *text);
 /* Makes text fit for one line of a terminal or a page: control characters become a blank, bytes
  * that are not UTF-8 become '?'. */
 void utf8_tidy(char *text);

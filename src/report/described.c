@@ -117,10 +117,17 @@ static bool is_coloured(const figure_drawing *d)
     return !span_empty(&d->colour) && d->colour.high > d->colour.low;
 }
 
+/* How far two values of the colour are apart at most that are set as one: half a kelvin, or the
+ * hundredth to which a frequency is set. */
+static double setting(const figure_drawing *d, double value)
+{
+    const schema_field *column = &d->figure->table->columns[d->figure->colour.column];
+    return column->quantity == WT_Q_TEMPERATURE ? 0.5 : 0.01 * fabs(value);
+}
+
 /* The different values of the colour, if they are few. */
 static void find_colours(figure_drawing *d)
 {
-    static const double alike = 0.01; // a frequency is not set more exactly
     const size_t place = place_of(d, d->figure->colour.column);
     size_t n = 0;
     for (size_t i = 0; i < d->n_groups; i++)
@@ -128,7 +135,7 @@ static void find_colours(figure_drawing *d)
             const double value = wt_table_number(d->sections[d->data[i]], row, place);
             bool known = !isfinite(value);
             for (size_t k = 0; k < n && !known; k++)
-                known = fabs(value - d->colours[k]) <= alike * fabs(d->colours[k]);
+                known = fabs(value - d->colours[k]) <= setting(d, d->colours[k]);
             if (!known && n == FEW_COLOURS)
                 return;
             if (!known)

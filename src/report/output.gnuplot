@@ -2,6 +2,7 @@
 # 'png' takes its place, with the same type and lines:
 #   gnuplot -e "figure_format = 'pdf'" friction.gp
 if (!exists("figure_format")) figure_format = 'svg'
+# In a copy of the folder: a report written again removes what it did not write.
 # What a style of one's own may leave out.
 if (!exists("panel_width")) panel_width = 620
 if (!exists("panel_height")) panel_height = 0.6935*panel_width

@@ -77,6 +77,25 @@ static void texts_are_cut_at_a_character(void **state)
     }
 }
 
+static void utf8_copies(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t size;
+        const char *text, *copy;
+    } cases[] = {{1, "ab", ""},
+                 {3, "ab", "ab"},
+                 {3, "a\xc3\xa9", "a"},
+                 {4, "a\xc3\xa9", "a\xc3\xa9"},
+                 {5, "a\xe2\x82\xac\xe2\x82\xac", "a\xe2\x82\xac"},
+                 {7, "a\xe2\x82\xac\xe2\x82\xac", "a\xe2\x82\xac"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char to[8] = "zzzzzzz";
+        utf8_copy(to, cases[i].size, cases[i].text);
+        assert_string_equal(to, cases[i].copy);
+    }
+}
+
 static void utf8(void **state)
 {
     (void)state;
@@ -370,6 +389,7 @@ int main(void)
         cmocka_unit_test(error_parts),
         cmocka_unit_test(texts_are_cut_at_a_character),
         cmocka_unit_test(utf8),
+        cmocka_unit_test(utf8_copies),
         cmocka_unit_test(parse_log),
         cmocka_unit_test(numbers),
         cmocka_unit_test(formatted_numbers),

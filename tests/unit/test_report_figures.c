@@ -458,6 +458,54 @@ static void test_one_scale_of_colour(void **state)
     }
 }
 
+static void warm_by_two_kelvins(wt_table *isotherms, size_t row)
+{
+    fixture_add_steps(isotherms, row);
+    fixture_put(isotherms, "temperature", 293.15 + 2 * (double)(row % 5));
+}
+
+/* Set twice, to what an oven holds. */
+static void warm_once(wt_table *isotherms, size_t row)
+{
+    static const double set[] = {293.15, 293.45, 295.15, 294.9};
+    fixture_add_steps(isotherms, row);
+    fixture_put(isotherms, "temperature", set[row % 4]);
+}
+
+static size_t count_of(const char *text, const char *words)
+{
+    size_t n = 0;
+    while ((text = strstr(text, words)) != NULL) {
+        text += strlen(words);
+        n++;
+    }
+    return n;
+}
+
+/* Temperatures are told apart by kelvins, not by their share of 293 K. */
+static void test_temperatures_are_colours(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const struct {
+        const char *folder;
+        fixture_change change;
+        size_t named; /* in the key; 0: a scale */
+    } cases[] = {
+        {"five", {"master_curve", .begin = fixture_begin_steps, .edit = warm_by_two_kelvins}, 0},
+        {"two", {"master_curve", .begin = fixture_begin_steps, .edit = warm_once}, 2}};
+    static const char *const tables[] = {"master_curve"};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_result *result = fixture_only(tables, 1, &cases[i].change);
+        write_report(result, cases[i].folder, NULL);
+        char *script = read_plot(cases[i].folder, "relaxation_isotherms", "gp");
+        assert_int_equal(count_of(script, "lc palette cb"), cases[i].named);
+        assert_int_equal(count_of(script, "unset colorbox"), cases[i].named > 0);
+        free(script);
+        wt_result_free(result);
+    }
+}
+
 /* The axis of a plane goes as far as what is made of the two moduli. */
 static void test_range_of_a_plane(void **state)
 {
@@ -727,6 +775,7 @@ int main(void)
         cmocka_unit_test(test_labels_are_on_the_paper),
         cmocka_unit_test(test_range_of_a_map),
         cmocka_unit_test(test_one_scale_of_colour),
+        cmocka_unit_test(test_temperatures_are_colours),
         cmocka_unit_test(test_range_of_a_plane),
         cmocka_unit_test(test_no_vertical_shift_no_figure),
         cmocka_unit_test(test_numbers_of_captions),

@@ -499,7 +499,7 @@ static void test_spring_constants(void **state)
     assert_non_null(by_hand);
     (void)fputs("# file[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n"
                 "bulk-1.jpk-force-map\t0\texclude\t-\tan edge\n"
-                "bulk-2.jpk-force-map\tnan\tsensitivity\t60nm/V\t-\n",
+                "bulk-2.jpk-force-map\tnan\tsensitivity\t58nm/V\t-\n",
                 by_hand);
     assert_int_equal(fclose(by_hand), 0);
     job.curves = looked_at;
@@ -507,6 +507,7 @@ static void test_spring_constants(void **state)
     job.choices = "put-choices.tsv";
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
+    see(tables.indentation);
     see(tables.curves);
     see(tables.choices);
     wt_indent_tables_clear(&tables);

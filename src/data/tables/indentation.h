@@ -133,6 +133,9 @@
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
 
+/* What the key tip begins with where curves of the group had different tips. */
+#define INDENTATION_SEVERAL "several: "
+
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
     X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
@@ -140,6 +143,7 @@
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
     X(INDENTATION_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
+    X(INDENTATION_KEY_SENSITIVITIES, "sensitivities", TEXT, OPTIONAL)                              \
     INDENTATION_COMMON_KEYS(X)                                                                     \
     X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
     X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \

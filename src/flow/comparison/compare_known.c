@@ -47,6 +47,8 @@ static bool are_two(const compare_pair *p, wt_levers levers)
     const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
     if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
         return true;
+    if (p->data[0].several_tips || p->data[1].several_tips) /* even if both say the same ones */
+        return true;
     return p->data[0].several_levers || p->data[1].several_levers ||
            fabs(track - bulk) > 1e-9 * fabs(bulk);
 }
@@ -113,7 +115,8 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
     k->two_levers = are_two(p, job->levers);
     /* a lever that was mounted anew has been calibrated anew */
     const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
-    const bool anew = !isnan(s[0]) && !isnan(s[1]) && s[0] != s[1];
+    const bool anew = bulk->several_sensitivities || track->several_sensitivities ||
+                      (!isnan(s[0]) && !isnan(s[1]) && s[0] != s[1]);
     add_source(p, job, WT_COMMON_SENSITIVITY, k->two_levers || anew, "deflection sensitivity", k);
     add_source(p, job, WT_COMMON_SPRING_CONSTANT, k->two_levers, "spring constants", k);
     if (has_tip_error(bulk) || has_tip_error(track)) {

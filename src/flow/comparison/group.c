@@ -219,6 +219,10 @@ static void read_common(const table_view *t, wt_group_data *d)
 {
     d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
     d->tip = indentation_words(t, INDENTATION_KEY_TIP);
+    d->several_levers = indentation_words(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
+    d->several_sensitivities = indentation_words(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
+    d->several_tips =
+        d->tip != NULL && strncmp(d->tip, INDENTATION_SEVERAL, strlen(INDENTATION_SEVERAL)) == 0;
     for (int i = 0; i < WT_COMMON_SOURCES; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
                               gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
@@ -286,7 +290,6 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
         d.sensitivity_gain = gain / (double)d.group.n;
         read_common(&t, &d);
-        d.several_levers = indentation_words(&t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
         *data = d;
         d = (wt_group_data){0};
     }

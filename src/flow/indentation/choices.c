@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/param.h"
+#include "base/utf8.h"
 #include "data/tables/rows.h"
 #include "flow/indentation/indent.h"
 
@@ -258,15 +259,15 @@ void choices_judge(const curve_choice *choice, wt_indent_fit *fit)
     snprintf(said, sizeof said, "%s%s%s", by_hand ? "contact point by hand" : "",
              by_hand && some ? "; " : "", fit->reason);
     if (choice->exclude == NULL) {
-        snprintf(fit->reason, sizeof fit->reason, "%.159s", said);
+        utf8_copy(fit->reason, sizeof fit->reason, said);
         return;
     }
     const char *note = choice->exclude->note;
     const bool says_verdict = strncmp(said, verdict, strlen(verdict)) == 0;
     snprintf(text, sizeof text, "left out by hand%s%.*s; the fit: %s%s%s",
-             note[0] != '\0' ? ": " : "", NOTE, note, says_verdict ? "" : verdict,
-             says_verdict || said[0] == '\0' ? "" : ", ", said);
-    snprintf(fit->reason, sizeof fit->reason, "%.159s", text);
+             note[0] != '\0' ? ": " : "", (int)utf8_cut(note, strlen(note), NOTE), note,
+             says_verdict ? "" : verdict, says_verdict || said[0] == '\0' ? "" : ", ", said);
+    utf8_copy(fit->reason, sizeof fit->reason, text);
     fit->verdict = WT_CURVE_EXCLUDED;
 }
 

@@ -113,6 +113,21 @@ void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
             (tip_move){of->tip[WT_COMMON_RADIUS][0], of->tip[WT_COMMON_RADIUS][1], 1 / step};
 }
 
+told_tips common_errors_untell(wt_indent_workspace *workspace)
+{
+    told_tips told = {.any_radius = workspace->any_radius};
+    memcpy(told.moves, workspace->tip_move, sizeof told.moves);
+    memset(workspace->tip_move, 0, sizeof workspace->tip_move);
+    workspace->any_radius = (tip_move){0};
+    return told;
+}
+
+void common_errors_tell_again(const told_tips *told, wt_indent_workspace *workspace)
+{
+    memcpy(workspace->tip_move, told->moves, sizeof told->moves);
+    workspace->any_radius = told->any_radius;
+}
+
 static void clear_curve(common_curve *curve)
 {
     for (int i = 0; i < 2; i++)
@@ -170,7 +185,8 @@ static void thin_out(common_errors *to)
     to->stride *= 2;
 }
 
-wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve, wt_error *err)
+wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
+                             const wt_contact_table *contact, bool own_tip, wt_error *err)
 {
     if (!to->stated || to->seen++ % to->stride != 0)
         return WT_OK;
@@ -180,7 +196,9 @@ wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve, wt_
             return WT_OK;
     }
     common_curve *kept = &to->curve[to->n++];
-    *kept = (common_curve){.spring_constant = curve->cantilever.spring_constant};
+    *kept = (common_curve){.spring_constant = curve->cantilever.spring_constant,
+                           .contact = contact,
+                           .own_tip = own_tip};
     const wt_status status = copy_branch(curve, WT_SEGMENT_APPROACH, &kept->branch[0], err);
     return status == WT_OK ? copy_branch(curve, WT_SEGMENT_RETRACT, &kept->branch[1], err) : status;
 }
@@ -189,7 +207,6 @@ wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve, wt_
 
 typedef struct refit {
     common_errors *to;
-    const wt_contact_table *contact;
     const wt_indent_options *options;
     wt_indent_workspace *const *workspaces;
     double *scratch; /* [room] for each thread: forces that are scaled */
@@ -204,45 +221,63 @@ static curve_branch scale_branch(const common_branch *b, double factor, double *
     return (curve_branch){b->height, scaled, b->time, b->n};
 }
 
-/* d ln E of a step of one source each way. The modulus of a fit that no longer passes its tests is
- * told all the same. */
+/* Logarithm of the modulus of a curve whose source is moved: scaled forces, or another tip. That of
+ * a fit that no longer passes its tests is told all the same. */
+static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker,
+                           double *log_modulus)
+{
+    const common_errors *to = f->to;
+    const wt_common_source source = (wt_common_source)(item % WT_COMMON_SOURCES);
+    const common_curve *curve = &to->curve[item / WT_COMMON_SOURCES];
+    const double factor = exp((2 * way - 1) * to->step[source]);
+    double *scratch = f->scratch + worker * f->room;
+    const bool lever = source == WT_COMMON_SPRING_CONSTANT,
+               signal = lever || source == WT_COMMON_SENSITIVITY;
+    const curve_branch scaled[2] = {
+        scale_branch(&curve->branch[0], signal ? factor : 1, scratch),
+        scale_branch(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
+    wt_indent_workspace *workspace = f->workspaces[worker];
+    told_tips told;
+    wt_indent_fit fit;
+    if (curve->own_tip)
+        told = common_errors_untell(workspace);
+    const wt_status status = curve_fit_branches(
+        signal ? curve->contact : to->tip[source][way], f->options, &scaled[0], &scaled[1],
+        curve->spring_constant * (lever ? factor : 1), workspace, &fit, &f->errors[item]);
+    if (curve->own_tip)
+        common_errors_tell_again(&told, workspace);
+    if (status == WT_OK)
+        *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
+    return status;
+}
+
+/* d ln E of a step of one source each way. Of a tip that was chosen for a file no error is stated,
+ * so that there is nothing to move. */
 static wt_status move_source(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;
     common_errors *to = f->to;
     const size_t at = item / WT_COMMON_SOURCES;
     const wt_common_source source = (wt_common_source)(item % WT_COMMON_SOURCES);
-    const common_curve *curve = &to->curve[at];
-    const double step = to->step[source];
-    double log_modulus[2] = {0, 0}, *scratch = f->scratch + worker * f->room;
+    const bool of_tip = source == WT_COMMON_HALF_ANGLE || source == WT_COMMON_RADIUS;
+    const double step = of_tip && to->curve[at].own_tip ? 0 : to->step[source];
+    double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;
     for (int way = 0; way < 2 && step > 0; way++) {
-        const double factor = exp((2 * way - 1) * step);
-        const bool lever = source == WT_COMMON_SPRING_CONSTANT,
-                   signal = lever || source == WT_COMMON_SENSITIVITY;
-        const curve_branch scaled[2] = {
-            scale_branch(&curve->branch[0], signal ? factor : 1, scratch),
-            scale_branch(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
-        wt_indent_fit fit;
-        const wt_status status =
-            curve_fit_branches(signal ? f->contact : to->tip[source][way], f->options, &scaled[0],
-                               &scaled[1], curve->spring_constant * (lever ? factor : 1),
-                               f->workspaces[worker], &fit, &f->errors[item]);
+        const wt_status status = fit_moved(f, item, way, worker, &log_modulus[way]);
         if (status != WT_OK)
             return status;
-        log_modulus[way] = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     }
     if (step > 0)
         to->gain[at][source] = (log_modulus[1] - log_modulus[0]) / (2 * step);
     return WT_OK;
 }
 
-wt_status common_errors_fit(common_errors *to, const wt_contact_table *contact,
-                            const wt_indent_options *options, unsigned threads,
+wt_status common_errors_fit(common_errors *to, const wt_indent_options *options, unsigned threads,
                             wt_indent_workspace *const *workspaces, wt_error *err)
 {
     const size_t n = to->n * WT_COMMON_SOURCES;
-    refit f = {.to = to, .contact = contact, .options = options, .workspaces = workspaces};
+    refit f = {.to = to, .options = options, .workspaces = workspaces};
     if (n == 0)
         return WT_OK;
     for (size_t i = 0; i < to->n; i++)

@@ -5,6 +5,7 @@
 #define WEARTRACK_FLOW_INDENTATION_COMMON_ERRORS_H
 
 #include "data/tables/tables.h"
+#include "fit/indentation/curve.h"
 #include "weartrack/flow.h"
 
 /* Most curves of a group that are fitted anew. */
@@ -19,6 +20,8 @@ typedef struct common_branch {
 typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
     double spring_constant;
+    const wt_contact_table *contact; /* of the tip that it was fitted with; borrowed */
+    bool own_tip;                    /* chosen for its file: the moved tips are not its */
 } common_curve;
 
 /* What an error does to the modulus, by curves that are fitted anew with the source moved. */
@@ -37,12 +40,19 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to,
 /* Fits of the workspace take the stated errors of the tip into account, as long as these are there.
  */
 void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace);
-/* Keeps a copy of an accepted curve: of every so many of them. */
+/* What a workspace was told, taken from it while a curve with a tip of its own is fitted. */
+typedef struct told_tips {
+    tip_move moves[CURVE_TIP_MOVES], any_radius;
+} told_tips;
+told_tips common_errors_untell(wt_indent_workspace *workspace);
+void common_errors_tell_again(const told_tips *told, wt_indent_workspace *workspace);
+/* Keeps a copy of an accepted curve: of every so many of them. contact: of its tip, as long as the
+ * errors are there; own_tip: that is not the one of the job. */
 wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
+                             const wt_contact_table *contact, bool own_tip,
                              wt_error *err) WT_NODISCARD;
 /* Fits what is kept. workspaces: one for each of the threads. */
-wt_status common_errors_fit(common_errors *to, const wt_contact_table *contact,
-                            const wt_indent_options *options, unsigned threads,
+wt_status common_errors_fit(common_errors *to, const wt_indent_options *options, unsigned threads,
                             wt_indent_workspace *const *workspaces, wt_error *err) WT_NODISCARD;
 void common_errors_set_keys(const common_errors *of, table_writer *rows);
 void common_errors_clear(common_errors *errors);

@@ -75,11 +75,59 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 
 /* ---- the group ------------------------------------------------------------------------------- */
 
-static void set_keys(indent_task *task, const flow_files *files)
+/* Names few of several tips, so that a line of the result stays one. */
+static void describe_tips(const indent_task *task, char *text, size_t size)
+{
+    enum { NAMED = 3 }; /* each fills a line of a terminal */
+    char tip[256];
+    size_t used = 0;
+    if (task->n_tips < 2) {
+        wt_tip_describe(task->n_tips > 0 ? task->tips[0] : &task->job->tip, text, size);
+        return;
+    }
+    for (size_t i = 0; i < task->n_tips && i < NAMED; i++) {
+        wt_tip_describe(task->tips[i], tip, sizeof tip);
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 i == 0 ? INDENTATION_SEVERAL : "; ", tip);
+    }
+    if (task->n_tips > NAMED)
+        (void)snprintf(text + used, size - used, "; and %zu more", task->n_tips - NAMED);
+}
+
+/* What was given, or what all curves had in its place, which is as well known; else what their
+ * files say, whose error they do not. */
+static wt_estimate value_used(wt_estimate given, double low, double high)
+{
+    const double relative = given.standard_error / given.value;
+    if (low >= high && !(low == given.value))
+        return (wt_estimate){low, relative * low, 0, given.unit};
+    return given;
+}
+
+static void set_calibration_keys(const indent_task *task, table_writer *t)
 {
     const wt_indent_job *job = task->job;
-    table_writer *t = &task->rows;
-    char tip[256], range[256];
+    wt_estimate k = value_used(job->spring_constant, task->k_low, task->k_high);
+    const wt_estimate s = value_used(job->sensitivity, task->s_low, task->s_high);
+    if (!(k.standard_error > 0))
+        k.standard_error = job->lever_error * k.value;
+    if (task->by_sensitivity && task->s_low < task->s_high)
+        indentation_set_print(t, INDENTATION_KEY_SENSITIVITIES, "%.4g to %.4g m/V", task->s_low,
+                              task->s_high);
+    else if (task->by_sensitivity && !isnan(s.value))
+        indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(s));
+    common_errors_set_keys(&task->common, t);
+    if (!isnan(k.value))
+        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
+    if (task->k_low < task->k_high)
+        indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%.4g to %.4g N/m", task->k_low,
+                              task->k_high);
+}
+
+static void set_keys(const indent_task *task, const flow_files *files, table_writer *t)
+{
+    const wt_indent_job *job = task->job;
+    char tip[1024], range[256];
     size_t named = 0;
     for (size_t i = 0; i < files->n; i++)
         named += files->file[i].set->spot != NULL;
@@ -88,7 +136,7 @@ static void set_keys(indent_task *task, const flow_files *files)
         spots = "named";
     else if (named == 0)
         spots = "file: each file is a spot, none were named";
-    wt_tip_describe(&job->tip, tip, sizeof tip);
+    describe_tips(task, tip, sizeof tip);
     if (task->options.spectrum != NULL)
         indentation_set_value(t, INDENTATION_KEY_SPECTRUM_TEMPERATURE,
                               task->spectrum.reference_temperature, 0, 0);
@@ -96,20 +144,7 @@ static void set_keys(indent_task *task, const flow_files *files)
     indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
     if (indent_range_text(&job->options, range, sizeof range))
         indentation_set_text(t, INDENTATION_KEY_FIT_RANGE, range);
-    /* that of the user; else that of the files, whose error they do not say */
-    wt_estimate k = job->spring_constant;
-    if (isnan(k.value) && task->k_low >= task->k_high)
-        k = (wt_estimate){task->k_low, 0, 0, "N/m"};
-    if (!(k.standard_error > 0))
-        k.standard_error = job->lever_error * k.value;
-    if (task->by_sensitivity && !isnan(job->sensitivity.value))
-        indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(job->sensitivity));
-    common_errors_set_keys(&task->common, t);
-    if (!isnan(k.value))
-        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
-    if (task->k_low < task->k_high)
-        indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%.4g to %.4g N/m", task->k_low,
-                              task->k_high);
+    set_calibration_keys(task, t);
     indentation_set_text(t, INDENTATION_KEY_SPOTS, spots);
     indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
     indentation_set_print(t, INDENTATION_KEY_N_DOUBTFUL, "%zu", task->n_doubtful);
@@ -192,6 +227,7 @@ static void release_task(indent_task *task)
     free(task->scratch);
     free(task->items);
     free(task->moduli);
+    free(task->tips);
     indent_together_clear(&task->together);
     common_errors_clear(&task->common);
     indent_depths_clear(&task->depths);
@@ -230,7 +266,9 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                         .lock = PTHREAD_MUTEX_INITIALIZER,
                         .written = PTHREAD_COND_INITIALIZER,
                         .k_low = (double)NAN,
-                        .k_high = (double)NAN};
+                        .k_high = (double)NAN,
+                        .s_low = (double)NAN,
+                        .s_high = (double)NAN};
     flow_files files = {NULL, 0, NULL};
     wt_status status = prepare_task(&task, err);
     if (status == WT_OK)
@@ -245,10 +283,9 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     if (status == WT_OK)
-        status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
-                                   task.scratch, err);
+        status = common_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);
     if (status == WT_OK) {
-        set_keys(&task, &files);
+        set_keys(&task, &files, &task.rows);
         status = indent_say_together(&task.together, job, work, &task.rows, err);
     }
     if (status == WT_OK)

@@ -5,6 +5,7 @@
 #include "flow/indentation/indent_task.h"
 
 #include "base/array.h"
+#include "base/utf8.h"
 #include "fit/indentation/curve.h"
 
 #include <math.h>
@@ -109,7 +110,7 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 {
     curve_fit_empty(fit);
     fit->verdict = WT_CURVE_UNREADABLE;
-    snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
+    utf8_copy(fit->reason, sizeof fit->reason, error->message);
 }
 
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
@@ -125,6 +126,33 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                                               .order = task->n_moduli};
     task->n_moduli++;
     return indent_together_add(&task->together, &it->fit, &task->options, err);
+}
+
+static bool is_described_alike(const wt_tip *a, const wt_tip *b)
+{
+    char words[2][256];
+    wt_tip_describe(a, words[0], sizeof words[0]);
+    wt_tip_describe(b, words[1], sizeof words[1]);
+    return strcmp(words[0], words[1]) == 0;
+}
+
+/* What the curve was measured with, for what is said of all. */
+static wt_status note_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
+{
+    task->k_low = fmin(task->k_low, used->spring_constant);
+    task->k_high = fmax(task->k_high, used->spring_constant);
+    task->s_low = fmin(task->s_low, used->sensitivity);
+    task->s_high = fmax(task->s_high, used->sensitivity);
+    task->by_sensitivity = task->by_sensitivity || used->sensitivity_given;
+    for (size_t i = 0; i < task->n_tips; i++)
+        if (task->tips[i] == task->file_tip || is_described_alike(task->tips[i], task->file_tip))
+            return WT_OK;
+    const wt_tip **tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
+    if (tips == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->tips = tips;
+    task->tips[task->n_tips++] = task->file_tip;
+    return WT_OK;
 }
 
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
@@ -146,8 +174,9 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->n_curves++;
     status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit, task->file_contact,
                               &job.options, err);
-    /* what all curves share is asked of those that are fitted alike */
-    const bool alike = task->file_contact == task->contact && isnan(it->choice.contact_point);
+    const bool own_tip = task->file_contact != task->contact,
+               as_fitted = isnan(it->choice.contact_point);
+    const bool alike = !own_tip && as_fitted;
     if (status == WT_OK && alike && (task->work->left_out & WT_EXTRA_MODULUS_DEPTH) == 0)
         status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
     if (status != WT_OK)
@@ -156,13 +185,11 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
         return task->rows.status;
     task->n_accepted++;
     task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
-    task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
-    task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
-    task->by_sensitivity = task->by_sensitivity || it->curve.cantilever.sensitivity_given;
+    status = note_calibration(task, &it->curve.cantilever, err);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    if (alike)
-        status = common_errors_keep(&task->common, &it->curve, err);
+    if (status == WT_OK && as_fitted) /* a contact point by hand is not that of moved sources */
+        status = common_errors_keep(&task->common, &it->curve, task->file_contact, own_tip, err);
     if (status == WT_OK && task->job->keep != NULL)
         status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
                        : curve_set_give_up(task->job->keep);
@@ -204,17 +231,14 @@ static void write_done(indent_task *task)
 static void fit_item(const indent_task *task, item *it, wt_indent_workspace *workspace)
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
-    tip_move moves[CURVE_TIP_MOVES], any_radius = workspace->any_radius;
     const bool own_tip = task->file_contact != task->contact;
-    memcpy(moves, workspace->tip_move, sizeof moves);
-    if (own_tip) {
-        memset(workspace->tip_move, 0, sizeof workspace->tip_move);
-        workspace->any_radius = (tip_move){0};
-    }
+    told_tips told;
+    if (own_tip)
+        told = common_errors_untell(workspace);
     it->status = wt_indent_force_curve(task->file_contact, &options, &it->curve, workspace,
                                        &it->fit, &it->error);
-    memcpy(workspace->tip_move, moves, sizeof moves);
-    workspace->any_radius = any_radius;
+    if (own_tip)
+        common_errors_tell_again(&told, workspace);
     if (it->status == WT_OK)
         choices_judge(&it->choice, &it->fit);
 }

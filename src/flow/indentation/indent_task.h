@@ -70,9 +70,13 @@ typedef struct indent_task {
     indent_together together;
     common_errors common;
     indent_depths depths;
-    double k_low, k_high; /* spring constants of the accepted curves [N/m] */
-    bool by_sensitivity;  /* that of the job made a force */
-    double squares;       /* of relative standard errors of their moduli */
+    /* what the accepted curves had: spring constants [N/m], sensitivities [m/V], and tips, a
+     * pointer to each that is described otherwise */
+    double k_low, k_high, s_low, s_high;
+    const wt_tip **tips;
+    size_t n_tips;
+    bool by_sensitivity; /* one that was given made a force */
+    double squares;      /* of relative standard errors of their moduli */
 } indent_task;
 
 /* What the fit uses of a file, and nothing else, with what is chosen for the file, which is then
