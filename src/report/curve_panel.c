@@ -149,6 +149,14 @@ static size_t add_words(growing_text *to, const figure_drawing *d, const listed_
     return lines;
 }
 
+size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
+{
+    growing_text words = {0};
+    const size_t lines = add_words(&words, d, c);
+    text_free(&words);
+    return lines;
+}
+
 /* As a label from the left end of the panel, its last line above the picture. */
 static void add_heading(figure_drawing *d, const listed_curve *c)
 {

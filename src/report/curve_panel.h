@@ -30,6 +30,8 @@ typedef struct curve_list {
 wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error *err) WT_NODISCARD;
 void curve_list_clear(curve_list *list);
 
+/* Lines of words above the panel of a curve. */
+size_t curve_panel_lines(const figure_drawing *d, const listed_curve *curve);
 /* Draws a curve of d->table, the table "curves", as one plot of a multiplot. Nothing if no sample
  * has both numbers. */
 void curve_panel(figure_drawing *d, const listed_curve *curve);

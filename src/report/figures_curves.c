@@ -7,19 +7,31 @@
 /* More are for a sheet of their own or the page to go through them. */
 enum { SHEET_CURVES = 12, SHEET_COLUMNS = 3 };
 
+/* Above the panels of one row. */
+static size_t most_lines(const figure_drawing *d, const curve_list *list, size_t first, size_t n)
+{
+    size_t most = 0;
+    for (size_t i = first; i < first + n && i < list->n; i++) {
+        const size_t lines = curve_panel_lines(d, &list->curves[i]);
+        most = lines > most ? lines : most;
+    }
+    return most;
+}
+
 static void draw_sheet(figure_drawing *d, const curve_list *list)
 {
     const size_t n = list->n < SHEET_CURVES ? list->n : SHEET_CURVES,
                  columns = n < SHEET_COLUMNS ? n : SHEET_COLUMNS,
                  rows = (n + columns - 1) / columns;
     d->width = 0.75 * (double)columns;
-    d->height = 0.9 * (double)rows;
-    /* above a panel six lines, which tell which curve it is and why it was refused */
-    text_format(&d->script,
-                "set lmargin 9\nset tmargin 6.5\nset rmargin 1\nset multiplot layout %zu,%zu\n",
-                rows, columns);
-    for (size_t i = 0; i < n; i++)
+    d->height = 0.85 * (double)rows;
+    text_format(&d->script, "set lmargin 9\nset rmargin 2\nset multiplot layout %zu,%zu\n", rows,
+                columns);
+    for (size_t i = 0; i < n; i++) {
+        if (i % columns == 0)
+            text_format(&d->script, "set tmargin %zu\n", most_lines(d, list, i, columns) + 1);
         curve_panel(d, &list->curves[i]);
+    }
     text_add(&d->script, "unset multiplot\n");
     text_format(&d->caption, " %s %zu of %zu curves.", curve_panel_words, n, list->n_rows);
     if (n < list->n)
