@@ -177,8 +177,8 @@ static void draw_maps(figure_drawing *d)
     const size_t n = take_scans(d, HEIGHT_MAP_SCAN, take_map, scans);
     if (n == 0)
         return;
-    begin_panels(d, n, 1.1);
-    text_add(&d->script, "set size ratio -1\nunset key\n");
+    begin_panels(d, n, 1);
+    text_add(&d->script, "set size ratio -1\nset bmargin 2.2\nunset key\n");
     for (size_t i = 0; i < n; i++)
         draw_map(d, &scans[i]);
     text_add(&d->script, "unset multiplot\n");
