@@ -6,7 +6,7 @@
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
-     .unset = "required, but with --methods standard output and with --browse or --sheets none",
+     .unset = "standard output with --methods, none with --browse or --sheets; else it is required",
      .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
 PARAM_LOCAL_TABLE(place_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
