@@ -136,7 +136,10 @@ static size_t add_words(growing_text *to, const figure_drawing *d, const listed_
     size_t lines = 2;
     add_name(to, curves_text(d->table, c->block.from, CURVES_FILE),
              curves_get(d->table, c->block.from, CURVES_CURVE));
-    text_format(to, "\n%s", verdict);
+    text_add(to, "\n");
+    if (d->tables->n_indentation > 1)
+        text_format(to, "%s: ", c->rows->suffix);
+    text_add(to, verdict);
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
         text_format(to, ", E = %s", ESTIMATE(&modulus));
     const size_t same = strlen("doubtful: ");
