@@ -254,9 +254,11 @@ typedef struct wt_topography_job {
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);
 typedef struct wt_topography_tables {
-    wt_table *power_spectrum, *angular_spectrum, *surfaces; /* angular_spectrum: NULL of profiles */
-    wt_table *scan_spectra, *height_map, *height_profile;   /* NULL unless asked for; height_map
-                                                               NULL of profiles, too */
+    wt_table *power_spectrum, *surfaces;
+    wt_table *place_errors;                               /* NULL of scans of one size */
+    wt_table *angular_spectrum;                           /* NULL of profiles */
+    wt_table *scan_spectra, *height_map, *height_profile; /* NULL unless asked for; height_map
+                                                             NULL of profiles, too */
 } wt_topography_tables;
 WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,
@@ -735,9 +737,10 @@ typedef struct wt_surface {
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
-    /* [2 * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of each
-     * point has by the places of the widest scans, and by those of all others, which are drawn for
-     * themselves. NULL: all have all of it together. */
+    /* [n_sizes * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of
+     * the points has by the places of the widest scans, then of the next, each of which is drawn
+     * for itself. NULL: all have all of it together. */
+    size_t n_sizes;
     double *place_parts;
     double reliable_to; /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;       /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */

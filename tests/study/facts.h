@@ -38,6 +38,8 @@ typedef enum quantity {
     Q_ROLL_OFF,
     Q_C0,
     Q_BEYOND,     /* C(q) by the law, at the end that was asked for */
+    Q_RMS_HEIGHT, /* of the spectrum, from its first row to its last */
+    Q_RMS_SLOPE,
     Q_ANISOTROPY, /* amplitude of order 2 */
     Q_TEXTURE,    /* its direction */
     Q_STEADY,     /* friction coefficient behind a running-in */

@@ -42,6 +42,8 @@ const place place_density = {surface, "density", NULL, "density_low", "density_h
 const place place_hurst = {surface, "hurst", "standard_error", NULL, NULL};
 const place place_roll_off = {surface, "roll_off", "standard_error", NULL, NULL};
 const place place_c0 = {surface, "c0", "standard_error", NULL, NULL};
+const place place_rms_height = {surface, "rms_height", "standard_error", NULL, NULL};
+const place place_rms_slope = {surface, "rms_slope", "standard_error", NULL, NULL};
 const place place_anisotropy = {surface, "anisotropy", "standard_error", NULL, NULL};
 const place place_texture = {surface, "anisotropy_direction", "standard_error", NULL, NULL};
 

@@ -25,6 +25,7 @@ extern const place place_layered_friction;              /* at the reference velo
 
 extern const place place_density; /* of a surface, a row for each bin */
 extern const place place_hurst, place_roll_off, place_c0;
+extern const place place_rms_height, place_rms_slope;
 extern const place place_anisotropy, place_texture;
 
 extern const place place_steady, place_running_in, place_drift; /* of a record, a row for a step */

@@ -1121,6 +1121,8 @@ static void see_surfaces(const char *const *files, size_t n)
     if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.power_spectrum);
+    if (tables.place_errors != NULL)
+        see(tables.place_errors);
     if (tables.angular_spectrum != NULL)
         see(tables.angular_spectrum);
     if (tables.height_map != NULL)

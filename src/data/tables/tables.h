@@ -114,6 +114,8 @@
     X(wear, WEAR, "wear", "Wear as measured", "record")                                            \
     X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
       "psd")                                                                                       \
+    X(place_errors, PLACE_ERRORS, "place_errors", "Errors of a power spectrum by its places",      \
+      "psd")                                                                                       \
     X(angular_spectrum, ANGULAR_SPECTRUM, "angular_spectrum",                                      \
       "Angular spectrum of a measured surface", "psd")                                             \
     X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \

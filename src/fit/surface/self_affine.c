@@ -19,7 +19,7 @@ enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 typedef struct law_fit {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
     size_t n;
-    double *places;                    /* [n * n_places] parts of the scans in each y, or NULL */
+    double *places;                    /* [n * n_sizes] what the sizes have of each y, or NULL */
     double c, power;                   /* of the last roll-off that was tried: ln C0, -2 (1 + H), */
     double c_variance, power_variance; /* and theirs for that roll-off */
 } law_fit;
@@ -144,9 +144,9 @@ static wt_interval of_span(double value, value_span span, bool logarithm)
     return (wt_interval){exp(value), exp(value) * half, exp(span.low), exp(span.high)};
 }
 
-/* What the places make of ln c0 and of the power: each scan is off by an error of its own, the same
- * in all its bins, so that scans of two sizes tilt the law. The fit is linear in y at its
- * roll-off. */
+/* What the places make of ln c0 and of the power: the scans of a size are off by an error of their
+ * own, the same in all their bins, so that scans of several sizes tilt the law. The fit is linear
+ * in y at its roll-off. */
 static void find_place_covariance(const law_fit *f, double r, const wt_surface_spectrum *s,
                                   double to[CONSTANTS][CONSTANTS])
 {
@@ -165,10 +165,10 @@ static void find_place_covariance(const law_fit *f, double r, const wt_surface_s
         sxx += f->weight[k] * x * x;
     }
     const double d = sum * sxx - sx * sx;
-    for (size_t i = 0; i < s->n_places; i++) {
+    for (size_t i = 0; i < s->n_sizes; i++) {
         double y = 0, xy = 0;
         for (size_t k = 0; k < f->n; k++) {
-            const double part = f->weight[k] * f->places[k * s->n_places + i];
+            const double part = f->weight[k] * f->places[k * s->n_sizes + i];
             y += part;
             xy += part * fmax(0, f->x[k] - r);
         }
@@ -211,21 +211,20 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
                              wt_error *err)
 {
     *law = (wt_self_affine){.found = false};
-    law_fit f = {.x = malloc((3 + spectrum->n_places) * (spectrum->n + 1) * sizeof *f.x)};
+    law_fit f = {.x = malloc((3 + spectrum->n_sizes) * (spectrum->n + 1) * sizeof *f.x)};
     if (f.x == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
-    f.places = spectrum->n_places > 0 ? f.weight + spectrum->n : NULL;
+    f.places = spectrum->n_sizes > 0 ? f.weight + spectrum->n : NULL;
     for (size_t k = 0; k < spectrum->n; k++) {
         const wt_spectrum_bin *b = &spectrum->bins[k];
         if (!b->reliable)
             continue;
         f.x[f.n] = log(b->wavenumber);
         f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
-        for (size_t i = 0; i < spectrum->n_places; i++)
-            f.places[f.n * spectrum->n_places + i] =
-                spectrum->place_weight[k * spectrum->n_places + i];
+        for (size_t i = 0; i < spectrum->n_sizes; i++)
+            f.places[f.n * spectrum->n_sizes + i] = spectrum->place_part[k * spectrum->n_sizes + i];
         f.weight[f.n++] = 1 / surface_log_variance(b->shared_freedom);
     }
     if (f.n > CONSTANTS + 1) {

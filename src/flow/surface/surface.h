@@ -60,9 +60,10 @@ double surface_law_error(const surface_whole *w, double wavenumber);
 /* What the places give all of the spectrum; with few of them it is hardly known itself: half an
  * interval of 95 %, over 1.96. NaN: not known. */
 double surface_place_error(const wt_surface_spectrum *s);
-/* Of scans of several sizes, what the places of these give a knot, likewise; the law beyond has
- * that of the last bin. NaN: not known, or every bin is of all scans. */
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which);
+/* Of scans of several sizes, what the places of one give a knot, and what those of all do, likewise;
+ * the law beyond has that of the last bin. NaN: not known, or there is one size. */
+double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size);
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

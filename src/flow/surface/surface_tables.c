@@ -21,8 +21,8 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, law_error, places_wide, places_narrow, self_affine, modes, scans;
-          const char *source;)
+          double modes_error, law_error, self_affine, modes, scans; const char *source;)
+TABLE_ROW(place_errors, PLACE_ERRORS, size_t size, row; double wavenumber, error;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
@@ -53,20 +53,35 @@ double surface_place_error(const wt_surface_spectrum *s)
                               : s->place_error;
 }
 
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which)
+static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
 {
-    const size_t bin = knot < s->n ? knot : s->n - 1;
-    return s->place_error > 0 && surface_places_differ(s)
-               ? s->place_scatter * surface_places_part(s, bin, which) *
-                     students_t_quantile(s->place_freedom) / NORMAL_95
+    return knot < s->n ? knot : s->n - 1;
+}
+
+/* Of a scan at one place; NaN: not known, or there is one size. */
+static double one_place(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 && s->n_sizes > 1
+               ? s->place_scatter * students_t_quantile(s->place_freedom) / NORMAL_95
                : (double)NAN;
+}
+
+double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size)
+{
+    return s->n_sizes > 1 ? one_place(s) * surface_places_of(s, bin_of(s, knot), size)
+                          : (double)NAN;
+}
+
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
+{
+    return one_place(s) * surface_places_part(s, bin_of(s, knot));
 }
 
 double surface_law_error(const surface_whole *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 last = surface_knot_places(&w->spectrum, w->spectrum.n, SURFACE_ALL_SCANS),
+                 last = surface_knot_places(&w->spectrum, w->spectrum.n),
                  places = isnan(last) ? surface_place_error(&w->spectrum) : last,
                  common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
@@ -94,10 +109,8 @@ static void add_rows(table_writer *t, const surface_whole *w)
                   : law ? of_law(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  law ? surface_law_error(w, q) : nan,
-                  surface_knot_places(&w->spectrum, i, SURFACE_WIDE_SCANS),
-                  surface_knot_places(&w->spectrum, i, SURFACE_NARROW_SCANS),
-                  wt_self_affine_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
+                  bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
@@ -254,6 +267,21 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     return table_end(&t, table);
 }
 
+/* ---- what the places of each size give it ------------------------------------------------------
+ */
+
+static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&place_errors_schema, err);
+    for (size_t size = 0; size < w->spectrum.n_sizes; size++)
+        for (size_t i = 0; i < w->knots.n; i++) {
+            const double error = surface_knot_size(&w->spectrum, i, size);
+            if (error > 0)
+                TABLE_ADD(place_errors, &t, size + 1, i + 1, w->knots.wavenumber[i], error);
+        }
+    return table_end(&t, table);
+}
+
 /* ---- the scans ------------------------------------------------------------------------------- */
 
 static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
@@ -290,6 +318,7 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->power_spectrum);
+    wt_table_free(tables->place_errors);
     wt_table_free(tables->angular_spectrum);
     wt_table_free(tables->surfaces);
     wt_table_free(tables->scan_spectra);
@@ -307,6 +336,8 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     for (size_t i = 0; i < n; i++)
         maps = maps || scans[i].map.ny > 1;
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK && surface_knot_places(&whole->spectrum, 0) > 0)
+        status = make_place_errors(whole, &made.place_errors, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = make_angular(whole, &made.angular_spectrum, err);
     if (status == WT_OK)
