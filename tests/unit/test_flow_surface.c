@@ -279,10 +279,23 @@ static void test_directions(void **state)
     }
     assert_true(within >= WT_SURFACE_SECTORS - 3);
     assert_true(key(t, "chance") < 1e-6);
+    const double alone = key(m.tables.power_spectrum, "anisotropy"),
+                 fourth = key(m.tables.power_spectrum, "anisotropy_fourth");
+    clear(&m);
+
+    /* profiles beside maps tell nothing of directions and take nothing away */
+    make(&m, (const char *const[]){path, SURFACE "profile-*.gsf"}, 2);
+    t = m.tables.power_spectrum;
+    assert_near(key(t, "anisotropy"), alone, 1e-12);
+    assert_near(key(t, "anisotropy_fourth"), fourth, 1e-12);
+    assert_int_equal(wt_table_n_rows(m.tables.angular_spectrum), WT_SURFACE_SECTORS);
+    assert_non_null(strstr(wt_table_key(t, "profiles"), "where both tell"));
+    assert_true(said(&m, "what the profiles tell is told for a surface that is the same in all"));
     clear(&m);
 
     make(&m, all, COUNT_OF(all));
     assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
+    assert_null(wt_table_key(m.tables.power_spectrum, "profiles"));
     assert_true(key(m.tables.angular_spectrum, "chance") > 0.01);
     clear(&m);
     make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);

@@ -59,6 +59,7 @@
       LABEL("Roughest direction of order 4 from x"), OPTIONAL)                                     \
     X(POWER_SPECTRUM_KEY_DIRECTIONS, "directions_verdict", TEXT, SHOWS(directions),                \
       LABEL("Directions"))                                                                         \
+    X(POWER_SPECTRUM_KEY_PROFILES, AS(profiles), TEXT, LABEL("What the profiles add"), OPTIONAL)   \
     X(POWER_SPECTRUM_KEY_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
     X(POWER_SPECTRUM_KEY_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \

@@ -28,7 +28,8 @@ TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hu
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
            anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
-           const char *directions, *includes, *lacks, *option, *anisotropy_option, *convention;
+           const char *directions, *profiles, *includes, *lacks, *option, *anisotropy_option,
+           *convention;
            size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
@@ -136,8 +137,7 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
 {
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
-        clocale_print(to, size,
-                      "cannot say: profiles are among the scans; height maps alone would tell");
+        clocale_print(to, size, "cannot say: profiles tell none; a height map would");
     else if (surface_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
@@ -206,7 +206,7 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
         const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
         const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
         double modes = 0;
-        const wt_interval ratio = wt_surface_sector(&w->spectrum, sector, &modes);
+        const wt_interval ratio = wt_surface_sector(surface_of_maps(w), sector, &modes);
         TABLE_ADD(angular_spectrum, &t, phi, ratio,
                   1 + two->amplitude * cos(2 * (phi - two->direction)) +
                       four->amplitude * cos(4 * (phi - four->direction)),
@@ -228,7 +228,7 @@ static const char *included(const surface_whole *w, bool places)
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
-    char law[256], directions[256], option[256], anisotropy[256];
+    char law[256], directions[256], profiles[256], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
     const bool places = !isnan(s->place_scatter);
     const double nan = (double)NAN;
@@ -236,6 +236,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     add_rows(&t, w);
     print_law(w, law, sizeof law);
     print_directions(w, directions, sizeof directions);
+    surface_print_profiles(w, profiles, sizeof profiles);
     print_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
     TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
@@ -257,7 +258,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
                   number(w->directions.direction, w->directions.direction_error),
               .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
               .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-              .directions = directions, .includes = included(w, places),
+              .directions = directions, .profiles = profiles, .includes = included(w, places),
               .lacks = places ? "calibration of the scanner, noise of the instrument"
                               : "places of the surface, calibration of the scanner, noise of the "
                                 "instrument",
