@@ -79,6 +79,9 @@ static void fails_with(const char *script, wt_status expected, const char *words
 static void test_failures(void **state)
 {
     (void)state;
+    const size_t open_before = count_files("/proc/self/fd");
+    fails_with("exec >&- 2>&-; sleep 0.3; exit 5", WT_E_TOOL, "exit status 5");
+    fails_with("sleep 1000 & exit 6", WT_E_TOOL, "exit status 6");
     fails_with("sleep 1000 & sleep 1000", WT_E_TOOL, "did not end within 2 s");
     fails_with("while :; do :; done", WT_E_TOOL, "Gwyddion ");
     fails_with("trap '' XCPU TERM; while :; do :; done", WT_E_TOOL, "Gwyddion ");
@@ -91,6 +94,7 @@ static void test_failures(void **state)
     fails_with("mkfifo converted.gwy", WT_E_TOOL, "made nothing");
     fails_with("exec head -c 10000000000 /dev/zero > converted.gwy", WT_E_TOOL, "signal 25");
     fails_with("mkdir -p a/b/c/d/e; echo x > a/b/c/d/e/f; exit 3", WT_E_TOOL, "exit status 3");
+    assert_int_equal(count_files("/proc/self/fd"), open_before);
 }
 
 /* What has reached the limit was cut there, whatever the program says of itself. */
