@@ -67,6 +67,11 @@ static bool said(const making *m, const char *words)
     return false;
 }
 
+static const char *text_cell(const wt_table *t, size_t row, const char *name)
+{
+    return wt_table_text(t, row, (size_t)wt_table_find(t, name));
+}
+
 static const char *const all[] = {SURFACE "near-by.gsf", SURFACE "place-1.gsf",
                                   SURFACE "place-2.gsf"};
 
@@ -511,6 +516,153 @@ static void test_scatter_of_places(void **state)
     unlink(narrowest);
 }
 
+/* What the densities of the spectrum, each moved by ln C of `moves`, change of a number. */
+static double change_by(const wt_table *t, const double *moves,
+                        double (*number)(const wt_roughness *))
+{
+    enum { MOST = 100 };
+    double q[MOST], c[MOST], values[2];
+    const size_t n = wt_table_n_rows(t);
+    assert_true(n <= MOST);
+    for (int moved = 0; moved < 2; moved++) {
+        wt_roughness *r = NULL;
+        for (size_t i = 0; i < n; i++) {
+            q[i] = cell(t, i, "wavenumber");
+            c[i] = cell(t, i, "density") * (moved == 1 ? exp(moves[i]) : 1);
+        }
+        assert_int_equal(wt_roughness_table(q, c, n, &r, NULL), WT_OK);
+        values[moved] = number(r);
+        wt_roughness_free(r);
+    }
+    return values[1] - values[0];
+}
+
+/* Errors of rms height and slope by what the tables say of the rows: every bin by itself, the law
+ * together, and the places of each size together, or of all. */
+static void check_errors(const wt_topography_tables *tables)
+{
+    enum { MOST = 100 };
+    static const struct {
+        const char *name;
+        double (*number)(const wt_roughness *);
+    } numbers[] = {{"rms_height", wt_roughness_rms_height}, {"rms_slope", wt_roughness_rms_slope}};
+    const wt_table *const t = tables->power_spectrum, *const places = tables->place_errors;
+    const size_t n = wt_table_n_rows(t);
+    for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+        double square = 0, law[MOST] = {0};
+        for (size_t i = 0; i < n; i++) {
+            double one[MOST] = {0};
+            one[i] = cell(t, i, "modes_error");
+            law[i] = isnan(cell(t, i, "law_error")) ? 0 : cell(t, i, "law_error");
+            square += isnan(one[i]) ? 0 : pow(change_by(t, one, numbers[k].number), 2);
+        }
+        square += pow(change_by(t, law, numbers[k].number), 2);
+        for (double size = 1; places != NULL && size <= 4; size++) {
+            double of[MOST] = {0};
+            for (size_t i = 0; i < n; i++)
+                of[i] = place_error_of(places, size, (double)i + 1);
+            square += pow(change_by(t, of, numbers[k].number), 2);
+        }
+        if (places == NULL && key(t, "place_error") > 0)
+            square += pow(key(t, numbers[k].name) * key(t, "place_error") / 2, 2);
+        assert_near(error_of(t, numbers[k].name), sqrt(square), 1e-6);
+    }
+}
+
+/* One place, two that differ, more of other sizes, and beyond them by the law. */
+static void test_errors_of_numbers(void **state)
+{
+    (void)state;
+    char twice[] = "/tmp/weartrack-place-XXXXXX", narrowest[] = "/tmp/weartrack-place-XXXXXX";
+    assert_int_equal(close(mkstemp(twice)), 0);
+    assert_int_equal(close(mkstemp(narrowest)), 0);
+    write_changed(SURFACE "place-1.gsf", 2, false, twice);
+    write_changed(SURFACE "near-by.gsf", 0.02F, true, narrowest);
+    const char *const files[] = {SURFACE "place-1.gsf", twice, SURFACE "near-by.gsf", narrowest};
+    for (size_t n = 1; n <= COUNT_OF(files); n++)
+        for (int beyond = 0; beyond < 2; beyond++) {
+            making m = {.job = wt_topography_job_defaults()};
+            m.job.end = beyond == 1 ? 5e8 : (double)NAN;
+            make(&m, files, n);
+            assert_int_equal(m.status, WT_OK);
+            check_errors(&m.tables);
+            assert_true(said(&m, "shorter than 1 nm") == false);
+            clear(&m);
+        }
+    /* ends between bins and on one, and where no roughness is */
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, files, 1);
+    const double first = cell(m.tables.power_spectrum, 0, "wavenumber"),
+                 second = cell(m.tables.power_spectrum, 1, "wavenumber");
+    clear(&m);
+    m.job.end = sqrt(first * second);
+    make(&m, files, 1);
+    assert_int_equal(wt_table_n_rows(m.tables.power_spectrum), 2);
+    assert_string_equal(text_cell(m.tables.power_spectrum, 1, "source"), "cut");
+    clear(&m);
+    m.job.end = second;
+    make(&m, files, 1);
+    assert_int_equal(wt_table_n_rows(m.tables.power_spectrum), 2);
+    assert_string_equal(text_cell(m.tables.power_spectrum, 1, "source"), "measured");
+    clear(&m);
+    m.job.end = 1e10;
+    make(&m, files, 1);
+    assert_true(said(&m, "shorter than 1 nm"));
+    clear(&m);
+    unlink(twice);
+    unlink(narrowest);
+}
+
+/* What profiles are beside height maps: of one surface, of one that is as rough as three times of
+ * it, which is not taken for a scatter of places, of other waves, and where places differ. */
+static void test_profiles_beside(void **state)
+{
+    (void)state;
+    char low[] = "/tmp/weartrack-place-XXXXXX", twice[] = "/tmp/weartrack-place-XXXXXX";
+    assert_int_equal(close(mkstemp(low)), 0);
+    assert_int_equal(close(mkstemp(twice)), 0);
+    write_changed(SURFACE "place-1.gsf", 1.0F / 3, false, low);
+    write_changed(SURFACE "place-1.gsf", 2, false, twice);
+    static const char format[] = "where both tell, C by them is %lf (95 %%: %lf to %lf) of that";
+    const struct {
+        const char *maps[2];
+        double low, high; /* of the ratio */
+        bool disagree;
+    } cases[] = {{{SURFACE "place-1.gsf"}, 0.8, 1.3, false},
+                 {{SURFACE "place-1.gsf", SURFACE "place-2.gsf"}, 0.8, 1.3, false},
+                 {{low}, 7, 12, true},
+                 {{SURFACE "place-1.gsf", twice}, 0.3, 0.8, false}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        making m = {.job = wt_topography_job_defaults()};
+        const char *files[3] = {SURFACE "profile-*.gsf", cases[i].maps[0], cases[i].maps[1]};
+        double ratio[3];
+        make(&m, files, files[2] != NULL ? 3 : 2);
+        assert_int_equal(m.status, WT_OK);
+        const char *const words = wt_table_key(m.tables.power_spectrum, "profiles");
+        assert_int_equal(sscanf(words, format, &ratio[0], &ratio[1], &ratio[2]), 3);
+        assert_true(ratio[0] > cases[i].low && ratio[0] < cases[i].high);
+        assert_true(cases[i].disagree == (ratio[1] > 1 || ratio[2] < 1));
+        assert_true(cases[i].disagree == (strstr(words, "they disagree") != NULL));
+        assert_true(cases[i].disagree == said(&m, "the profiles and the height maps disagree"));
+        if (i == 3) /* two places that differ by four, of which nothing else tells */
+            assert_true(ratio[2] / ratio[1] > exp(0.9 * 12.7 * log(4)));
+        clear(&m);
+    }
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, (const char *const[]){SURFACE "near-by.gsf", SURFACE "profile-*.gsf"}, 2);
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "profiles"),
+                        "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
+                        "the height maps");
+    clear(&m);
+    make(&m, (const char *const[]){SURFACE "road.gsf", SURFACE "profile-*.gsf"}, 2);
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "profiles"),
+                        "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
+                        "the height maps");
+    clear(&m);
+    unlink(low);
+    unlink(twice);
+}
+
 /* Rows of places that are of no row of the spectrum, or of no size, are no errors. */
 static void test_bad_places(void **state)
 {
@@ -707,6 +859,8 @@ int main(void)
         cmocka_unit_test(test_places_of_sizes),
         cmocka_unit_test(test_scatter_of_places),
         cmocka_unit_test(test_bad_places),
+        cmocka_unit_test(test_errors_of_numbers),
+        cmocka_unit_test(test_profiles_beside),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),

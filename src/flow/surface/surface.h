@@ -45,8 +45,9 @@ void surface_knots_clear(surface_knots *knots);
 typedef struct surface_whole {
     wt_surface_spectrum spectrum;
     size_t n_maps, n_profiles;
-    wt_surface_spectrum maps;   /* of both, that of the height maps alone; else without bins */
-    wt_interval profiles_ratio; /* C by the profiles over that by the maps; NaN */
+    wt_surface_spectrum maps; /* of both, that of the height maps alone; else without bins */
+    double profiles_from, profiles_to; /* then, what the profiles tell [rad/m] */
+    wt_interval profiles_ratio;        /* C by them over that by the maps; NaN */
     wt_self_affine law;
     wt_surface_anisotropy directions, fourth; /* of orders 2 and 4 */
     surface_knots knots;

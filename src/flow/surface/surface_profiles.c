@@ -43,15 +43,23 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
     return NULL;
 }
 
-/* C by the profiles over that by the maps, the mean over the bins of both; NaN without any. What
- * places scatter by is of as many as there are scans of either. */
-static wt_interval find_ratio(const wt_surface_spectrum *profiles, const surface_whole *w)
+/* What places give ln C of scans of one kind; where those do not tell, what one place of the others
+ * has. That the kinds differ is what is asked, and no scatter. */
+static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
 {
-    const wt_surface_spectrum *const all = &w->spectrum;
+    if (!isnan(s->place_error))
+        return surface_place_error(s);
+    return others->place_scatter > 0
+               ? others->place_scatter * students_t_quantile(others->place_freedom) / NORMAL_95
+               : 0;
+}
+
+/* C by the profiles over that by the maps, the mean over the bins of both; NaN without any. */
+static wt_interval find_ratio(const wt_surface_spectrum *profiles, const wt_surface_spectrum *maps)
+{
     double sum = 0, weights = 0;
-    for (size_t k = 0; k < w->maps.n; k++) {
-        const wt_spectrum_bin *map = &w->maps.bins[k],
-                              *profile = reliable_bin(profiles, map->index);
+    for (size_t k = 0; k < maps->n; k++) {
+        const wt_spectrum_bin *map = &maps->bins[k], *profile = reliable_bin(profiles, map->index);
         if (profile == NULL)
             continue;
         const double weight = 1 / (log_variance(map) + log_variance(profile));
@@ -60,14 +68,8 @@ static wt_interval find_ratio(const wt_surface_spectrum *profiles, const surface
     }
     if (!(weights > 0))
         return (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    const double scatter =
-        all->place_scatter > 0
-            ? all->place_scatter * students_t_quantile(all->place_freedom) / NORMAL_95
-            : 0;
-    const double error =
-                     sqrt(1 / weights +
-                          scatter * scatter * (1 / (double)w->n_maps + 1 / (double)w->n_profiles)),
-                 ratio = exp(sum / weights);
+    const double places = hypot(places_of(maps, profiles), places_of(profiles, maps)),
+                 error = hypot(1 / sqrt(weights), places), ratio = exp(sum / weights);
     return (wt_interval){ratio, ratio * error, ratio * exp(-NORMAL_95 * error),
                          ratio * exp(NORMAL_95 * error)};
 }
@@ -100,8 +102,11 @@ wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole 
     else if (status == WT_OK)
         to->spectrum = inverted;
     to->profiles_ratio = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    if (status == WT_OK && both)
-        to->profiles_ratio = find_ratio(&inverted, to);
+    if (status == WT_OK && both) {
+        to->profiles_ratio = find_ratio(&inverted, &to->maps);
+        to->profiles_from = inverted.bins[0].wavenumber;
+        to->profiles_to = inverted.bins[inverted.n - 1].wavenumber;
+    }
     if (to->n_maps > 0)
         wt_surface_spectrum_clear(&inverted);
     free(of);
@@ -134,15 +139,14 @@ void surface_print_profiles(const surface_whole *w, char *to, size_t size)
     if (maps->n == 0 || all->n == 0)
         return;
     const wt_spectrum_bin *const first = &maps->bins[0], *const last = &maps->bins[maps->n - 1];
-    const double longer = all->bins[0].wavenumber, shorter = all->bins[all->n - 1].wavenumber;
     const wt_interval *const r = &w->profiles_ratio;
     const char *before = "they alone tell waves of ";
     if (all->bins[0].index < first->index) {
-        add_words(to, size, before, longer, first->wavenumber);
+        add_words(to, size, before, w->profiles_from, fmin(first->wavenumber, w->profiles_to));
         before = " and of ";
     }
     if (all->bins[all->n - 1].index > last->index)
-        add_words(to, size, before, last->wavenumber, shorter);
+        add_words(to, size, before, fmax(last->wavenumber, w->profiles_from), w->profiles_to);
     const size_t used = strlen(to);
     if (isnan(r->value))
         clocale_print(to + used, size - used, "%sthey share no waves with the height maps",
