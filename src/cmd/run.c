@@ -202,7 +202,7 @@ static wt_status run_case(run_call *r, bool style_given)
         status = cmd_try_output(r->result_name, &r->s.err);
     const bool kept = status == WT_OK && is_kept(r);
     if (kept)
-        cmd_tables_remarks(&r->s, r->result_name, r->s.result);
+        cmd_strict_remarks(&r->s, r->result_name, cmd_tables_remarks(r->s.result));
     else if (status == WT_OK)
         status = compute_run(r);
     if (status != WT_OK)
