@@ -356,14 +356,17 @@ WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
 /* ---- for other programs ------------------------------------------------------------------- */
 
 /* Tab-separated and comma-separated cells under one header line, name[unit]; JSON with keys,
- * columns and rows; the text stream. Where there are several blocks a column "block" is in front.
+ * columns and rows; the text stream; an SQLite database with the table under its name, units and
+ * words of its columns in the table weartrack_columns and its keys in weartrack_keys, where what is
+ * not known is NULL. Where there are several blocks a column "block" is in front.
  * In the first two an apostrophe stands before a text that a spreadsheet would take for a formula
  * (it begins with = + - @ and is no number), unless formulas are wanted. */
 typedef enum wt_export_form {
     WT_EXPORT_TSV,
     WT_EXPORT_CSV,
     WT_EXPORT_JSON,
-    WT_EXPORT_STREAM
+    WT_EXPORT_STREAM,
+    WT_EXPORT_SQLITE /* bytes */
 } wt_export_form;
 WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
                                  bool formulas, wt_error *err) WT_NODISCARD;
