@@ -25,7 +25,7 @@ static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **result
             wt_result_free(result);
             continue;
         }
-        cmd_tables_remarks(s, path, result);
+        cmd_strict_remarks(s, path, cmd_tables_remarks(result));
         results[n] = result;
         cases[n++] = (wt_collected){result, path};
     }
