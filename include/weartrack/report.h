@@ -59,6 +59,14 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
 WT_API wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
                                  wt_error *err) WT_NODISCARD;
 
+/* Force curves of all groups as a PDF of sheets of A4, twelve on each, with fit, verdict and
+ * reason; refused ones first, then doubtful ones. Of the options those that say how to draw; NULL:
+ * the defaults. WT_E_EMPTY if the result has no table "curves", WT_E_TOOL as wt_report_write.
+ * `progress` is told sheets. */
+WT_API wt_status wt_sheets_write(const wt_result *result, const char *path,
+                                 const wt_report_options *options, const wt_progress *progress,
+                                 wt_error *err) WT_NODISCARD;
+
 /* The figures this library knows, in the order of the page. */
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */

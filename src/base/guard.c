@@ -78,17 +78,26 @@ static bool is_binary(const unsigned char *block, size_t n)
     return false;
 }
 
-/* Whether the file is one of an instrument, say: neither text nor HDF5 of this program, which is
- * what outputs are. Headers of instruments are text: the middle and the end count, too. */
+/* Whether it ends as a PDF of this program does. */
+static bool is_own_pdf(FILE *file)
+{
+    char end[sizeof PDF_MARK - 1];
+    return fseeko(file, -(off_t)sizeof end, SEEK_END) == 0 &&
+           fread(end, 1, sizeof end, file) == sizeof end && memcmp(end, PDF_MARK, sizeof end) == 0;
+}
+
+/* Whether the file is one of an instrument, say: neither text nor HDF5 or PDF of this program,
+ * which is what outputs are. Headers of instruments are text: the middle and the end count, too. */
 static bool is_foreign(const char *path, off_t size)
 {
     static const char nanoscope[] = "\\*F";
     const off_t places[] = {0, size / 2, size > (off_t)STORE_START ? size - (off_t)STORE_START : 0};
     unsigned char block[STORE_START];
-    bool own = false, foreign = false;
+    bool foreign = false;
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return false; /* whether it may be written is seen when that is tried */
+    bool own = is_own_pdf(file);
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;

@@ -6,14 +6,14 @@
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
-     .unset = "required, but with --methods standard output and with --browse none",
+     .unset = "standard output with --methods, none with --browse or --sheets; else it is required",
      .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
 PARAM_LOCAL_TABLE(place_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
 
 typedef struct own_options {
     bool methods;
-    const char *browse;
+    const char *browse, *sheets;
 } own_options;
 
 static const wt_param own_rows[] = {
@@ -24,6 +24,10 @@ static const wt_param own_rows[] = {
      .flags = PARAM_WRITTEN,
      .help = "write one page to go through the force curves of the result, of weartrack indent "
              "--curves all, with their fits; choices made on it are for indent --choices"},
+    {PARAM_TEXT_OF("sheets", own_options, sheets), .value = "FILE.pdf", .unset = "",
+     .flags = PARAM_WRITTEN,
+     .help = "write the force curves of the result, of weartrack indent --curves, as a PDF to be "
+             "printed, twelve on a sheet of A4, with fit, verdict and reason, refused ones first"},
 };
 CMD_OPTIONS(own_params, own_options, own_rows)
 
@@ -94,16 +98,19 @@ static wt_status write_methods(cmd_session *s)
 
 /* ---- the page -------------------------------------------------------------------------------- */
 
-/* What was asked for: the page or folder, the page with the curves, or both. */
-static wt_status write_pages(cmd_session *s, const wt_report_options *options, const char *browse)
+/* What was asked for: the page or folder, the curves as a page, as sheets, or several of them. */
+static wt_status write_pages(cmd_session *s, const wt_report_options *options,
+                             const own_options *own)
 {
     wt_status status = WT_OK;
     const wt_progress progress = cmd_progress_start(s);
     cmd_catch_interruptions();
     if (s->common.output != NULL)
         status = wt_report_write(s->result, s->common.output, options, &progress, &s->err);
-    if (status == WT_OK && browse != NULL)
-        status = wt_browse_write(s->result, browse, s->common.provenance, &s->err);
+    if (status == WT_OK && own->browse != NULL)
+        status = wt_browse_write(s->result, own->browse, s->common.provenance, &s->err);
+    if (status == WT_OK && own->sheets != NULL)
+        status = wt_sheets_write(s->result, own->sheets, options, &progress, &s->err);
     cmd_progress_end(s);
     return status;
 }
@@ -112,7 +119,7 @@ int cmd_report(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "report",
-        .arguments = "RESULT -o PLACE|--browse FILE.html|--methods [OPTION]...",
+        .arguments = "RESULT -o PLACE|--browse FILE.html|--sheets FILE.pdf|--methods [OPTION]...",
         .what = "Writes one page that needs no other file and can be mailed, or a folder with that "
                 "page, index.html, and for each figure its data, script and picture; the figures "
                 "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
@@ -128,18 +135,20 @@ int cmd_report(int argc, char **argv)
                         {wt_report_params(), &report_options, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
-    if (s.common.output == NULL && !own.methods && own.browse == NULL) {
-        (void)cmd_usage_error(&s, "-o is required: NAME.html or a folder, or --browse FILE.html");
+    const bool curves = own.browse != NULL || own.sheets != NULL;
+    if (s.common.output == NULL && !own.methods && !curves) {
+        (void)cmd_usage_error(&s, "-o is required: NAME.html or a folder; or --browse FILE.html or "
+                                  "--sheets FILE.pdf");
         return cmd_session_free(&s);
     }
-    if (own.methods && own.browse != NULL) {
-        (void)cmd_usage_error(&s, "--methods and --browse are two calls");
+    if (own.methods && curves) {
+        (void)cmd_usage_error(&s, "--methods is a call of its own");
         return cmd_session_free(&s);
     }
     report_options.with_provenance = s.common.provenance;
     wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (made == WT_OK)
-        made = own.methods ? write_methods(&s) : write_pages(&s, &report_options, own.browse);
+        made = own.methods ? write_methods(&s) : write_pages(&s, &report_options, &own);
     if ((made == WT_E_MISSING || made == WT_E_UNIT) && s.err.file[0] == '\0')
         wt_error_file(&s.err, s.files[0]); // what a table of it lacks
     if (made != WT_OK)
@@ -150,5 +159,7 @@ int cmd_report(int argc, char **argv)
         cmd_say_page(s.common.output);
     if (made == WT_OK && !s.common.quiet && own.browse != NULL)
         cmd_say("page of curves: %s\n", own.browse);
+    if (made == WT_OK && !s.common.quiet && own.sheets != NULL)
+        cmd_say("sheets of curves: %s\n", own.sheets);
     return cmd_session_free(&s);
 }

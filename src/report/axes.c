@@ -43,7 +43,7 @@ static void write_label(figure_drawing *d, const char *axis, const char *label, 
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
     if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
-        text_add(&d->script, "set rmargin 14\n");
+        text_add(&d->script, "set rmargin 12\n");
     text_format(&d->script, "set %slabel ", axis);
     text_quoted(&d->script, text_string(&words));
     text_add(&d->script, "\n");
@@ -85,7 +85,7 @@ static double tidy_angle(double width)
 }
 
 /* Labels of tics this wide leave the margin of the styles room for that of the axis. */
-enum { WIDE = 7, BESIDE = 5 };
+enum { WIDE = 5, BESIDE = 5 };
 
 /* A margin for labels that are wider: gnuplot puts that of the axis beside them, on no paper. */
 static void write_margin(figure_drawing *d, const char *axis, double low, double high, double step)
@@ -125,6 +125,21 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
     write_margin(d, axis, low, high, step);
 }
 
+/* Numbers of many digits do not stand beside each other. */
+static bool by_power(int decade)
+{
+    return decade < -3 || decade > 4;
+}
+
+/* A tic by its mantissa and decade. */
+static void write_tic(figure_drawing *d, const char *comma, double mantissa, int decade)
+{
+    text_add(&d->script, comma);
+    if (by_power(decade))
+        text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(mantissa, 2), decade);
+    text_add(&d->script, LITERAL(mantissa * pow(10, decade)));
+}
+
 /* Little more than two decades at most: 1-2-5 tics with plain numbers. */
 static void short_log(figure_drawing *d, const char *axis, double low, double high, double width)
 {
@@ -149,10 +164,13 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
                 double tic = digits[i] * pow(10, decade);
                 if (tic < low || tic > high)
                     continue;
-                text_format(&d->script, "%s%s", comma, LITERAL(tic));
+                write_tic(d, comma, digits[i], decade);
                 comma = ", ";
             }
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
+    if (strcmp(axis, "y") == 0 &&
+        (by_power((int)floor(log10(low))) || by_power((int)floor(log10(high)))))
+        text_format(&d->script, "set lmargin %d\n", WIDE + 2 + BESIDE); /* 2·10^{-7} */
 }
 
 void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
@@ -180,9 +198,9 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
     low /= margin;
     high *= margin;
     write_range(d, axis, low, high);
-    // Seven labels at most. The first tic must be given: else
-    // gnuplot counts from the end of the axis, which is no whole decade.
-    int step = 1 + (int)(decades / 7), first = (int)ceil(log10(low));
+    // Seven labels at most, and of many decades no more than a narrow figure holds. The first tic
+    // must be given: else gnuplot counts from the end of the axis, which is no whole decade.
+    int step = 1 + (int)(decades / 6), first = (int)ceil(log10(low));
     text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
     text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);
     text_format(&d->script, "set format %s '10^{%%T}'\n", axis);

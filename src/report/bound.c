@@ -60,3 +60,14 @@ const table_view *bound_indentation(const bound_tables *tables, const char *grou
             return &tables->indentation[i];
     return NULL;
 }
+
+wt_status bound_check_curves(const bound_tables *tables, wt_error *err)
+{
+    if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
+        return WT_OK;
+    const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
+    wt_error_expected(err, "the tables indentation/... and curves");
+    wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
+                         "<indentation> of a case");
+    return status;
+}

@@ -28,17 +28,6 @@ static wt_status find_drawing(const char **script, const char **style, const cha
     return status;
 }
 
-static wt_status check_curves(const bound_tables *tables, wt_error *err)
-{
-    if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
-        return WT_OK;
-    const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
-    wt_error_expected(err, "the tables indentation/... and curves");
-    wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
-                         "<indentation> of a case");
-    return status;
-}
-
 static void add_page(const page_part *parts, size_t n, growing_text *page)
 {
     const char *p = file_of_library("browse.html");
@@ -64,20 +53,6 @@ static void add_source(const wt_result *result, bool with_provenance, growing_te
         text_html(to, "<details><summary>Command</summary><code>%s</code></details>", command);
 }
 
-static wt_status write_page(const char *path, const growing_text *page, wt_error *err)
-{
-    wt_outfile *out = NULL;
-    wt_status status = wt_outfile_open(path, &out, err);
-    if (status != WT_OK)
-        return status;
-    if (fwrite(text_string(page), 1, page->length, wt_outfile_stream(out)) == page->length)
-        return wt_outfile_commit(out, err);
-    wt_outfile_discard(out);
-    status = wt_fail(err, WT_E_IO, "cannot be written");
-    wt_error_file(err, path);
-    return status;
-}
-
 wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
                           wt_error *err)
 {
@@ -88,7 +63,7 @@ wt_status wt_browse_write(const wt_result *result, const char *path, bool with_p
     if (status == WT_OK)
         status = bound_make(result, &tables, err);
     if (status == WT_OK)
-        status = check_curves(&tables, err);
+        status = bound_check_curves(&tables, err);
     if (status == WT_OK)
         status = browse_data(&tables, &data, err);
     if (status == WT_OK) {
@@ -104,7 +79,7 @@ wt_status wt_browse_write(const wt_result *result, const char *path, bool with_p
         add_page(parts, sizeof parts / sizeof parts[0], &page);
         page.failed = page.failed || data.failed || licence.failed || source.failed;
         status =
-            page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : write_page(path, &page, err);
+            page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : file_put(path, &page, err);
     }
     text_free(&data);
     text_free(&licence);

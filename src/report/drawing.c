@@ -89,7 +89,8 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         for (size_t i = 0; i < n_columns; i++) {
             double value = view_number(table, table->schema, row, columns[i]);
             // An infinite value is no place in a picture.
-            wt_table_put(section, i, isfinite(value) ? value : (double)NAN);
+            wt_table_put(section, i,
+                         isfinite(value) ? number_to_digits(value, DATA_DIGITS) : (double)NAN);
             complete = complete && (i >= needed || isfinite(value));
         }
         any = any || complete;
@@ -104,11 +105,11 @@ int drawing_numbers(figure_drawing *d, const char *title, const char *const *col
         return NO_SECTION;
     wt_table *section = section_new(d, title);
     for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
-        d->status = wt_table_add_column(section, columns[i], units[i], columns[i], d->err);
+        d->status = wt_table_add_column(section, columns[i], units[i], "", d->err);
     for (size_t row = 0; d->status == WT_OK && row < n_rows; row++) {
         d->status = wt_table_add_row(section, d->err);
         for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
-            wt_table_put(section, i, *values++);
+            wt_table_put(section, i, number_to_digits(*values++, DATA_DIGITS));
     }
     return section_take(d, section, true);
 }

@@ -17,6 +17,8 @@ enum {
     DRAWING_GROUPS = 6,
     NO_SECTION = -1,
     FEW_COLOURS = 3,
+    DATA_DIGITS = 7, /* of the numbers of a figure: finer than any of its pictures, and in half the
+                        bytes; all digits are in the result */
     DRAWING_LABEL = 128
 };
 

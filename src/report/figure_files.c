@@ -63,11 +63,10 @@ wt_status figure_font_check(const void *member, wt_error *err)
 
 /* ---- before it is drawn ---------------------------------------------------------------------- */
 
-static wt_status write_data(const report_folder *folder, drawn_figure *figure, wt_error *err)
+wt_status figure_data(const figure_drawing *d, growing_text *to, wt_error *err)
 {
-    const figure_drawing *const d = &figure->drawing;
     wt_status status = WT_OK;
-    char name[128], *bytes = NULL;
+    char *bytes = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&bytes, &length);
     if (stream == NULL)
@@ -79,13 +78,20 @@ static wt_status write_data(const report_folder *folder, drawn_figure *figure, w
     }
     if (fclose(stream) != 0 && status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
     if (status == WT_OK)
-        status = folder_write(folder, name, bytes, length, err);
-    if (status == WT_OK)
-        text_bytes(&figure->data, bytes, length);
+        text_bytes(to, bytes, length);
     free(bytes);
     return status;
+}
+
+static wt_status write_data(const report_folder *folder, drawn_figure *figure, wt_error *err)
+{
+    char name[128];
+    const wt_status status = figure_data(&figure->drawing, &figure->data, err);
+    (void)snprintf(name, sizeof name, "plots/%s.tsv", figure->drawing.figure->name);
+    return status != WT_OK
+               ? status
+               : folder_write(folder, name, text_string(&figure->data), figure->data.length, err);
 }
 
 /* What the style and what is drawn on need to know. */

@@ -17,6 +17,8 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_
 /* Whether a name can be that of a font: it stands in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
+/* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
+wt_status figure_data(const figure_drawing *d, growing_text *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script, and keeps them. */
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
                        drawn_figure *figure, wt_error *err) WT_NODISCARD;

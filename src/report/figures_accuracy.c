@@ -19,8 +19,10 @@ static void begin_legend(figure_drawing *d, double height)
                 LITERAL(height), LITERAL(1 - height));
 }
 
-/* Of a figure, in the height of one panel of the style. */
-static const double legend_height = 0.12;
+/* Of a figure, in the height of one panel of the style: two lines of it, or four where it is as
+ * narrow as one panel. A number of the budget, with title and axis, and each of its bars. */
+static const double legend_height = 0.12, narrow_legend = 0.24, number_height = 0.31,
+                    bar_height = 0.055;
 
 /* ---- error against run time ------------------------------------------------------------------ */
 
@@ -94,8 +96,9 @@ static void draw_work_precision(figure_drawing *d)
     if (n == 0)
         return;
     d->width = across > 1 ? 0.9 * (double)across : 1.1;
-    d->height = 0.85 * (double)down + legend_height;
-    const double wide = 1 / (double)across, legend = legend_height / d->height,
+    const double strip = across > 1 ? legend_height : narrow_legend;
+    d->height = 0.85 * (double)down + strip;
+    const double wide = 1 / (double)across, legend = strip / d->height,
                  high = (1 - legend) / (double)down;
     text_add(&d->script, "unset key\nset multiplot\n");
     for (size_t i = 0; i < n; i++) {
@@ -224,13 +227,13 @@ static void draw_error_budget(figure_drawing *d)
             panels[n++] = panels[i];
     d->height = legend_height;
     for (size_t i = 0; i < n; i++)
-        d->height += 0.3 + 0.07 * (double)panels[i].n;
+        d->height += number_height + bar_height * (double)panels[i].n;
     d->width = 1.3;
     top = legend_height / d->height;
     if (n > 0)
         text_add(&d->script, "set lmargin 42\nunset key\nset border 1\nset multiplot\n");
     for (size_t i = 0; i < n; i++) {
-        const double height = (0.3 + 0.07 * (double)panels[i].n) / d->height;
+        const double height = (number_height + bar_height * (double)panels[i].n) / d->height;
         top += height;
         text_format(&d->script, "set size 1,%s\nset origin 0,%s\n", LITERAL(height),
                     LITERAL(1 - top));

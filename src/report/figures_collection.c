@@ -76,10 +76,11 @@ static void begin_grid(figure_drawing *d, const grid *g)
     const size_t columns = g->of.n < 3 ? g->of.n : g->of.n == 4 ? 2 : 3;
     const size_t lines = (g->of.n + columns - 1) / columns;
     d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
-    d->height = 0.85 * (double)lines;
-    /* room for the key above the first, and as much above the others, so that all are of one size
-     */
-    text_format(&d->script, "set tmargin 4\nset multiplot layout %zu,%zu\n", lines, columns);
+    d->height = 0.95 * (double)lines;
+    /* room for the key above the first, two names in a line, and as much above the others, so that
+     * all are of one size */
+    text_format(&d->script, "set tmargin %zu\nset multiplot layout %zu,%zu\n",
+                3 + (d->n_groups + 1) / 2, lines, columns);
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
 }

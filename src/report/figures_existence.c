@@ -58,7 +58,34 @@ static int edge_section(figure_drawing *d)
     return section;
 }
 
-/* Places coloured by a column, crosses where there is no layer, and the line between. */
+/* Half of the smallest step of a column, as a factor: what a box of the map is wide on each side.
+ */
+static double half_step(figure_drawing *d, existence_column column)
+{
+    const size_t n = d->table->n_rows;
+    double *values = malloc(n * sizeof *values), least = (double)INFINITY;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return 1;
+    }
+    for (size_t row = 0; row < n; row++)
+        values[row] = existence_get(d->table, row, column);
+    numbers_sort(values, n);
+    for (size_t i = 1; i < n; i++)
+        if (values[i - 1] > 0 && values[i] > values[i - 1] * (1 + 1e-6) &&
+            values[i] / values[i - 1] < least)
+            least = values[i] / values[i - 1];
+    free(values);
+    return isfinite(least) ? sqrt(least) : 1;
+}
+
+static void widen(value_span *span, double factor)
+{
+    span_add(span, span->low / factor, true);
+    span_add(span, span->high * factor, true);
+}
+
+/* Boxes coloured by a column, crosses where there is no layer, and the line between. */
 static void draw_map(figure_drawing *d, existence_column shown, const char *label)
 {
     const unsigned columns[] = {EXISTENCE_VELOCITY, EXISTENCE_PRESSURE, (unsigned)shown,
@@ -74,15 +101,25 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
         return;
     span_add_section(&x, d, section, 0, true);
     span_add_section(&colour, d, section, 2, false);
+    const double half_x = half_step(d, EXISTENCE_VELOCITY),
+                 half_y = half_step(d, EXISTENCE_PRESSURE);
+    if (d->status != WT_OK || span_empty(&x))
+        return;
+    widen(&x, half_x);
+    widen(&y, half_y);
     axis_log(d, "x", "Sliding velocity", &field[EXISTENCE_VELOCITY], x);
     axis_log(d, "y", "Nominal pressure", &field[EXISTENCE_PRESSURE], y);
     axis_linear(d, "cb", label, &field[shown], colour);
     d->width = with_scale;
     const int edge = edge_section(d);
-    text_add(&d->script, "set cblabel offset 1.5,0\nset border 15\nset key above\n");
+    text_format(&d->script,
+                "half_x = %s; half_y = %s  # of a box, as factors\nset cblabel offset 1.5,0\n"
+                "set border 15\nset key above\n",
+                LITERAL(half_x), LITERAL(half_y));
     plot_item(d, section,
-              "($1*x_unit):($4 > 1 ? $2*y_unit : NaN):($3*cb_unit) with points pt 7 ps 1.2 lc "
-              "palette notitle");
+              "($1*x_unit):($4 > 1 ? $2*y_unit : NaN):($1/half_x*x_unit):($1*half_x*x_unit):"
+              "($2/half_y*y_unit):($2*half_y*y_unit):($3*cb_unit) with boxxyerror fc palette "
+              "notitle");
     plot_item(d, section,
               "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
               "'no layer'");

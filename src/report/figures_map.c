@@ -112,7 +112,10 @@ void draw_modulus_map(figure_drawing *d)
         return;
     d->width = 0.95 * (double)n;
     axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
-    text_format(&d->script, "set size ratio -1\nset border 15\nset multiplot layout 1,%zu\n", n);
+    text_format(
+        &d->script,
+        "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout 1,%zu\n",
+        n);
     for (size_t i = 0; i < n; i++)
         draw_panel(d, &panels[i]);
     text_add(&d->script, "unset multiplot\n");

@@ -54,15 +54,17 @@ static void draw_spot_map(figure_drawing *d)
                  step_y = grid_pitch(d->table, SPOT_MAP_Y);
     span_add_column(&x, d->table, SPOT_MAP_X, false);
     span_add_column(&y, d->table, SPOT_MAP_Y, false);
-    d->width = 0.95 * (double)n;
+    const size_t across = n < 2 ? n : 2, down = (n + 1) / 2;
+    d->width = 0.95 * (double)across;
+    d->height = 0.9 * (double)down;
     axis_linear(d, "x", "x from the place", &spot_map_schema.columns[SPOT_MAP_X],
                 (value_span){x.low - step_x / 2, x.high + step_x / 2});
     axis_linear(d, "y", "y from the place", &spot_map_schema.columns[SPOT_MAP_Y],
                 (value_span){y.low - step_y / 2, y.high + step_y / 2});
     text_format(&d->script,
                 "half_x = %s; half_y = %s; contact = %s  # m\nset parametric\nset size ratio -1\n"
-                "set border 15\nset multiplot layout 1,%zu\n",
-                LITERAL(step_x / 2), LITERAL(step_y / 2), LITERAL(contact), n);
+                "set border 15\nset cblabel offset 1,0\nset multiplot layout %zu,%zu\n",
+                LITERAL(step_x / 2), LITERAL(step_y / 2), LITERAL(contact), down, across);
     for (size_t i = 0; i < PANELS; i++) {
         if (sections[i] < 0)
             continue;

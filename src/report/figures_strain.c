@@ -50,16 +50,16 @@ static void draw_payne(figure_drawing *d)
     char storage[16], loss[16];
     (void)snprintf(storage, sizeof storage, "%c′", letter);
     (void)snprintf(loss, sizeof loss, "%c″", letter);
-    d->height = 1.5;
+    d->height = 1.6;
     text_add(&d->script, "set multiplot layout 2,1\n");
     drawing_axes(d);
     plot_points(d, STORAGE, STORAGE_LAW, 51, storage);
     plot_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
     plot_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
-    drawing_colours(d, "points ls 51");
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     plot_points(d, LOSS, LOSS_LAW, 52, loss);
+    drawing_colours(d, "points ls 51"); /* of both, where the key has room */
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }

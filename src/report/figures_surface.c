@@ -19,14 +19,8 @@ typedef struct drawn_scan {
     const char *name;
     int section;
     value_span x, y, height;
+    double step_x, step_y; /* of a map */
 } drawn_scan;
-
-/* What of a table is drawn: the scan, the columns of the data, the height last. */
-typedef struct scan_columns {
-    unsigned scan, column[3];
-    size_t n;
-    const char *names[4];
-} scan_columns;
 
 static const char *base_name(const char *path)
 {
@@ -42,43 +36,27 @@ static const char *name_of(const figure_drawing *d, double scan)
     return known ? base_name(surfaces_text(surfaces, (size_t)scan - 1, SURFACES_FILE)) : "";
 }
 
-/* Rows [row, end) as data of the figure. */
-static drawn_scan take_scan(figure_drawing *d, const scan_columns *c, size_t row, size_t end)
-{
-    static const char *const metres[] = {"m", "m", "m"};
-    const table_view *t = d->table;
-    const double scan = view_number(t, t->schema, row, c->scan);
-    drawn_scan s = {name_of(d, scan), NO_SECTION, SPAN_EMPTY, SPAN_EMPTY, SPAN_EMPTY};
-    double *values = malloc((end - row) * c->n * sizeof *values), *to = values;
-    if (values == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return s;
-    }
-    for (size_t i = row; i < end; i++) {
-        for (size_t k = 0; k < c->n; k++)
-            *to++ = view_number(t, t->schema, i, c->column[k]);
-        span_add(&s.x, to[-(long)c->n], false);
-        span_add(&s.y, to[1 - (long)c->n], false);
-        span_add(&s.height, to[-1], false);
-    }
-    if (!span_empty(&s.height))
-        s.section = drawing_numbers(d, s.name, c->names, metres, values, end - row);
-    free(values);
-    return s;
-}
+/* Takes rows [row, end) as data of the figure. */
+typedef void take_rows(figure_drawing *d, size_t row, size_t end, drawn_scan *to);
 
-/* All scans of a table, up to the most. */
-static size_t take_scans(figure_drawing *d, const scan_columns *c, drawn_scan scans[MOST_SCANS])
+/* All scans of a table, up to the most, each row's in the column `scan`. */
+static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
+                         drawn_scan scans[MOST_SCANS])
 {
     const table_view *t = d->table;
     size_t n = 0, end = 0;
     for (size_t row = 0; row < t->n_rows && n < MOST_SCANS && d->status == WT_OK; row = end) {
-        const double scan = view_number(t, t->schema, row, c->scan);
-        while (end < t->n_rows && view_number(t, t->schema, end, c->scan) == scan)
+        const double number = view_number(t, t->schema, row, scan);
+        while (end < t->n_rows && view_number(t, t->schema, end, scan) == number)
             end++;
         if (end == row) /* no number */
             end++;
-        scans[n] = take_scan(d, c, row, end);
+        scans[n] = (drawn_scan){.name = name_of(d, number),
+                                .section = NO_SECTION,
+                                .x = SPAN_EMPTY,
+                                .y = SPAN_EMPTY,
+                                .height = SPAN_EMPTY};
+        take(d, row, end, &scans[n]);
         n += scans[n].section >= 0 ? 1 : 0;
     }
     if (end < t->n_rows && d->status == WT_OK)
@@ -110,6 +88,67 @@ static void draw_scale_bar(figure_drawing *d, double width)
                 LITERAL(bar));
 }
 
+/* Points in a row of the map that begins at `row`; 0 if the rows up to `end` are no grid. */
+static size_t width_of_map(const table_view *t, size_t row, size_t end)
+{
+    size_t nx = 1;
+    while (row + nx < end &&
+           height_map_get(t, row + nx, HEIGHT_MAP_Y) == height_map_get(t, row, HEIGHT_MAP_Y))
+        nx++;
+    for (size_t i = row; i < end; i++)
+        if (height_map_get(t, i, HEIGHT_MAP_X) !=
+                height_map_get(t, row + (i - row) % nx, HEIGHT_MAP_X) ||
+            height_map_get(t, i, HEIGHT_MAP_Y) !=
+                height_map_get(t, i - (i - row) % nx, HEIGHT_MAP_Y))
+            return 0;
+    return (end - row) % nx == 0 ? nx : 0;
+}
+
+/* Heights to a thousandth of the largest one at least: no scale of colour shows more. */
+static double for_colour(double height, double largest)
+{
+    const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
+    return rint(height / step) * step; /* whose decimals DATA_DIGITS of the data tidy */
+}
+
+/* A map as a table of its heights, a row of the table for a row of the map: a third of what three
+ * numbers for each point are. */
+static void take_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
+{
+    const table_view *t = d->table;
+    const size_t nx = width_of_map(t, row, end);
+    if (nx == 0)
+        return;
+    for (size_t i = row; i < end; i++) {
+        span_add(&to->x, height_map_get(t, i, HEIGHT_MAP_X), false);
+        span_add(&to->y, height_map_get(t, i, HEIGHT_MAP_Y), false);
+        span_add(&to->height, height_map_get(t, i, HEIGHT_MAP_HEIGHT), false);
+    }
+    enum { NAME = 24 };
+    double *heights = malloc((end - row) * sizeof *heights);
+    char(*words)[NAME] = malloc(nx * sizeof *words);
+    const char **names = calloc(nx + 1, sizeof *names), **units = calloc(nx + 1, sizeof *units);
+    if (heights == NULL || words == NULL || names == NULL || units == NULL)
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+    const double largest = fmax(fabs(to->height.low), fabs(to->height.high));
+    for (size_t i = row; i < end && d->status == WT_OK; i++)
+        heights[i - row] = for_colour(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
+    for (size_t i = 0; i < nx && d->status == WT_OK; i++) {
+        (void)snprintf(words[i], NAME, "h%zu", i + 1);
+        names[i] = words[i];
+        units[i] = "m";
+    }
+    to->step_x = (to->x.high - to->x.low) / (double)(nx > 1 ? nx - 1 : 1);
+    to->step_y =
+        (to->y.high - to->y.low) / (double)((end - row) / nx > 1 ? (end - row) / nx - 1 : 1);
+    if (d->status == WT_OK && !span_empty(&to->height))
+        to->section = drawing_numbers(d, to->name, names, units, heights, (end - row) / nx);
+    free(heights);
+    free(words);
+    free(names);
+    free(units);
+}
+
 static void draw_map(figure_drawing *d, const drawn_scan *s)
 {
     const schema_field *field = height_map_schema.columns;
@@ -121,36 +160,54 @@ static void draw_map(figure_drawing *d, const drawn_scan *s)
                 "set xrange [%s*x_unit:%s*x_unit]\nset yrange [%s*y_unit:%s*y_unit]\n"
                 "unset xtics\nunset ytics\nset xlabel ''\nset ylabel ''\n",
                 LITERAL(s->x.low), LITERAL(s->x.high), LITERAL(s->y.low), LITERAL(s->y.high));
+    text_format(&d->script, "step_x = %s; step_y = %s  # m, of the columns and rows of the data\n",
+                LITERAL(s->step_x), LITERAL(s->step_y));
     draw_scale_bar(d, s->x.high - s->x.low);
     plot_heading(d, s->name);
-    plot_item(d, s->section, "($1*x_unit):($2*y_unit):($3*cb_unit) with image notitle");
+    plot_other(d,
+               "'%s.tsv' index %d matrix using (($1*step_x+%s)*x_unit):(($2*step_y+%s)*y_unit):"
+               "($3*cb_unit) with image notitle",
+               d->figure->name, s->section, LITERAL(s->x.low), LITERAL(s->y.low));
     plot_end(d);
 }
 
 static void draw_maps(figure_drawing *d)
 {
-    static const scan_columns columns = {HEIGHT_MAP_SCAN,
-                                         {HEIGHT_MAP_X, HEIGHT_MAP_Y, HEIGHT_MAP_HEIGHT},
-                                         3,
-                                         {"x", "y", "height", NULL}};
     drawn_scan scans[MOST_SCANS];
-    const size_t n = take_scans(d, &columns, scans);
+    const size_t n = take_scans(d, HEIGHT_MAP_SCAN, take_map, scans);
     if (n == 0)
         return;
-    begin_panels(d, n, 1.1);
-    text_add(&d->script, "set size ratio -1\nunset key\n");
+    begin_panels(d, n, 1);
+    text_add(&d->script, "set size ratio -1\nset bmargin 2.2\nunset key\n");
     for (size_t i = 0; i < n; i++)
         draw_map(d, &scans[i]);
     text_add(&d->script, "unset multiplot\n");
 }
 
+static void take_profile(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
+{
+    static const char *const names[] = {"x", "height", NULL}, *const metres[] = {"m", "m"};
+    double *values = malloc((end - row) * 2 * sizeof *values), *value = values;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return;
+    }
+    for (size_t i = row; i < end; i++) {
+        *value++ = height_profile_get(d->table, i, HEIGHT_PROFILE_X);
+        *value++ = height_profile_get(d->table, i, HEIGHT_PROFILE_HEIGHT);
+        span_add(&to->x, value[-2], false);
+        span_add(&to->height, value[-1], false);
+    }
+    if (!span_empty(&to->height))
+        to->section = drawing_numbers(d, to->name, names, metres, values, end - row);
+    free(values);
+}
+
 static void draw_profiles(figure_drawing *d)
 {
-    static const scan_columns columns = {
-        HEIGHT_PROFILE_SCAN, {HEIGHT_PROFILE_X, HEIGHT_PROFILE_HEIGHT}, 2, {"x", "height", NULL}};
     const schema_field *field = height_profile_schema.columns;
     drawn_scan scans[MOST_SCANS];
-    const size_t n = take_scans(d, &columns, scans);
+    const size_t n = take_scans(d, HEIGHT_PROFILE_SCAN, take_profile, scans);
     if (n == 0)
         return;
     begin_panels(d, n, 0.75);
@@ -203,7 +260,8 @@ const figure_description figures_surface[] = {
      .nothing = "no scan has a height",
      .words =
          "Heights of the scans of a surface less their form, every so many points, each on its "
-         "own scale of length and colour; white: missing.",
+         "own scale of length and colour; white: missing. Its data are heights to a thousandth of "
+         "the largest one, a row for a row of the map.",
      .draw = draw_maps},
     {.name = "height_profile",
      .title = "Profiles of a measured surface",

@@ -1,4 +1,4 @@
-/* Files that a report reads: those of the library by name, a style or a picture by path.
+/* Files of a report: those of the library by name, others by path, read and written.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -39,6 +39,36 @@ wt_status file_read(const char *path, size_t limit, growing_text *text, wt_error
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (file != NULL)
         fclose(file);
+    return status;
+}
+
+wt_status file_write(const char *path, const char *bytes, size_t length, wt_error *err)
+{
+    FILE *file = fopen(path, "wb");
+    bool good = file != NULL && fwrite(bytes, 1, length, file) == length;
+    int code = errno;
+    if (file != NULL && fclose(file) != 0 && good) {
+        code = errno;
+        good = false;
+    }
+    if (good)
+        return WT_OK;
+    const wt_status status = wt_fail(err, WT_E_IO, "cannot be written: %s", strerror(code));
+    wt_error_file(err, path);
+    return status;
+}
+
+wt_status file_put(const char *path, const growing_text *text, wt_error *err)
+{
+    wt_outfile *out = NULL;
+    wt_status status = wt_outfile_open(path, &out, err);
+    if (status != WT_OK)
+        return status;
+    if (fwrite(text_string(text), 1, text->length, wt_outfile_stream(out)) == text->length)
+        return wt_outfile_commit(out, err);
+    wt_outfile_discard(out);
+    status = wt_fail(err, WT_E_IO, "cannot be written");
+    wt_error_file(err, path);
     return status;
 }
 

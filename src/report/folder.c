@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/temporary.h"
+#include "report/files.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>
@@ -249,21 +250,10 @@ const char *folder_plots(const report_folder *folder)
 wt_status folder_write(const report_folder *folder, const char *name, const char *bytes,
                        size_t length, wt_error *err)
 {
-    wt_status status = WT_OK;
     char *path = wt_path_join(folder->made, name);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    FILE *file = fopen(path, "wb");
-    bool good = file != NULL && fwrite(bytes, 1, length, file) == length;
-    int code = errno;
-    if (file != NULL && fclose(file) != 0 && good) {
-        code = errno;
-        good = false;
-    }
-    if (!good) {
-        errno = code;
-        status = io_error(err, "cannot be written", path);
-    }
+    const wt_status status = file_write(path, bytes, length, err);
     free(path);
     return status;
 }

@@ -47,7 +47,7 @@ wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
                               .folder = call->folder,
                               .hidden = hidden,
                               .limit = (double)INFINITY, // go_on knows
-                              .file_size = GNUPLOT_PICTURE_LIMIT,
+                              .file_size = call->size,
                               .go_on = call->go_on,
                               .user = call->user};
     program_end end;

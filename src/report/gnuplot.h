@@ -7,13 +7,14 @@
 
 #include "weartrack/base.h"
 
-/* No file that gnuplot writes gets larger. */
+/* No picture of a report gets larger. */
 #define GNUPLOT_PICTURE_LIMIT ((size_t)64 << 20)
 
 typedef struct gnuplot_call {
     const char *program;          /* a name looked up in PATH, or a path */
     const char *folder;           /* where it runs */
     const char *const *arguments; /* up to NULL */
+    size_t size;                  /* bytes that no file it writes gets beyond */
     double limit;                 /* seconds that one picture may take, for the words */
     const bool *late;             /* go_on has ended it because of that */
     bool (*go_on)(void *user);    /* asked all the while; false ends it at once */

@@ -5,6 +5,7 @@
 #include "report/numbers.h"
 
 #include "base/clocale.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -115,4 +116,12 @@ number_words number_literal(double value)
     plain_number(digits, plain ? exponent : 0, words);
     (void)snprintf(number.words, sizeof number.words, "%s%s%s", value < 0 ? "-" : "", words, power);
     return number;
+}
+
+double number_to_digits(double value, int significant)
+{
+    char text[MAX_DIGITS + 10];
+    double rounded = value;
+    const int length = clocale_print(text, sizeof text, "%.*e", significant - 1, value);
+    return isfinite(value) && number_read(text, (size_t)length, &rounded) ? rounded : value;
 }

@@ -15,8 +15,9 @@ typedef struct number_words {
 /* Rounded to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
  * as "1.2×10⁻⁷". "not known" for NaN, "∞". Trimmed, without zeros at the end of its decimals. */
 number_words number_rounded(double value, int significant, bool trimmed);
-number_words number_fixed(double value, int decimals); /* with so many decimals */
-number_words number_literal(double value);             /* as gnuplot reads it, to 10 digits */
+number_words number_fixed(double value, int decimals);  /* with so many decimals */
+number_words number_literal(double value);              /* as gnuplot reads it, to 10 digits */
+double number_to_digits(double value, int significant); /* the nearest of so many digits */
 
 #define NUMBER(value, significant) number_rounded(value, significant, false).words
 #define SHORT_NUMBER(value, significant) number_rounded(value, significant, true).words

@@ -90,6 +90,26 @@ static void add_file(page_writer *page, const char *name, const char *ending,
     text_html(&page->out, "\">%s.%s</a>", name, ending);
 }
 
+/* A page is mailed: more data of one figure than this are for the folder. */
+static const size_t data_limit = (size_t)128 << 10;
+
+static void add_source(page_writer *page, const drawn_figure *drawn)
+{
+    const char *const name = drawn->drawing.figure->name;
+    text_add(&page->out, " <span class=\"source\">");
+    if (drawn->data.length <= data_limit) {
+        text_add(&page->out, "Data and script: ");
+        add_file(page, name, "tsv", &drawn->data);
+        text_add(&page->out, ", ");
+    } else
+        text_format(&page->out,
+                    "Data: plots/%s.tsv, %zu kB, in the folder that weartrack report -o FOLDER "
+                    "writes. Script: ",
+                    name, drawn->data.length >> 10);
+    add_file(page, name, "gp", &drawn->script);
+    text_add(&page->out, ".</span>");
+}
+
 static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t number,
                             wt_error *err)
 {
@@ -104,12 +124,9 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
         return status;
     }
     text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", number);
-    text_html(&page->out, "%s.</strong> %s <span class=\"source\">Data and script: ", figure->title,
-              text_string(&drawn->drawing.caption));
-    add_file(page, figure->name, "tsv", &drawn->data);
-    text_add(&page->out, ", ");
-    add_file(page, figure->name, "gp", &drawn->script);
-    text_add(&page->out, ".</span></figcaption>\n</figure>\n");
+    text_html(&page->out, "%s.</strong> %s", figure->title, text_string(&drawn->drawing.caption));
+    add_source(page, drawn);
+    text_add(&page->out, "</figcaption>\n</figure>\n");
     return WT_OK;
 }
 

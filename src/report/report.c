@@ -159,6 +159,7 @@ static wt_status draw_pictures(report *r, wt_error *err)
         const gnuplot_call call = {.program = r->options.gnuplot,
                                    .folder = folder_plots(r->folder),
                                    .arguments = arguments,
+                                   .size = GNUPLOT_PICTURE_LIMIT,
                                    .limit = r->options.gnuplot_time,
                                    .late = &r->late,
                                    .go_on = go_on,

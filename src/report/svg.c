@@ -66,6 +66,8 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
                                              "url(#", "url('#", "url(\"#"};
+    /* What holds without being said, in each of some thousand elements. */
+    static const char unsaid[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"";
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
         return false;
@@ -81,6 +83,8 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
             s += up_to(s, left, "</title>");
         } else if (word_at(s, left, "<desc>")) {
             s += up_to(s, left, "</desc>");
+        } else if (in_tag && word_at(s, left, unsaid)) {
+            s += sizeof unsaid - 1;
         } else {
             size_t word = 0;
             in_tag =

@@ -281,7 +281,7 @@ static void leftovers(void **state)
 static void guarded(void **state)
 {
     (void)state;
-    char path[256], other[256];
+    char path[256], other[256], pdf[256];
     wt_error err = WT_ERROR_INIT;
     wt_outfile *file = NULL;
     path_of("read.txt", path);
@@ -295,6 +295,13 @@ static void guarded(void **state)
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
     assert_string_equal(err.file, path);
     assert_int_equal(wt_outfile_open(other, &file, &err), WT_E_ARG);
+    /* A file that is there now: a later one might get the number of one that was read. */
+    path_of("sheets.pdf", pdf);
+    write_file("sheets.pdf", "%PDF\1\n%%EOF\n");
+    assert_int_equal(wt_guard_write(pdf, &err), WT_E_ARG); /* of another program */
+    write_file("sheets.pdf", "%PDF\1\n%%EOF\n%weartrack sheets\n");
+    assert_int_equal(wt_guard_write(pdf, &err), WT_OK);
+    assert_int_equal(unlink(pdf), 0);
     assert_int_equal(unlink(path) + unlink(other), 0);
     for (int i = 0; i < 300; i++) /* many */
         assert_int_equal(wt_guard_read("/proc/self/exe", &err), WT_OK);

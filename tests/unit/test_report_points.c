@@ -29,6 +29,9 @@ static void end_sections(sections *s)
     free_sections(s->of, s->n);
 }
 
+/* Data of figures have seven digits. */
+static const double seven_digits = 6e-7;
+
 /* ---- against their tables -------------------------------------------------------------------- */
 
 /* Rows of a table whose text columns hold these texts; "!accepted": any other. */
@@ -67,7 +70,8 @@ static void next_is(sections *s, chosen c)
         assert_int_equal(wt_table_block(section, row), block);
         for (size_t k = 0; k < wt_table_n_columns(section); k++) {
             const double value = number_cell(table, i, wt_table_column_name(section, k));
-            assert_near(wt_table_number(section, row, k), isfinite(value) ? value : (double)NAN, 0);
+            assert_near(wt_table_number(section, row, k), isfinite(value) ? value : (double)NAN,
+                        seven_digits);
         }
         row++;
     }
@@ -232,15 +236,17 @@ static void test_refused_curves_come_first(void **state)
 {
     (void)state;
     NEED_REPORT();
-    static const char *const titles[] = {":4, poor_fit", ":0, accepted", ":1, accepted"};
+    static const char *const titles[] = {":4'", ":0'", ":1'"}, *const verdicts[] = {
+                                                                   "'poor_fit'", "'accepted, E = ",
+                                                                   "'accepted, E = "};
     char *script = read_plot("out", "curves", "gp");
     const char *at = script;
     size_t n = 0;
-    for (; (at = strstr(at, "set title ")) != NULL; at++, n++) {
-        char line[128] = "";
-        (void)snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
-        if (n < 3 && strstr(line, titles[n]) == NULL)
-            fail_msg("panel %zu: %s", n, line);
+    for (; (at = strstr(at, "set label 1 ")) != NULL; at++, n++) {
+        char lines[256] = "";
+        (void)snprintf(lines, sizeof lines, "%s", at);
+        if (n < 3 && (strstr(lines, titles[n]) == NULL || strstr(lines, verdicts[n]) == NULL))
+            fail_msg("panel %zu: %s", n, lines);
     }
     assert_int_equal(n, 12);
     free(script);
@@ -548,7 +554,10 @@ static size_t list_items(const sections *s, item items[], size_t most)
             const size_t step = every == NULL ? 1 : strtoul(every + strlen(" every "), NULL, 10);
             assert_true(section < s->n && step > 0);
             items[n].points = (wt_table_n_rows(s->of[section]) + step - 1) / step;
-            items[n].fewer = strstr(line, "NaN") != NULL;
+            if (strstr(line, " matrix ") != NULL)
+                items[n].points *= wt_table_n_columns(s->of[section]);
+            // A band that has no width in seven digits loses a point there.
+            items[n].fewer = strstr(line, "NaN") != NULL || strstr(line, "filledcurves") != NULL;
             items[n].outside =
                 strstr(line, "filledcurves") != NULL || strstr(line, "lines ls 11") != NULL;
         }

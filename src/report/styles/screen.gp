@@ -4,7 +4,8 @@
 set encoding utf8
 if (!exists("panel_width")) panel_width = 760
 if (!exists("figure_font")) figure_font = 'Helvetica'
-panel_height = 540./760*panel_width
+# Type has its size in any panel: a narrow one is not as flat. 540 of 760.
+panel_height = 0.45*panel_width + 198
 figure_type = 22
 set terminal svg size int(panel_width*figure_width+0.5),int(panel_height*figure_height+0.5) dynamic enhanced font figure_font.sprintf(',%g', figure_type) background '#ffffff'
 
@@ -12,7 +13,7 @@ set border 3 lw 1.54 lc rgb '#333333'
 set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'
 set title offset 0,-0.4
 set key tmargin left horizontal reverse Left samplen 2 width -0.5 maxcols 5
-set lmargin 12
+set lmargin 10
 set bmargin 3.6
 set rmargin 3
 set errorbars small
@@ -48,10 +49,10 @@ set style line 15 lc rgb '#111111' lw 2.24 dt (8,4)
 set style line 16 lc rgb '#ffffff' lw 7.0 dt solid pt 6 ps 1.12
 
 # 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more and 81 to 86, of groups: bands of error, see-through
-set style line 21 lc rgb '#111111' lw 3.36 dt solid pt 6 ps 0.7
+set style line 21 lc rgb '#111111' lw 3.36 dt solid pt 7 ps 0.84
 set style line 22 lc rgb '#0b4f8a' lw 3.08 dt (10,4) pt 7 ps 0.7
 set style line 23 lc rgb '#2f9bd6' lw 3.08 dt (10,4,2,4)
-set style line 24 lc rgb '#e88a0c' lw 3.36 dt (6,3) pt 8 ps 0.7
+set style line 24 lc rgb '#e88a0c' lw 3.36 dt (6,3) pt 9 ps 1.05
 set style fill solid 1 noborder
 set style line 71 lc rgb '#c0555555'
 set style line 72 lc rgb '#c00b4f8a'

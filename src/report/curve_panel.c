@@ -1,0 +1,235 @@
+/* One force curve as a panel.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/curve_panel.h"
+
+#include "base/utf8.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Characters of 8 points that stand beside each other above a third of a sheet, and lines for the
+ * 159 that a reason has at most. */
+enum { LINE_LENGTH = 48, REASON_LINES = 4 };
+
+const char curve_panel_words[] =
+    "Points: approach; black line: fit; grey line: retract; vertical line: contact point.";
+
+/* ---- list ------------------------------------------------------------------------------------ */
+
+static curve_kind kind_of(const char *verdict)
+{
+    if (strcmp(verdict, "accepted") == 0)
+        return CURVE_ACCEPTED;
+    return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
+}
+
+static bool has_numbers(const table_view *curves, curve_block b)
+{
+    for (size_t i = b.from; i < b.to; i++)
+        if (isfinite(curves_get(curves, i, CURVES_DISPLACEMENT)) &&
+            isfinite(curves_get(curves, i, CURVES_FORCE)))
+            return true;
+    return false;
+}
+
+/* By kind; those of one kind stay in their order. */
+static void sort_by_kind(listed_curve *to, const curve_list *list)
+{
+    size_t at[CURVE_KINDS] = {0};
+    for (int k = 1; k < CURVE_KINDS; k++)
+        at[k] = at[k - 1] + list->of_kind[k - 1];
+    for (size_t i = 0; i < list->n; i++)
+        to[at[list->curves[i].kind]++] = list->curves[i];
+}
+
+wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error *err)
+{
+    curve_finder finder = {.view = &tables->curves};
+    *list = (curve_list){.n = 0};
+    wt_status status = curve_finder_make(&finder, err);
+    const size_t most = finder.n > 0 ? finder.n : 1;
+    listed_curve *found = status == WT_OK ? malloc(most * sizeof *found) : NULL;
+    listed_curve *sorted = status == WT_OK ? malloc(most * sizeof *sorted) : NULL;
+    if (status == WT_OK && (found == NULL || sorted == NULL))
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    list->curves = found;
+    for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
+        const table_view *rows = &tables->indentation[i];
+        list->n_rows += rows->n_rows;
+        for (size_t row = 0; row < rows->n_rows && list->n < most; row++) {
+            const curve_block *b = curve_finder_next(&finder, rows, row);
+            if (b == NULL || !has_numbers(&tables->curves, *b))
+                continue;
+            const curve_kind kind = kind_of(indentation_text(rows, row, INDENTATION_VERDICT));
+            found[list->n++] = (listed_curve){*b, kind, rows, row};
+            list->of_kind[kind]++;
+        }
+    }
+    if (status == WT_OK) {
+        sort_by_kind(sorted, list);
+        list->curves = sorted;
+        sorted = NULL;
+        free(found);
+    }
+    free(sorted);
+    curve_finder_clear(&finder);
+    return status;
+}
+
+void curve_list_clear(curve_list *list)
+{
+    free(list->curves);
+    *list = (curve_list){.n = 0};
+}
+
+/* ---- heading --------------------------------------------------------------------------------- */
+
+/* Adds a text in lines, broken at blanks; what the last line has no room for is left out, and said
+ * by dots. Returns how many. */
+static size_t add_lines(growing_text *to, const char *text, size_t most)
+{
+    size_t n = 0;
+    while (*text != '\0' && n < most) {
+        size_t left = strlen(text), length = left;
+        if (left > LINE_LENGTH) {
+            length = utf8_cut(text, left, LINE_LENGTH);
+            const char *blank = memrchr(text, ' ', length);
+            if (blank != NULL && n + 1 < most)
+                length = (size_t)(blank - text);
+        }
+        text_add(to, n++ > 0 ? "\n" : "");
+        text_bytes(to, text, length);
+        text += length + strspn(text + length, " ");
+    }
+    text_add(to, *text != '\0' ? "..." : "");
+    return n;
+}
+
+/* The end of a long name tells files apart. */
+static void add_name(growing_text *to, const char *file, double curve)
+{
+    enum { NAME = LINE_LENGTH - 8 }; /* behind it the number */
+    const char *name = strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file;
+    const size_t length = strlen(name);
+    if (length > NAME) {
+        text_add(to, "...");
+        name += length - NAME;
+        while ((*name & 0xC0) == 0x80) /* within a character */
+            name++;
+    }
+    text_format(to, "%s:%.0f", name, curve);
+}
+
+/* Lines: curve, verdict and modulus, reason of what was not accepted. Returns how many. */
+static size_t add_words(growing_text *to, const figure_drawing *d, const listed_curve *c)
+{
+    const char *verdict = indentation_text(c->rows, c->row, INDENTATION_VERDICT),
+               *reason = indentation_text(c->rows, c->row, INDENTATION_REASON);
+    const wt_estimate modulus = {
+        .value = indentation_get(c->rows, c->row, INDENTATION_MODULUS),
+        .standard_error = indentation_get(c->rows, c->row, INDENTATION_MODULUS_STANDARD_ERROR),
+        .numerical_error = (double)NAN,
+        .unit = "Pa"};
+    size_t lines = 2;
+    add_name(to, curves_text(d->table, c->block.from, CURVES_FILE),
+             curves_get(d->table, c->block.from, CURVES_CURVE));
+    text_format(to, "\n%s", verdict);
+    if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
+        text_format(to, ", E = %s", ESTIMATE(&modulus));
+    const size_t same = strlen("doubtful: ");
+    if (strncmp(reason, "doubtful: ", same) == 0)
+        reason += same;
+    if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
+        text_add(to, "\n");
+        lines += add_lines(to, reason, REASON_LINES);
+    }
+    return lines;
+}
+
+size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
+{
+    growing_text words = {0};
+    const size_t lines = add_words(&words, d, c);
+    text_free(&words);
+    return lines;
+}
+
+/* As a label from the left end of the panel, its last line above the picture. */
+static void add_heading(figure_drawing *d, const listed_curve *c)
+{
+    growing_text words = {0}, line = {0};
+    const size_t lines = add_words(&words, d, c);
+    size_t number = 0;
+    for (const char *s = text_string(&words); number < lines; number++) {
+        const size_t length = strcspn(s, "\n");
+        text_bytes(&line, s, length);
+        text_format(&d->script, "set label %zu ", number + 1);
+        text_quoted(&d->script, text_string(&line));
+        text_format(&d->script, " at graph 0,1 offset char -6,%.1f left noenhanced\n",
+                    (double)(lines - number) + 0.1);
+        text_free(&line);
+        s += length + (s[length] == '\n');
+    }
+    text_done(&words, &d->script);
+}
+
+/* ---- panel ----------------------------------------------------------------------------------- */
+
+/* The samples of one segment of a curve, with the fit of the approach. */
+static int curve_section(figure_drawing *d, curve_block b, const char *segment)
+{
+    static const char *const columns[] = {"displacement", "force", "fitted_force", NULL};
+    static const char *const units[] = {"m", "N", "N", NULL};
+    enum { COLUMNS = 3 };
+    double *values = malloc((b.to - b.from) * COLUMNS * sizeof *values);
+    size_t n = 0;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return NO_SECTION;
+    }
+    for (size_t i = b.from; i < b.to; i++) {
+        if (strcmp(curves_text(d->table, i, CURVES_SEGMENT), segment) != 0)
+            continue;
+        values[COLUMNS * n] = curves_get(d->table, i, CURVES_DISPLACEMENT);
+        values[COLUMNS * n + 1] = curves_get(d->table, i, CURVES_FORCE);
+        values[COLUMNS * n++ + 2] = curves_get(d->table, i, CURVES_FITTED_FORCE);
+    }
+    const int section = drawing_numbers(d, segment, columns, units, values, n);
+    free(values);
+    return section;
+}
+
+/* A fit says where it is. */
+static bool has_contact(const figure_drawing *d, curve_block b)
+{
+    for (size_t i = b.from; i < b.to; i++)
+        if (isfinite(curves_get(d->table, i, CURVES_FITTED_FORCE)))
+            return true;
+    return false;
+}
+
+void curve_panel(figure_drawing *d, const listed_curve *c)
+{
+    const int approach = curve_section(d, c->block, "approach"),
+              retract = curve_section(d, c->block, "retract");
+    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
+    span_add_section(&x, d, approach, 0, false);
+    span_add_section(&x, d, retract, 0, false);
+    span_add_section(&y, d, approach, 1, false);
+    span_add_section(&y, d, retract, 1, false);
+    if (d->status != WT_OK || span_empty(&x) || span_empty(&y))
+        return;
+    axis_linear(d, "x", "Displacement", &curves_schema.columns[CURVES_DISPLACEMENT], x);
+    axis_linear(d, "y", "Force", &curves_schema.columns[CURVES_FORCE], y);
+    text_add(&d->script, "unset arrow\nunset label\n");
+    add_heading(d, c);
+    if (has_contact(d, c->block))
+        text_add(&d->script, "set arrow from 0, graph 0 to 0, graph 1 nohead ls 12 back\n");
+    plot_item(d, retract, "($1*x_unit):($2*y_unit) with lines ls 45 notitle");
+    plot_item(d, approach, "($1*x_unit):($2*y_unit) with points ls 41 pt 5 ps 0.3 notitle");
+    plot_item(d, approach, "($1*x_unit):($3*y_unit) with lines ls 11 notitle");
+    plot_end(d);
+}

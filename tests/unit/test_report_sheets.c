@@ -1,0 +1,203 @@
+/* Sheets of force curves: which stands where, what is said of it, sheets of A4, refusals.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+
+#include "report/curve_panel.h"
+#include "weartrack/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MANY = 30 };
+
+static void add_table(wt_result *result, const char *name, char *text)
+{
+    FILE *in = fmemopen(text, strlen(text), "r");
+    wt_table *table = NULL;
+    assert_int_equal(wt_stream_read(in, name, &table, NULL), WT_OK);
+    fclose(in);
+    assert_int_equal(wt_table_rename(table, name, NULL), WT_OK);
+    assert_int_equal(wt_result_add(result, table, NULL), WT_OK);
+}
+
+/* Curves 0 to n-1: every third refused, every fifth of the others doubtful; the last one has no
+ * samples. */
+static wt_result *curves_by_hand(int n)
+{
+    static const char *const segments[] = {"approach", "retract"};
+    char *rows = NULL, *samples = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&rows, &length);
+    fprintf(out, "# file[text]\tcurve[1]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
+                 "modulus_standard_error[Pa]\n");
+    for (int i = 0; i < n; i++)
+        fprintf(out, "%s/a'file with \\\\ and \xc2\xb5.txt\t%d\t%s\t%s\t%s\n", "folder", i,
+                i % 3 == 0   ? "poor_fit"
+                : i % 5 == 0 ? "doubtful"
+                             : "accepted",
+                i % 3 == 0   ? "misfit: 80 %, 50 % allowed; another tip, a layer, loss, adhesion, "
+                               "piezo or detector"
+                : i % 5 == 0 ? "doubtful: baseline departs"
+                             : "accepted",
+                i % 3 == 0 ? "nan\tnan" : "2e6\t1e5");
+    fclose(out);
+    out = open_memstream(&samples, &length);
+    fprintf(out, "# group[text]\tfile[text]\tcurve[1]\tsegment[text]\tdisplacement[m]\tforce[N]\t"
+                 "indentation[m]\tfitted_force[N]\tresidual[N]\n");
+    for (int i = 0; i + 1 < n; i++) {
+        fputs(i > 0 ? "\n" : "", out);
+        for (int k = 0; k < 40; k++)
+            fprintf(out,
+                    "bulk\tfolder/a'file with \\\\ and \xc2\xb5.txt\t%d\t%s\t%de-9\t%de-10\t"
+                    "%de-9\t%s\tnan\n",
+                    i, segments[k / 20], k % 20 - 10, k % 20, k % 20 - 10,
+                    k < 20 && i % 3 != 0 ? "1e-9" : "nan");
+    }
+    fclose(out);
+    wt_result *result = wt_result_new();
+    add_table(result, "indentation/bulk", rows);
+    add_table(result, "curves", samples);
+    free(rows);
+    free(samples);
+    return result;
+}
+
+static void test_order(void **state)
+{
+    (void)state;
+    wt_result *result = curves_by_hand(MANY);
+    bound_tables tables;
+    curve_list list;
+    assert_int_equal(bound_make(result, &tables, NULL), WT_OK);
+    assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
+    assert_int_equal(list.n_rows, MANY);
+    assert_int_equal(list.n, MANY - 1);
+    assert_int_equal(list.of_kind[CURVE_REFUSED], 10);
+    assert_int_equal(list.of_kind[CURVE_DOUBTFUL], 4); /* 5, 10, 20, 25 */
+    static const double first[] = {0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 5, 10, 20, 25, 1, 2, 4};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        if (curves_get(&tables.curves, list.curves[i].block.from, CURVES_CURVE) != first[i])
+            fail_msg("curve %g is not at place %zu", first[i], i);
+    curve_list_clear(&list);
+    bound_clear(&tables);
+    wt_result_free(result);
+}
+
+static char *script_of(const bound_tables *tables, const listed_curve *curve)
+{
+    const figure_description described = {.name = "x", .table = &curves_schema};
+    figure_drawing d = {.figure = &described, .tables = tables, .table = &tables->curves};
+    curve_panel(&d, curve);
+    assert_int_equal(d.status, WT_OK);
+    char *script = strdup(text_string(&d.script));
+    drawing_clear(&d);
+    return script;
+}
+
+static void test_words(void **state)
+{
+    (void)state;
+    wt_result *result = curves_by_hand(MANY);
+    bound_tables tables;
+    curve_list list;
+    assert_int_equal(bound_make(result, &tables, NULL), WT_OK);
+    assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
+    char *refused = script_of(&tables, &list.curves[1]);
+    assert_non_null(strstr(refused, "set label 1 \"a'file with \\\\ and \xc2\xb5.txt:3\""));
+    assert_non_null(strstr(refused, "set label 2 'poor_fit'"));
+    /* in lines, whole */
+    assert_non_null(strstr(refused, "set label 3 'misfit: 80 %, 50 % allowed; another tip, a'"));
+    assert_non_null(strstr(refused, "set label 4 'layer, loss, adhesion, piezo or detector'"));
+    assert_null(strstr(refused, "set arrow from")); /* no fit, no contact */
+    char *doubtful = script_of(&tables, &list.curves[10]);
+    assert_non_null(strstr(doubtful, "'doubtful, E = 2.00 \xc2\xb1 0.10 MPa'"));
+    assert_non_null(strstr(doubtful, "set label 3 'baseline departs'"));
+    assert_non_null(strstr(doubtful, "set arrow from"));
+    char *accepted = script_of(&tables, &list.curves[14]);
+    assert_non_null(strstr(accepted, "'accepted, E = 2.00"));
+    assert_null(strstr(accepted, "set label 3"));
+    free(refused);
+    free(doubtful);
+    free(accepted);
+    curve_list_clear(&list);
+    bound_clear(&tables);
+    wt_result_free(result);
+}
+
+static char *bytes_of(const char *path, size_t *length)
+{
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    char *bytes = malloc(1 << 22);
+    *length = fread(bytes, 1, 1 << 22, in);
+    fclose(in);
+    return bytes;
+}
+
+static void test_sheets(void **state)
+{
+    (void)state;
+    if (system("gnuplot --version >/dev/null 2>&1") != 0)
+        skip();
+    wt_result *result = curves_by_hand(MANY);
+    wt_error err = WT_ERROR_INIT;
+    for (int again = 0; again < 2; again++) /* its own file it may replace */
+        if (wt_sheets_write(result, "sheets.pdf", NULL, NULL, &err) != WT_OK)
+            fail_msg("%s", err.message);
+    size_t length = 0, pages = 0;
+    char *pdf = bytes_of("sheets.pdf", &length);
+    static const char page[] = "/Type /Page ", box[] = "/MediaBox [ 0 0 ";
+    const char *end = pdf + length;
+    for (const char *s = pdf; (s = memmem(s, (size_t)(end - s), page, sizeof page - 1)) != NULL;
+         s++)
+        pages++;
+    assert_int_equal(pages, 3); /* 29 curves, twelve on a sheet */
+    const char *size = memmem(pdf, length, box, sizeof box - 1);
+    assert_non_null(size);
+    char *next = NULL;
+    assert_true(fabs(strtod(size + sizeof box - 1, &next) - 595) < 1.5);
+    assert_true(fabs(strtod(next, NULL) - 842) < 1.5);
+    assert_non_null(memmem(pdf, length, "/Font", 5)); /* text is text */
+    free(pdf);
+    assert_int_equal(unlink("sheets.pdf"), 0);
+    wt_result_free(result);
+}
+
+static bool stop(void *user, const char *what, size_t done, size_t total)
+{
+    (void)user, (void)done;
+    assert_string_equal(what, "sheets");
+    assert_int_equal(total, 3);
+    return false;
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    wt_result *none = wt_result_new(), *one = curves_by_hand(1), *result = curves_by_hand(MANY);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_sheets_write(none, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
+    assert_non_null(strstr(err.advice, "--curves all"));
+    assert_int_equal(wt_sheets_write(one, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
+    const wt_progress progress = {stop, NULL};
+    assert_int_equal(wt_sheets_write(result, "none.pdf", NULL, &progress, &err), WT_E_CANCELLED);
+    wt_report_options options = wt_report_defaults();
+    options.gnuplot = "no-such-gnuplot";
+    assert_int_equal(wt_sheets_write(result, "none.pdf", &options, NULL, &err), WT_E_TOOL);
+    options = wt_report_defaults();
+    assert_int_equal(wt_sheets_write(result, "no-folder/x.pdf", &options, NULL, &err), WT_E_IO);
+    assert_int_not_equal(access("none.pdf", F_OK), 0);
+    wt_result_free(none);
+    wt_result_free(one);
+    wt_result_free(result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_words),
+                                       cmocka_unit_test(test_sheets),
+                                       cmocka_unit_test(test_refusals)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
