@@ -163,7 +163,7 @@ const figure_description figures_collection[] = {
      .curves = {CURVE(COLLECTED_MODULUS_MODULUS, OWN, .with_errors = true)},
      .nothing = "no case has moduli at known indentation rates",
      .words = "Geometric mean of the modulus at each indentation rate, a panel for each sample "
-              "(bars: 95 % intervals).",
+              "(bars: 95 % intervals, with what is stated of levers and tips).",
      .draw = draw_moduli},
     {.name = "collected_friction",
      .title = "Friction of all samples against velocity",

@@ -4,6 +4,7 @@
 #include "flow/comparison/margin.h"
 
 #include "base/array.h"
+#include "base/normal.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -134,6 +135,38 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
     return table_end(&w, table);
 }
 
+/* Relative standard error of what all curves of a group share (lever, tip and their like), by the
+ * budget of its modulus: 0 where nothing is stated, NaN where what is stated has an unknown effect.
+ * Between groups of one case it cancels, between cases it does not. */
+static double shared_error(const finding_tables *tables, const char *group)
+{
+    const table_view *budget = &tables->budget;
+    double variance = 0;
+    for (size_t row = 0; row < budget->n_rows; row++) {
+        const char *kind = modulus_budget_text(budget, row, MODULUS_BUDGET_KIND);
+        const double error = modulus_budget_get(budget, row, MODULUS_BUDGET_RELATIVE_ERROR);
+        if (strcmp(modulus_budget_text(budget, row, MODULUS_BUDGET_GROUP), group) != 0)
+            continue;
+        if (strcmp(kind, "together") == 0 && isnan(error))
+            return (double)NAN;
+        if (strcmp(kind, "shared") == 0 && !isnan(error))
+            variance += error * error;
+    }
+    return sqrt(variance);
+}
+
+/* The interval of a rate, which has the scatter of the spots, with what they share. */
+static wt_interval modulus_at(const collected_case *c, const char *group, size_t row)
+{
+    const table_view *rates = &c->tables.rates;
+    const double shared = NORMAL_95 * shared_error(&c->tables, group),
+                 value = modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
+                 down = log(value / modulus_rate_get(rates, row, MODULUS_RATE_LOW)),
+                 up = log(modulus_rate_get(rates, row, MODULUS_RATE_HIGH) / value);
+    return (wt_interval){value, (double)NAN, value * exp(-hypot(down, shared)),
+                         value * exp(hypot(up, shared))};
+}
+
 /* Rows of a rate, or one for all of a case that has none. */
 static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
 {
@@ -151,10 +184,7 @@ static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **t
             before = group;
             TABLE_ADD(collected_modulus, &w, c->sample, c->condition,
                       bulk ? "bulk" : text_or(c->condition, "track"),
-                      modulus_rate_get(rates, row, MODULUS_RATE_RATE),
-                      (wt_interval){modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
-                                    (double)NAN, modulus_rate_get(rates, row, MODULUS_RATE_LOW),
-                                    modulus_rate_get(rates, row, MODULUS_RATE_HIGH)});
+                      modulus_rate_get(rates, row, MODULUS_RATE_RATE), modulus_at(c, group, row));
             n_rows++;
         }
     }
