@@ -47,6 +47,12 @@ typedef enum quantity {
     Q_CRITICAL_ENERGY, /* of a layer */
     Q_FRICTION_RATIO,  /* measured over predicted */
     Q_NEEDED_SHEAR,    /* stress that a record asks for */
+    Q_CHANGE,          /* of the friction by a layer */
+    Q_RATIO_PAIR,      /* modulus ratio of a case over that of another */
+    /* "Yes" and "no" as intervals that hold the truth if they are right; "cannot say" states none */
+    Q_SAID_DIFFERS,
+    Q_SAID_PAIR,
+    Q_SAID_RECORD,
     Q_COUNT
 } quantity;
 
