@@ -123,11 +123,11 @@ static int read_friction(const study_truth *truth, const stream *found, trial *t
     return n == COMPOUNDS * SEVERITIES * STUDY_VELOCITIES ? 0 : -1;
 }
 
-static int place_of(const char *const *names, int n, const stream *found, const char *column,
-                    int row)
+static int place_of(const char *const *names, int n, const stream *found, const char *table,
+                    const char *column, int row)
 {
     for (int i = 0; i < n; i++)
-        if (stream_is(found, place_pair.table, column, row, names[i]))
+        if (stream_is(found, table, column, row, names[i]))
             return i;
     return -1;
 }
@@ -137,11 +137,13 @@ static int read_pairs(const collection_scene *s, const stream *found, trial *t)
 {
     const int n = stream_rows(found, place_pair.table);
     for (int row = 0; row < n; row++) {
-        const int c = place_of(study_compound, COMPOUNDS, found, PLACE_PAIR_OF, row),
-                  k = place_of(study_severity, SEVERITIES, found, PLACE_PAIR_OF, row);
+        const int c = place_of(study_compound, COMPOUNDS, found, place_pair.table, PLACE_PAIR_OF,
+                               row),
+                  k = place_of(study_severity, SEVERITIES, found, place_pair.table, PLACE_PAIR_OF,
+                               row);
         const char *const *names = c >= 0 ? study_severity : study_compound;
-        const int first = place_of(names, 2, found, PLACE_PAIR_FIRST, row),
-                  second = place_of(names, 2, found, PLACE_PAIR_SECOND, row);
+        const int first = place_of(names, 2, found, place_pair.table, PLACE_PAIR_FIRST, row),
+                  second = place_of(names, 2, found, place_pair.table, PLACE_PAIR_SECOND, row);
         if ((c < 0 && k < 0) || first < 0 || second < 0)
             return -1;
         const double ratio = c >= 0 ? s->cases[c][first].ratio / s->cases[c][second].ratio
@@ -150,6 +152,49 @@ static int read_pairs(const collection_scene *s, const stream *found, trial *t)
         take_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
     }
     return n == 2 * COMPOUNDS ? 0 : -1;
+}
+
+/* Where the values behind a constant are one, "differs" is wrong. Two severities wear so
+ * differently that "one" would be. */
+static void take_shared(trial *t, quantity q, double truth, const stream *found, int row)
+{
+    const char *table = place_shared.table;
+    const bool is_one = stream_is(found, table, PLACE_SUFFICES, row, PLACE_ONE) != 0,
+               differs = stream_is(found, table, PLACE_SUFFICES, row, PLACE_SHARED_DIFFERS) != 0,
+               right = !(isnan(truth) ? is_one : differs);
+    const double said = is_one || differs ? 0 : (double)NAN;
+    if (!isnan(truth))
+        trial_add(t, q, truth, place_row(found, &place_shared, row));
+    trial_add(t, Q_SAID_SHARED, right ? 0 : 1, (estimate){0, said, said});
+    if (!right)
+        t->draw->verdict = NO;
+}
+
+/* By least squares over three rates a decade apart. The second compound has the spectrum of the
+ * first, so that it is one of all. */
+static double rate_factor(const study_prepared *p)
+{
+    const double *e = p->compound[0].modulus;
+    return sqrt(e[STUDY_RATES - 1] / e[0]);
+}
+
+static int read_shared(const study_prepared *p, const study_truth *truth, const stream *found,
+                       trial *t)
+{
+    const char *table = place_shared.table;
+    const int n = stream_rows(found, table);
+    for (int row = 0; row < n; row++) {
+        const int k = place_of(study_severity, SEVERITIES, found, table, PLACE_PAIR_OF, row);
+        if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_WEAR))
+            take_shared(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found, row);
+        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_SHEAR))
+            take_shared(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
+        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_RATE_FACTOR))
+            take_shared(t, Q_SHARED_RATE, rate_factor(p), found, row);
+        else
+            return -1;
+    }
+    return n > 0 ? 0 : -1;
 }
 
 static void read_collected(const collection_scene *s, const study_prepared *p,
@@ -164,6 +209,8 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
         trial_broke(t, "other frictions than were collected");
     else if (read_pairs(s, found, t) != 0)
         trial_broke(t, "other pairs of cases than there are");
+    else if (read_shared(p, truth, found, t) != 0)
+        trial_broke(t, "other constants than the cases have in common");
     stream_free(found);
 }
 

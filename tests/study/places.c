@@ -72,6 +72,7 @@ const place place_collected_modulus = {"collected_modulus", "modulus", NULL, "mo
                                        "modulus_high"};
 const place place_collected_friction = {"collected_friction", "friction", "friction_standard_error",
                                         NULL, NULL};
+const place place_shared = {"shared_constants", "value", NULL, "value_low", "value_high"};
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
 
 static const double normal95 = 1.959963984540054;
