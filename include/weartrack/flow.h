@@ -416,7 +416,8 @@ WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n,
 
 /* ---- results of cases side by side ----------------------------------------------------------- */
 
-/* A result of wt_run; its sample and condition are those of the case, or `file` and "". */
+/* A result of wt_run, whose sample and condition are those of the case, or `file` and ""; or one of
+ * wt_indent_group, whose groups stand beside the cases. */
 typedef struct wt_collected {
     const wt_result *result;
     const char *file;
@@ -424,17 +425,19 @@ typedef struct wt_collected {
 
 typedef struct wt_collect_job {
     double margin; /* relative difference of modulus ratios that does not matter; default 0.2 */
+    double constant_margin; /* the same of constants that cases have in common; default 0.5 */
 } wt_collect_job;
 WT_API wt_collect_job wt_collect_job_defaults(void);
 WT_API const wt_params *wt_collect_job_params(void);
 
 /* The tables of these names; NULL: no case has anything for it, or there is no pair. */
 typedef struct wt_collection_tables {
-    wt_table *collection, *collected_modulus, *collected_friction, *ratio_pairs;
+    wt_table *collection, *collected_modulus, *collected_friction, *collected_force, *ratio_pairs,
+        *shared_constants, *shared_members;
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
-/* Modulus ratios of pairs are compared as if they knew nothing of each other. WT_E_EMPTY without a
- * case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
+/* Modulus ratios of pairs are compared as if they knew nothing of each other; of constants in common
+ * the errors that come from the same files are one. WT_E_EMPTY without a case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
 WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
                             wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 

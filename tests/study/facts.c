@@ -42,4 +42,13 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_CRITICAL_ENERGY] = {"critical_energy", true},
     [Q_FRICTION_RATIO] = {"friction_ratio", true},
     [Q_NEEDED_SHEAR] = {"needed_shear", true},
+    [Q_CHANGE] = {"friction_change", false},
+    [Q_RATIO_PAIR] = {"ratio_pair", true},
+    [Q_SHARED_WEAR] = {"shared_wear_rate", true},
+    [Q_SHARED_SHEAR] = {"shared_shear", true},
+    [Q_SHARED_RATE] = {"shared_rate_factor", true},
+    [Q_SAID_DIFFERS] = {"said_differs", false},
+    [Q_SAID_PAIR] = {"said_pair", false},
+    [Q_SAID_RECORD] = {"said_record", false},
+    [Q_SAID_SHARED] = {"said_shared", false},
 };
