@@ -356,14 +356,17 @@ WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
 /* ---- for other programs ------------------------------------------------------------------- */
 
 /* Tab-separated and comma-separated cells under one header line, name[unit]; JSON with keys,
- * columns and rows; the text stream. Where there are several blocks a column "block" is in front.
+ * columns and rows; the text stream; an SQLite database with the table under its name, units and
+ * words of its columns in the table weartrack_columns and its keys in weartrack_keys, where what is
+ * not known is NULL. Where there are several blocks a column "block" is in front.
  * In the first two an apostrophe stands before a text that a spreadsheet would take for a formula
  * (it begins with = + - @ and is no number), unless formulas are wanted. */
 typedef enum wt_export_form {
     WT_EXPORT_TSV,
     WT_EXPORT_CSV,
     WT_EXPORT_JSON,
-    WT_EXPORT_STREAM
+    WT_EXPORT_STREAM,
+    WT_EXPORT_SQLITE /* bytes */
 } wt_export_form;
 WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
                                  bool formulas, wt_error *err) WT_NODISCARD;
@@ -396,7 +399,11 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* `name` is used in errors. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
-/* The same of the tables alone that wt_result_headlines takes. */
+/* The tables alone that wt_result_headlines takes, from behind the end of the HDF5 file, without
+ * HDF5 and without a process; WT_E_NOT_FOUND: it is no such file, or has none. */
+WT_API wt_status wt_store_read_abstract(const char *path, wt_result **result,
+                                        wt_error *err) WT_NODISCARD;
+/* The same tables by HDF5. */
 WT_API wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
                                          wt_result **result, wt_error *err) WT_NODISCARD;
 

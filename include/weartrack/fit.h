@@ -778,8 +778,11 @@ typedef struct wt_surface_spectrum {
      * mean of these squared over the bins; NaN: not known. */
     double place_scatter, place_error;
     double place_freedom; /* of it */
-    size_t n_places;      /* scans; 0: of one, or not kept */
-    double *place_weight; /* [n_places] for each bin: the part of a scan in its ln C */
+    /* Scans that have the same part in every bin, as those of one size have, are off in all bins
+     * together, and not with others: how many such sizes there are (0: not kept), the widest
+     * first, and [n_sizes] for each bin the standard error of ln C by one, over place_scatter. */
+    size_t n_sizes;
+    double *place_part;
 } wt_surface_spectrum;
 WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
 

@@ -12,6 +12,7 @@
 #include "weartrack/fit.h"
 #include "weartrack/kernel.h"
 #include "weartrack/read.h"
+#include "weartrack/report.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -254,9 +255,11 @@ typedef struct wt_topography_job {
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);
 typedef struct wt_topography_tables {
-    wt_table *power_spectrum, *angular_spectrum, *surfaces; /* angular_spectrum: NULL of profiles */
-    wt_table *scan_spectra, *height_map, *height_profile;   /* NULL unless asked for; height_map
-                                                               NULL of profiles, too */
+    wt_table *power_spectrum, *surfaces;
+    wt_table *place_errors;                               /* NULL of scans of one size */
+    wt_table *angular_spectrum;                           /* NULL of profiles */
+    wt_table *scan_spectra, *height_map, *height_profile; /* NULL unless asked for; height_map
+                                                             NULL of profiles, too */
 } wt_topography_tables;
 WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* The power spectrum of a surface: scans of several sizes are stitched, several places averaged,
@@ -413,7 +416,8 @@ WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n,
 
 /* ---- results of cases side by side ----------------------------------------------------------- */
 
-/* A result of wt_run; its sample and condition are those of the case, or `file` and "". */
+/* A result of wt_run, whose sample and condition are those of the case, or `file` and ""; or one of
+ * wt_indent_group, whose groups stand beside the cases. */
 typedef struct wt_collected {
     const wt_result *result;
     const char *file;
@@ -421,17 +425,19 @@ typedef struct wt_collected {
 
 typedef struct wt_collect_job {
     double margin; /* relative difference of modulus ratios that does not matter; default 0.2 */
+    double constant_margin; /* the same of constants that cases have in common; default 0.5 */
 } wt_collect_job;
 WT_API wt_collect_job wt_collect_job_defaults(void);
 WT_API const wt_params *wt_collect_job_params(void);
 
 /* The tables of these names; NULL: no case has anything for it, or there is no pair. */
 typedef struct wt_collection_tables {
-    wt_table *collection, *collected_modulus, *collected_friction, *ratio_pairs;
+    wt_table *collection, *collected_modulus, *collected_friction, *collected_force, *ratio_pairs,
+        *shared_constants, *shared_members;
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
-/* Modulus ratios of pairs are compared as if they knew nothing of each other. WT_E_EMPTY without a
- * case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
+/* Modulus ratios of pairs are compared as if they knew nothing of each other; of constants in common
+ * the errors that come from the same files are one. WT_E_EMPTY without a case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
 WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
                             wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 
@@ -735,9 +741,10 @@ typedef struct wt_surface {
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
-    /* [2 * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of each
-     * point has by the places of the widest scans, and by those of all others, which are drawn for
-     * themselves. NULL: all have all of it together. */
+    /* [n_sizes * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of
+     * the points has by the places of the widest scans, then of the next, each of which is drawn
+     * for itself. NULL: all have all of it together. */
+    size_t n_sizes;
     double *place_parts;
     double reliable_to; /* of a measured one: beyond it goes on by its law [rad/m]; 0: not known */
     double steep;       /* where its rms slope reaches 1.3 [rad/m]; 0: not known, or nowhere */
@@ -1096,7 +1103,9 @@ WT_API wt_status wt_case_validate(wt_case *c, const char *const *records, size_t
                                   wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
-WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */
+/* How it has the report drawn: style, figures, width and font are those it asks for, or the
+ * defaults. Borrowed. */
+WT_API const wt_report_options *wt_case_report(const wt_case *c);
 
 /* ---- plan and run ---------------------------------------------------------------------------- */
 

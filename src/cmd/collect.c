@@ -14,10 +14,13 @@ static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **result
         wt_status read = wt_tables_read(
             path, path, &s->work, (wt_tables_role){"result", "result", "what weartrack run wrote"},
             &result, &s->err);
-        if (read == WT_OK && wt_result_find(result, "answer") == NULL) {
-            read = wt_fail(&s->err, WT_E_NOT_FOUND, "this is no result of a case");
+        if (read == WT_OK && wt_result_find(result, "answer") == NULL &&
+            wt_result_find(result, "force_indentation") == NULL) {
+            read = wt_fail(&s->err, WT_E_NOT_FOUND,
+                           "this is no result of a case, and has no force curve");
             wt_error_file(&s->err, path);
-            wt_error_advice(&s->err, "give what weartrack run wrote");
+            wt_error_advice(&s->err, "give what weartrack run wrote, or weartrack indent with "
+                                     "--curves median");
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);
@@ -25,7 +28,7 @@ static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **result
             wt_result_free(result);
             continue;
         }
-        cmd_tables_remarks(s, path, result);
+        cmd_strict_remarks(s, path, cmd_tables_remarks(result));
         results[n] = result;
         cases[n++] = (wt_collected){result, path};
     }
@@ -40,10 +43,14 @@ int cmd_collect(int argc, char **argv)
         .what = "Sets the results of cases side by side by their <sample> and <condition>: modulus "
                 "of bulk and track against the indentation rate, friction against velocity, and "
                 "whether the track of one condition or sample is more different from its bulk than "
-                "that of another, corrected for the number of pairs.",
+                "that of another, corrected for the number of pairs; and constants that they may "
+                "have in common: wear rate, shear stress, rate dependence. RESULT may be an output "
+                "of weartrack indent, too, such as that of a particle of the filler, whose curve "
+                "stands beside.",
         .common = "output files-from provenance",
-        .notes = "The tables collection, collected_modulus, collected_friction and ratio_pairs "
-                 "follow one another; weartrack report draws them.",
+        .notes = "The tables collection, collected_modulus, collected_friction, collected_force, "
+                 "ratio_pairs, shared_constants and shared_members follow one another; weartrack "
+                 "report draws them.",
         .n_files = CMD_SOME,
         .files = "no result given"};
     wt_collect_job job = wt_collect_job_defaults();
@@ -62,8 +69,10 @@ int cmd_collect(int argc, char **argv)
         cmd_end(&s, WT_OK);
     } else if (made == WT_OK)
         made = wt_collect(cases, n, &job, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.collection, &tables.collected_modulus,
-                                      &tables.collected_friction, &tables.ratio_pairs};
+    wt_table **const made_tables[] = {&tables.collection,         &tables.collected_modulus,
+                                      &tables.collected_friction, &tables.collected_force,
+                                      &tables.ratio_pairs,        &tables.shared_constants,
+                                      &tables.shared_members};
     if (n > 0 || made != WT_OK)
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     for (size_t i = 0; i < n; i++)

@@ -2,6 +2,7 @@
 #include "cmd/export.h"
 
 #include <string.h>
+#include <unistd.h>
 
 static export_options no_options(void)
 {
@@ -9,8 +10,9 @@ static export_options no_options(void)
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("as", export_options, form, "tsv|csv|json|stream"),
-     .help = "how it is written; without this a name after -o that ends in .csv or .json says so"},
+    {PARAM_CHOICE_OF("as", export_options, form, "tsv|csv|json|stream|sqlite"),
+     .help = "how it is written; without this a name after -o that ends in .csv, .json, .sqlite or "
+             ".db says so"},
     {PARAM_FLAG_OF("formulas", export_options, formulas),
      .help = "leave a text of tsv and csv that begins with = + - or @ as it is; without this an "
              "apostrophe before it keeps a spreadsheet from taking it for a formula"},
@@ -23,17 +25,31 @@ static wt_export_form form_of(const char *output, const cmd_part *part)
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
     if (cmd_given(part, "as") || dot == NULL)
         return options->form;
-    return strcmp(dot, ".csv") == 0    ? WT_EXPORT_CSV
-           : strcmp(dot, ".json") == 0 ? WT_EXPORT_JSON
-                                       : options->form;
+    static const struct {
+        const char *ending;
+        wt_export_form form;
+    } known[] = {{".csv", WT_EXPORT_CSV},
+                 {".json", WT_EXPORT_JSON},
+                 {".sqlite", WT_EXPORT_SQLITE},
+                 {".db", WT_EXPORT_SQLITE}};
+    for (size_t i = 0; i < COUNT_OF(known); i++)
+        if (strcmp(dot, known[i].ending) == 0)
+            return known[i].form;
+    return options->form;
 }
 
 wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table)
 {
     cmd_sink sink;
+    const wt_export_form form = form_of(s->common.output, part);
+    if (form == WT_EXPORT_SQLITE && s->common.output == NULL && isatty(STDOUT_FILENO)) {
+        (void)wt_fail(&s->err, WT_E_ARG, "a terminal cannot show a database");
+        wt_error_advice(&s->err, "give it a name: -o NAME.sqlite");
+        return WT_E_ARG;
+    }
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
     if (status == WT_OK)
-        status = wt_table_export(sink.stream, table, form_of(s->common.output, part),
+        status = wt_table_export(sink.stream, table, form,
                                  ((const export_options *)part->structure)->formulas, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
 }

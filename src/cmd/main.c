@@ -38,7 +38,7 @@ const cmd_command cmd_commands[] = {
     {"validate", cmd_validate, "whether a case explains friction as measured"},
     {"accuracy", cmd_accuracy, "error against run time, of the methods or of a case"},
     {"report", cmd_report, "plots and one page from a result file"},
-    {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},
+    {"table", cmd_table, "a table of a result as TSV, CSV, JSON or SQLite"},
     {"collect", cmd_collect, "cases of several samples and conditions side by side"},
     {"summary", cmd_summary, "one row for each of many results"},
     {NULL, NULL, NULL}};

@@ -12,7 +12,8 @@ int cmd_psd(int argc, char **argv)
                 "a self-affine law and the roughness numbers of every scan. Scans of several sizes "
                 "are stitched, several places averaged. Folders and patterns are allowed.",
         .common = "output formats files-from provenance cost",
-        .notes = "The tables power_spectrum, angular_spectrum (of height maps), surfaces, "
+        .notes = "The tables power_spectrum, place_errors (of scans of several sizes), "
+                 "angular_spectrum (of height maps), surfaces, "
                  "scan_spectra (with --scans), height_map (of height maps) and height_profile "
                  "(both with --heights) follow one another.",
         .n_files = CMD_SOME};
@@ -22,9 +23,9 @@ int cmd_psd(int argc, char **argv)
                         {wt_read_params(), &set.read, "units pixel-size height-unit format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_topography_tables made = {0};
-    wt_table **const tables[] = {&made.power_spectrum, &made.angular_spectrum,
-                                 &made.surfaces,       &made.scan_spectra,
-                                 &made.height_map,     &made.height_profile};
+    wt_table **const tables[] = {&made.power_spectrum, &made.place_errors, &made.angular_spectrum,
+                                 &made.surfaces,       &made.scan_spectra, &made.height_map,
+                                 &made.height_profile};
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))

@@ -154,7 +154,7 @@ int cmd_report(int argc, char **argv)
     if (made != WT_OK)
         cmd_fail(&s);
     else
-        cmd_tables_remarks(&s, s.files[0], s.result);
+        cmd_strict_remarks(&s, s.files[0], cmd_tables_remarks(s.result));
     if (made == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
         cmd_say_page(s.common.output);
     if (made == WT_OK && !s.common.quiet && own.browse != NULL)

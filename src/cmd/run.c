@@ -185,7 +185,21 @@ static wt_status draw_page(run_call *r)
     return status;
 }
 
-static wt_status run_case(run_call *r, bool style_given)
+/* What is given in the call replaces what the case asks for. */
+static void take_case_report(run_call *r, const cmd_part *given)
+{
+    const wt_report_options *const asked = wt_case_report(r->the_case);
+    if (!cmd_given(given, "style"))
+        r->report.style = asked->style;
+    if (!cmd_given(given, "figures"))
+        r->report.figures = asked->figures;
+    if (!cmd_given(given, "width"))
+        r->report.width = asked->width;
+    if (!cmd_given(given, "font"))
+        r->report.font = asked->font;
+}
+
+static wt_status run_case(run_call *r, const cmd_part *report_given)
 {
     wt_status status = wt_case_read(r->s.files[0], &r->the_case, &r->s.err);
     if (status == WT_OK)
@@ -194,15 +208,15 @@ static wt_status run_case(run_call *r, bool style_given)
         print_plan(r->plan);
         return WT_OK;
     }
-    if (status == WT_OK && !style_given)
-        r->report.style = wt_case_style(r->the_case);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        take_case_report(r, report_given);
         status = prepare_run(r);
+    }
     if (status == WT_OK)
         status = cmd_try_output(r->result_name, &r->s.err);
     const bool kept = status == WT_OK && is_kept(r);
     if (kept)
-        cmd_tables_remarks(&r->s, r->result_name, r->s.result);
+        cmd_strict_remarks(&r->s, r->result_name, cmd_tables_remarks(r->s.result));
     else if (status == WT_OK)
         status = compute_run(r);
     if (status != WT_OK)
@@ -243,7 +257,8 @@ int cmd_run(int argc, char **argv)
                 "standard output, the result to an HDF5 file and the figures to a report folder "
                 "with one page.",
         .common = "formats columns provenance",
-        .notes = "--style replaces that of the case.\nExit status 3 if a file or a stage of the "
+        .notes = "--style, --figures, --width and --font replace those of the case.\nExit status 3 "
+                 "if a file or a stage of the "
                  "case failed and the rest is answered, 1 if nothing is.",
         .n_files = 1,
         .files = "one case file is needed"};
@@ -253,11 +268,10 @@ int cmd_run(int argc, char **argv)
                   .report = wt_report_defaults()};
     cmd_part parts[] = {{output_params(), &r.s.common, NULL, 0},
                         {own_params(), &r.own, NULL, 0},
-                        {wt_report_params(), &r.report, "style", 0},
+                        {wt_report_params(), &r.report, "style figures width font", 0},
                         {wt_run_params(), &r.run, NULL, 0}};
     if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_output(&r) &&
-        (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) &&
-        run_case(&r, cmd_given(&parts[2], "style")) != WT_OK)
+        (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) && run_case(&r, &parts[2]) != WT_OK)
         cmd_fail(&r.s);
     free(r.result_name);
     free(r.folder_name);

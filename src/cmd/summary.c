@@ -2,31 +2,81 @@
 #include "cmd/export.h"
 #include "cmd/tables.h"
 
-/* The headlines of the files that can be read, which are then the first of the files. */
-static size_t read_all(cmd_session *s, wt_table **headlines)
+/* What becomes of one file. */
+typedef struct one_result {
+    wt_table *headlines; /* or */
+    wt_error *failure;   /* NULL: there was no memory even for that */
+    size_t n_remarks;
+} one_result;
+
+typedef struct reading {
+    const char *const *files;
+    one_result *results;
+} reading;
+
+/* Never fails: a file that cannot be read is one row less. */
+static wt_status read_one(void *user, size_t i, unsigned worker)
+{
+    const reading *const r = user;
+    one_result *const one = &r->results[i];
+    wt_error err = WT_ERROR_INIT;
+    wt_result *result = NULL;
+    (void)worker;
+    wt_status read = wt_tables_read_headlines(r->files[i], &result, &err);
+    if (read == WT_OK)
+        read = wt_result_headlines(result, &one->headlines, &err);
+    if (read == WT_OK) {
+        one->n_remarks = cmd_tables_remarks(result);
+    } else if ((one->failure = malloc(sizeof err)) != NULL) {
+        wt_error_file(&err, r->files[i]);
+        *one->failure = err;
+    }
+    wt_result_free(result);
+    return WT_OK;
+}
+
+/* Says what became of the files, in their order. Those that were read are then the first of them,
+ * with their headlines. */
+static size_t keep_read(cmd_session *s, one_result *results, wt_table **headlines)
 {
     size_t n_read = 0;
-    const wt_progress progress = cmd_progress_start(s);
     for (size_t i = 0; i < s->n_files; i++) {
-        const char *path = s->files[i];
-        (void)progress.report(progress.user, "result", i + 1, s->n_files);
-        wt_result *result = NULL;
-        wt_status read = wt_tables_read_headlines(path, &result, &s->err);
-        if (read == WT_OK)
-            read = wt_result_headlines(result, &headlines[n_read], &s->err);
-        if (read == WT_OK) {
-            s->files[n_read++] = path;
-            cmd_tables_remarks(s, path, result);
-        } else {
-            wt_error_file(&s->err, path);
-            cmd_fail_one(s);
+        const char *const path = s->files[i];
+        one_result *const one = &results[i];
+        if (one->headlines != NULL) {
+            s->files[n_read] = path;
+            headlines[n_read++] = one->headlines;
+            cmd_strict_remarks(s, path, one->n_remarks);
+            continue;
         }
-        wt_result_free(result);
+        if (one->failure != NULL) {
+            s->err = *one->failure;
+        } else {
+            (void)wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+            wt_error_file(&s->err, path);
+        }
+        cmd_fail_one(s);
+        free(one->failure);
     }
-    cmd_progress_end(s);
     if (n_read == 0)
         s->status = CMD_FAILED;
     return n_read;
+}
+
+/* The headlines of the files that can be read, which are then the first of the files. */
+static wt_status read_all(cmd_session *s, wt_table **headlines, size_t *n_read)
+{
+    one_result *const results = calloc(s->n_files, sizeof *results);
+    if (results == NULL)
+        return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+    reading all = {s->files, results};
+    const wt_progress progress = cmd_progress_start(s);
+    const wt_status status =
+        wt_parallel_for(s->n_files, s->work.threads, read_one, &all, &progress, "result");
+    cmd_progress_end(s);
+    *n_read = keep_read(s, results, headlines);
+    free(results);
+    return status == WT_OK ? WT_OK : wt_fail(&s->err, status, "%s", wt_status_text(status));
 }
 
 int cmd_summary(int argc, char **argv)
@@ -42,18 +92,20 @@ int cmd_summary(int argc, char **argv)
         .n_files = CMD_SOME,
         .files = "no result given"};
     export_options form = {.form = WT_EXPORT_TSV};
-    cmd_part part = {export_params(), &form, NULL, 0};
     cmd_session s = cmd_session_defaults();
+    cmd_part parts[] = {{export_params(), &form, NULL, 0},
+                        {wt_job_params(), &s.work, "threads", 0}};
     wt_table *summary = NULL;
-    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_is_text(&s))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_is_text(&s))
         return cmd_session_free(&s);
+    size_t n_read = 0;
     wt_table **headlines = calloc(s.n_files, sizeof *headlines);
-    const size_t n_read = headlines != NULL ? read_all(&s, headlines) : 0;
-    wt_status made = headlines != NULL ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
-    if (n_read > 0)
+    wt_status made = headlines != NULL ? read_all(&s, headlines, &n_read)
+                                       : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    if (n_read > 0 && made == WT_OK)
         made = wt_summary(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
     if (n_read > 0 && made == WT_OK)
-        made = export_table(&s, &part, summary);
+        made = export_table(&s, &parts[0], summary);
     if (made != WT_OK)
         cmd_fail(&s);
     for (size_t i = 0; i < n_read; i++)

@@ -80,7 +80,7 @@ int cmd_table(int argc, char **argv)
     if (read == WT_OK)
         read = export_table(&s, &parts[1], made != NULL ? made : table);
     if (read == WT_OK)
-        cmd_tables_remarks(&s, s.files[0], s.result);
+        cmd_strict_remarks(&s, s.files[0], cmd_tables_remarks(s.result));
     else
         cmd_fail(&s);
     wt_table_free(made);

@@ -16,17 +16,21 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL, NULL}, tables, err);
 }
 
-void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
+size_t cmd_tables_remarks(const wt_result *tables)
 {
     const wt_table *notes = wt_result_find(tables, "notes");
     const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
     size_t n = 0;
-    if (severity < 0 || !s->common.strict ||
-        wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
-        return;
+    if (severity < 0 || wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
+        return 0;
     for (size_t row = 0; row < wt_table_n_rows(notes); row++)
         n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
-    if (n == 0)
+    return n;
+}
+
+void cmd_strict_remarks(cmd_session *s, const char *path, size_t n)
+{
+    if (n == 0 || !s->common.strict)
         return;
     cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", s->name, path, n,
             n == 1 ? "" : "s");

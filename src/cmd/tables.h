@@ -6,8 +6,10 @@
 #include "cmd/cmd.h"
 
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
-/* With --strict the call has failed, and says so, where the result that was read holds remarks. */
-void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables);
+/* How many remarks a result holds. */
+size_t cmd_tables_remarks(const wt_result *tables);
+/* With --strict the call has failed, and says so, where the result that was read holds any. */
+void cmd_strict_remarks(cmd_session *s, const char *path, size_t n);
 /* Whether one of them has a name that begins so. */
 bool cmd_tables_have(const wt_result *tables, const char *prefix);
 /* The first of the tables of a file whose name begins with `prefix`; WT_E_NOT_FOUND says which

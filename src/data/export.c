@@ -1,6 +1,7 @@
-/* A table for other programs: rows under one header line, or JSON. A missing number is an empty
- * cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A table for other programs: rows under one header line, JSON, or a database. A missing number is
+ * an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
+#include "data/export_sqlite.h"
 #include "weartrack/data.h"
 
 #include <errno.h>
@@ -172,6 +173,8 @@ wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
 {
     if (form == WT_EXPORT_STREAM)
         return wt_stream_write(out, table, NULL, err);
+    if (form == WT_EXPORT_SQLITE)
+        return export_sqlite(out, table, has_blocks(table), err);
     if (form == WT_EXPORT_JSON)
         put_json(out, table);
     else

@@ -2,8 +2,16 @@
 #include "data/store.h"
 #include "data/tables/tables.h"
 
+#include <endian.h>
 #include <math.h>
 #include <string.h>
+
+void store_tail_write(FILE *out, const store_tail *tail)
+{
+    const uint64_t words[] = {htole64(tail->has_origin), htole64(tail->n_tables),
+                              htole64(tail->case_length), htole64(tail->origin_length)};
+    (void)fwrite(words, sizeof words, 1, out);
+}
 
 wt_status wt_provenance_table(const wt_provenance *provenance, const char *name, wt_table **table,
                               wt_error *err)

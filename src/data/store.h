@@ -31,13 +31,18 @@ enum { STORE_FORMAT = 3, STORE_FORMAT_MAP };
  * flipped bit would otherwise be a wrong number. */
 enum { STORE_DIGEST_SIZE = 65 };
 typedef struct store_tail {
-    uint8_t has_origin; /* the inputs, and of which version by which command */
+    uint64_t has_origin; /* the inputs, and of which version by which command */
     uint64_t n_tables, case_length, origin_length;
 } store_tail;
+void store_tail_write(FILE *out, const store_tail *tail); /* 8 bytes each, the low one first */
 wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hdf5_reading */
 /* The same of the tables that headlines are made of. */
 wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
 bool store_has_headlines(const char *table);
+bool store_has_headline_rows(const char *table); /* and not of its keys alone */
+/* Puts the tables that headlines are made of behind the end of a result file that HDF5 has closed
+ * (store_abstract.c). */
+wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err) WT_NODISCARD;
 /* The samples of a map, data/map.h: blocks of all channels. A hdf5_reading, too. */
 wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err);
 /* As wt_store_read_memory, also from a descriptor; by store_pass or store_pass_headlines. */

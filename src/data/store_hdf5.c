@@ -477,7 +477,7 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
         if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
             pass_digest(r, w.digests[i]);
     if (good)
-        (void)fwrite(&tail, sizeof tail, 1, r->out);
+        store_tail_write(r->out, &tail);
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
     free(w.version);

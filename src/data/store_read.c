@@ -5,6 +5,7 @@
 
 #include "base/provenance.h"
 
+#include <endian.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -50,7 +51,12 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
     if (length < sizeof *t)
         return false;
     length -= sizeof *t;
-    memcpy(t, bytes + length, sizeof *t);
+    uint64_t words[sizeof *t / sizeof(uint64_t)];
+    memcpy(words, bytes + length, sizeof words);
+    *t = (store_tail){.has_origin = le64toh(words[0]) != 0,
+                      .n_tables = le64toh(words[1]),
+                      .case_length = le64toh(words[2]),
+                      .origin_length = le64toh(words[3])};
     const size_t n = t->n_tables + t->has_origin + (t->case_length > 0);
     const size_t digests = n * STORE_DIGEST_SIZE;
     if (t->n_tables > RESULT_TABLES_MAX || digests > length ||
@@ -85,6 +91,8 @@ static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *
     }
     if (status == WT_E_ARG)
         status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
+    if (status == WT_OK && at != p->case_file)
+        status = corrupt(err, "", "the content is more than it says");
     if (status == WT_OK && p->tail.case_length > 0)
         status = check_digest(p->case_file, p->origin, digest, STORE_CASE_DATASET, err);
     return status;

@@ -371,6 +371,8 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
         hdf5_leave(&scope);
         status = good ? WT_OK : store_failed(w, err);
     }
+    if (status == WT_OK)
+        status = store_abstract_write(wt_outfile_stream(w->out), result, err);
     if (status == WT_OK) {
         status = wt_outfile_commit(w->out, err);
         w->out = NULL;

@@ -166,6 +166,12 @@ bool store_has_headlines(const char *table)
     return findings_are_of(table);
 }
 
+bool store_has_headline_rows(const char *table)
+{
+    return findings_are_of(table) || strcmp(table, notes_schema.name) == 0 ||
+           strcmp(table, failures_schema.name) == 0;
+}
+
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
     finding_tables found;
@@ -215,7 +221,9 @@ static wt_status merge_headlines(columns *list, const table_view *headlines, wt_
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
         const char *name = keys_text(headlines, row, KEYS_KEY);
-        size_t i = 0;
+        size_t i = place; /* most results have the same ones in the same order */
+        if (i >= list->n || strcmp(list->column[i].name, name) != 0)
+            i = 0;
         while (i < list->n && strcmp(list->column[i].name, name) != 0)
             i++;
         if (i == list->n) {
@@ -261,12 +269,15 @@ static wt_status add_row(wt_table *table, const columns *list, const char *file,
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
         status = wt_table_put_text(table, 0, file, err);
-    for (size_t i = 0, place = 1; status == WT_OK && i < list->n; i++) {
+    for (size_t i = 0, place = 1, next = 0; status == WT_OK && i < list->n; i++) {
         const column *c = &list->column[i];
-        size_t row = 0;
+        size_t row = next; /* likewise */
+        if (row >= headlines->n_rows || strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
+            row = 0;
         while (row < headlines->n_rows && strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
             row++;
         const bool found = row < headlines->n_rows;
+        next = found ? row + 1 : next;
         if (found && c->unit[0] == '\0')
             status = wt_table_put_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
         else if (found)

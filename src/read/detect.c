@@ -47,6 +47,7 @@ static const signature signatures[] = {
     NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
     NOT_READ(HDF5_SIGNATURE, "an HDF5 file of another program", AS_TEXT),
     SIGNATURE("%PDF", "a PDF document", NO_DATA),
+    SIGNATURE("SQLite format 3", "an SQLite database", AS_TEXT),
     SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),

@@ -1,5 +1,6 @@
 /* Figures of cases side by side: a panel for each sample with the moduli of its bulk and tracks
- * against the rate, a panel for each condition with the friction of the samples.
+ * against the rate, and with their force curves; a panel for each condition with the friction of
+ * the samples; a panel for each constant that cases may have in common.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -45,13 +46,14 @@ static const char *condition_of(const table_view *table, size_t row)
     return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
 }
 
-/* What is the same in both figures: panels beside one another with one scale. */
+/* What is the same in all figures: panels beside one another with one scale. */
 typedef struct grid {
     panels of;
     unsigned panel, group; /* columns of the table */
     unsigned data[4];
     size_t n_data;
-    bool joined; /* points with their intervals, joined */
+    bool joined;   /* points with their intervals, joined */
+    bool signed_x; /* a linear axis */
     int section[PANELS][DRAWING_GROUPS];
 } grid;
 
@@ -64,7 +66,7 @@ static bool find_sections(figure_drawing *d, grid *g)
             const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, false};
             g->section[i][k] =
                 drawing_section(d, d->table, d->groups[k], &rows, g->data, g->n_data, 2);
-            span_add_section(&d->x, d, g->section[i][k], 0, true);
+            span_add_section(&d->x, d, g->section[i][k], 0, !g->signed_x);
             for (size_t c = 1; c < g->n_data; c++)
                 span_add_section(&d->y[0], d, g->section[i][k], c, g->joined);
         }
@@ -146,6 +148,107 @@ static void draw_friction(figure_drawing *d)
     draw_grid(d, &g);
 }
 
+static const char *sample_of_force(const table_view *table, size_t row)
+{
+    return collected_force_text(table, row, COLLECTED_FORCE_SAMPLE);
+}
+
+static void draw_force(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, sample_of_force),
+              .panel = COLLECTED_FORCE_SAMPLE,
+              .group = COLLECTED_FORCE_PLACE,
+              .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
+              .n_data = 2,
+              .signed_x = true};
+    draw_grid(d, &g);
+}
+
+/* ---- constants in common --------------------------------------------------------------------- */
+
+/* A constant of one name: the rows of a panel. */
+typedef struct constant_panel {
+    const char *constant, *of;
+    int section;
+} constant_panel;
+
+static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bool *too_many)
+{
+    static const unsigned data[] = {SHARED_MEMBERS_NUMBER, SHARED_MEMBERS_RATIO,
+                                    SHARED_MEMBERS_RATIO_LOW, SHARED_MEMBERS_RATIO_HIGH};
+    size_t n = 0;
+    *too_many = false;
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        const char *constant = shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT),
+                   *of = shared_members_text(d->table, row, SHARED_MEMBERS_OF);
+        bool seen = false;
+        for (size_t i = 0; i < n && !seen; i++)
+            seen = strcmp(shown[i].constant, constant) == 0 && strcmp(shown[i].of, of) == 0;
+        *too_many = *too_many || (!seen && n == PANELS);
+        if (seen || n == PANELS)
+            continue;
+        const row_filter rows = {
+            {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, false};
+        shown[n] = (constant_panel){constant, of,
+                                    drawing_section(d, d->table, constant, &rows, data, 4, 2)};
+        for (size_t c = 1; c < 4; c++)
+            span_add_section(&d->y[0], d, shown[n].section, c, true);
+        n++;
+    }
+    return n;
+}
+
+static void name_members(figure_drawing *d, const constant_panel *panel)
+{
+    const char *before = "";
+    text_add(&d->script, "set xtics (");
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        if (strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT), panel->constant) !=
+                0 ||
+            strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), panel->of) != 0)
+            continue;
+        text_add(&d->script, before);
+        text_tic(&d->script, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER));
+        text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
+        before = ", ";
+    }
+    text_add(&d->script, ") noenhanced rotate by -40 scale 0\n");
+}
+
+static void draw_constants(figure_drawing *d)
+{
+    constant_panel shown[PANELS];
+    bool too_many;
+    d->y[0] = SPAN_EMPTY;
+    const size_t n = find_constants(d, shown, &too_many);
+    if (d->status != WT_OK || span_empty(&d->y[0]))
+        return;
+    const size_t columns = n < 3 ? n : n == 4 ? 2 : 3, lines = (n + columns - 1) / columns;
+    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
+    d->height = (double)lines;
+    text_format(&d->script,
+                "set bmargin 7\nset rmargin 6\nset multiplot layout %zu,%zu\n"
+                "unset key\n",
+                lines, columns);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    for (size_t i = 0; i < n; i++) {
+        growing_text heading = {0};
+        text_format(&heading, "%s%s%s", shown[i].constant, shown[i].of[0] != '\0' ? ", " : "",
+                    shown[i].of);
+        plot_heading(d, text_string(&heading));
+        text_free(&heading);
+        text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_rows(d, shown[i].section));
+        name_members(d, &shown[i]);
+        plot_other(d, "y_unit with lines ls 12");
+        plot_item(d, shown[i].section,
+                  "1:($2*y_unit):($3*y_unit):($4*y_unit) with yerrorbars ls 1");
+        plot_end(d);
+    }
+    text_add(&d->script, "unset multiplot\n");
+    if (too_many)
+        text_format(&d->caption, " The first %d only.", PANELS);
+}
+
 static void caption_friction(figure_drawing *d)
 {
     const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
@@ -164,7 +267,7 @@ const figure_description figures_collection[] = {
      .curves = {CURVE(COLLECTED_MODULUS_MODULUS, OWN, .with_errors = true)},
      .nothing = "no case has moduli at known indentation rates",
      .words = "Geometric mean of the modulus at each indentation rate, a panel for each sample "
-              "(bars: 95 % intervals).",
+              "(bars: 95 % intervals, with what is stated of levers and tips).",
      .draw = draw_moduli},
     {.name = "collected_friction",
      .title = "Friction of all samples against velocity",
@@ -179,5 +282,28 @@ const figure_description figures_collection[] = {
               "condition.",
      .draw = draw_friction,
      .caption = caption_friction},
+    {.name = "collected_force",
+     .title = "Force against indentation, of bulk, wear tracks and what stands beside",
+     .table = &collected_force_schema,
+     .by_group = true,
+     .group = COLLECTED_FORCE_PLACE,
+     .x = {COLLECTED_FORCE_INDENTATION, AXIS_LINEAR, "Indentation"},
+     .y = {{COLLECTED_FORCE_FORCE, AXIS_LINEAR, "Force"}},
+     .curves = {CURVE(COLLECTED_FORCE_FORCE, OWN)},
+     .nothing = "no case has a force curve",
+     .words = "Loading part of the curve with the median modulus of each group, counted from its "
+              "contact point, a panel for each sample.",
+     .draw = draw_force},
+    {.name = "shared_constants",
+     .title = "Constants that cases may have in common",
+     .table = &shared_members_schema,
+     .x = {SHARED_MEMBERS_NUMBER, AXIS_NUMBER, "Case"},
+     .y = {{SHARED_MEMBERS_RATIO, AXIS_LOG, "Over the shared value"}},
+     .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
+     .nothing = "no two cases tell a constant",
+     .words = "Value of each case over the one that they share, a panel for each constant and what "
+              "it may be common to (bars: intervals that hold together in 95 %). Whether one value "
+              "suffices is in the table.",
+     .draw = draw_constants},
     {.name = NULL},
 };

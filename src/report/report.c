@@ -29,15 +29,15 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("style", wt_report_options, style), .value = "STYLE",
      .help = "plot style: paper, screen or a file of yours, a script that gnuplot runs"},
     {PARAM_OTHER_OF("figures", wt_report_options, figures, figure_formats_read), .value = "FORMATS",
-     .flags = PARAM_NO_CASE, .unset = "",
+     .unset = "",
      .help = "pictures for a paper in the folder, too, some of svg,pdf,png, parted by commas; "
              "bitmaps have 600 dots in an inch"},
     /* narrower no key fits, wider is a poster */
     {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
-     .flags = PARAM_NO_CASE, .unset = "as the style has it",
+     .unset = "as the style has it",
      .help = "width of a figure in the paper, such as 85mm, with type of 8 points (style screen: "
              "12); with panels beside each other 170 mm at least"},
-    {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME", .flags = PARAM_NO_CASE,
+    {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
      .help = "font of the figures, such as Arial"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",

@@ -86,6 +86,7 @@ set(shown data/tables)
 set(third_party
   "^udunits2" base
   "^seccomp\\.h" base
+  "^sqlite3\\.h" data
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
   "^zlib\\.h" data+read+report

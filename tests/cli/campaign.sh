@@ -53,6 +53,43 @@ options='--replicates 11 --no-provenance'
 campaign || fail "the fifth campaign fails"
 [ "$(runs)" = 3 ] || fail "with other options old results stay"
 
+# Force curves file by file, of folders in a folder; what is no curve stops no other file.
+mkdir -p maps/a maps/b
+cp cases/bulk-1.jpk-force-map cases/bulk-2.jpk-force-map maps/a
+cp cases/bulk-3.jpk-force-map maps/b/bulk-2.jpk-force-map
+indent='--tip pyramid:half-angle=20deg,radius=20nm --no-provenance'
+by_file() { # OPTIONS
+  snakemake --snakefile "$snakefile" --cores 2 --config files=maps results=by-file \
+    weartrack="$weartrack" indent="$indent" "$@" >said 2>&1
+}
+indents() { grep -c '^rule indent:' said || true; }
+by_file || fail "curves file by file fail"
+[ "$(indents)" = 3 ] || fail "not three files"
+[ "$(wc -l <by-file/files.tsv)" = 4 ] || fail "not three rows: $(cat by-file/files.tsv)"
+"$weartrack" indent -q $indent maps/b/bulk-2.jpk-force-map -o by-hand.h5
+cmp by-hand.h5 by-file/files/b/bulk-2.jpk-force-map.h5 || fail "another result than by hand"
+mv maps/b kept
+by_file || fail "a part of the files fails"
+[ "$(indents)" = 0 ] || fail "a file is called otherwise without others"
+mv kept maps/b
+by_file || fail "curves file by file fail again"
+[ "$(indents)" = 0 ] || fail "a file was indented again though nothing has changed"
+cp cases/track-1.jpk-force-map maps/b/new.jpk-force-map
+echo "no curves" >maps/notes.txt
+by_file --keep-going && fail "a text is taken for curves"
+[ "$(indents)" = 2 ] || fail "not the new files alone"
+rm maps/notes.txt
+by_file form=sqlite || fail "no database"
+[ "$(indents)" = 0 ] || fail "files were indented again for another form of the table"
+[ "$(head -c 15 by-file/files.sqlite)" = "SQLite format 3" ] || fail "not a database"
+[ ! -e by-file/summary.tsv ] || fail "the cases were run, too"
+indent='--tip pyramid:half-angle=21deg,radius=20nm --no-provenance'
+by_file || fail "curves of another tip fail"
+[ "$(indents)" = 4 ] || fail "with another tip old results stay"
+indent=
+by_file && fail "no tip is asked for"
+grep -q 'files need their tip' said || fail "that a tip is needed is not said"
+
 # Killed when the first job is done.
 rm -rf results
 setsid snakemake --snakefile "$snakefile" --cores 1 --config cases=cases weartrack="$weartrack" \

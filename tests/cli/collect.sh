@@ -56,6 +56,26 @@ printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,sev
 "$program" report study.h5 -o page >/dev/null 2>&1
 test -s page/plots/collected_modulus.tsv
 ! test -e page/plots/collected_friction.tsv
+# one rubber behind all: its dependence on the rate is one, which no other margin says
+constants() { "$program" table "$1" shared_constants | awk -F '\t' 'NR > 1 { print $1, $2, $3, $NF }'; }
+printf 'sample HC one\nsample HS one\nall cases  one\n' | sed 's/^/modulus over a decade of rate /' >expected
+constants study.h5 | diff expected -
+"$program" collect -q HC-mild.h5 HC-severe.h5 HS-mild.h5 HS-severe.h5 --constant-margin 1e-6 -o narrow.h5
+constants narrow.h5 | grep -q 'all cases  cannot say'
+"$program" table --keys narrow.h5 shared_constants | grep -q 'settled_by.*errors smaller by a factor'
+# what was indented beside stands with every sample, and is no case
+"$program" indent -q --curves median --tip pyramid:half-angle=20deg,radius=20nm --group silica \
+  HC-mild/bulk-1.jpk-force-map -o silica.h5
+"$program" collect -q HC-mild.h5 HS-mild.h5 silica.h5 -o beside.h5
+"$program" table beside.h5 collected_force | sed 1d | cut -f 2,3,4 | sort -u >places.tsv
+printf 'HC\t\tsilica\nHC\tmild\tbulk\nHC\tmild\tmild\nHS\t\tsilica\nHS\tmild\tbulk\nHS\tmild\tmild\n' |
+  diff - places.tsv
+"$program" report beside.h5 -o beside >/dev/null 2>&1
+grep -q "title 'silica'" beside/plots/collected_force.gp
+status=0
+"$program" collect silica.h5 -o none.h5 2>words || status=$?
+test $status -eq 1 -a ! -e none.h5
+grep -q 'there is no case' words
 # of files that are none the others stand; two of a kind are named
 status=0
 "$program" collect HC-mild.h5 pairs.tsv HS-mild.h5 -o two.h5 2>words || status=$?

@@ -10,6 +10,7 @@
 #include "writers/nanoscope_writer.h"
 #include "writers/nid_writer.h"
 #include "writers/park_writer.h"
+#include "writers/surf_writer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -256,6 +257,25 @@ static int make_gwy(const char *folder)
     return fclose(out);
 }
 
+/* Compressed, in one piece and in three. */
+static int make_surf(const char *folder)
+{
+    static const int heights[12] = {-3, 7, 1, 0, 100000, -1, 5, 5, 5, 5, 5, 5};
+    int bad = 0;
+    for (size_t pieces = 1; pieces <= 3 && bad == 0; pieces += 2) {
+        char path[512], name[16];
+        unsigned char bytes[1024];
+        const size_t n = surf_write(bytes, heights, 12, pieces);
+        snprintf(name, sizeof name, "seed%zu.sur", pieces / 2);
+        path_of(path, sizeof path, folder, name);
+        FILE *out = fopen(path, "wb");
+        bad = out == NULL || fwrite(bytes, 1, n, out) != n;
+        if (out != NULL && fclose(out) != 0)
+            bad = 1;
+    }
+    return bad ? -1 : 0;
+}
+
 /* Lists of entries, which the target packs. */
 static int make_x3p(const char *folder)
 {
@@ -469,6 +489,7 @@ int main(int argc, char *argv[])
                    {"packed", make_packed},
                    {"park", make_park},
                    {"properties", make_properties},
+                   {"surf", make_surf},
                    {"x3p", make_x3p}};
     char folder[256];
     if (argc != 2) {

@@ -32,6 +32,18 @@ static void angular(const contact *c, const rubber_state *state, double omega, d
     }
 }
 
+/* Modulus that a wave sees over that of the rubber: a bonded layer on it, both incompressible
+ * (Burmister 1943). */
+static double seen(const contact *c, double q)
+{
+    if (!(c->layer_ratio > 0) || !(c->layer_thickness > 0))
+        return 1;
+    const double x = q * c->layer_thickness, n = (c->layer_ratio - 1) / (c->layer_ratio + 1),
+                 e = exp(-2 * x);
+    return c->layer_ratio * (1 - 2 * n * (1 + 2 * x * x) * e + n * n * e * e) /
+           (1 + 4 * n * x * e - n * n * e * e);
+}
+
 /* Waves of one piece, in steps of half an interval; returns how many. */
 static int add_piece(const contact *c, const rubber_state *state, double velocity, double from,
                      double to, int steps, wave *waves)
@@ -43,6 +55,9 @@ static int add_piece(const contact *c, const rubber_state *state, double velocit
         const double cq = q * q * q * density(c, fmin(q, to));
         double j1, j2;
         angular(c, state, q * velocity, &j1, &j2);
+        const double softer = seen(c, q);
+        j1 *= softer;
+        j2 *= softer * softer;
         const double simpson = k == 0 || k == 2 * steps ? 1 : k % 2 == 1 ? 4 : 2;
         waves[k] = (wave){.weight = q * simpson * half / 3,
                           .q = q,
@@ -108,7 +123,8 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
             run_piece(0, v, log(c->qr / c->q0) / (2 * steps), n, waves, &truth.area[i]);
         run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), m, waves + n, &truth.area[i]);
         truth.hysteresis[i] = power_below(waves, n + m, 0) / (c->pressure * v);
-        truth.friction[i] = truth.hysteresis[i] + c->shear_stress * truth.area[i] / c->pressure;
+        truth.friction[i] = truth.hysteresis[i] + (c->layer_ratio > 0 ? c->layer_ratio : 1) *
+                                                      c->shear_stress * truth.area[i] / c->pressure;
         if (i == c->layer_at)
             truth.thickness = thickness(c, v, waves, n + m);
     }

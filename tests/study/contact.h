@@ -15,6 +15,8 @@ typedef struct contact {
     double velocity[VELOCITIES_MAX];
     int layer_at; /* which of the velocities wears the layer */
     double wear_rate, critical_energy;
+    double layer_ratio, layer_thickness; /* modulus of a layer over that of the rubber, which
+                                            scales the shear stress, too; 0: none */
     double error; /* relative and stated, of c0, pressure, shear stress, wear rate and energy */
 } contact;
 

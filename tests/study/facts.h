@@ -38,6 +38,8 @@ typedef enum quantity {
     Q_ROLL_OFF,
     Q_C0,
     Q_BEYOND,     /* C(q) by the law, at the end that was asked for */
+    Q_RMS_HEIGHT, /* of the spectrum, from its first row to its last */
+    Q_RMS_SLOPE,
     Q_ANISOTROPY, /* amplitude of order 2 */
     Q_TEXTURE,    /* its direction */
     Q_STEADY,     /* friction coefficient behind a running-in */
@@ -47,6 +49,16 @@ typedef enum quantity {
     Q_CRITICAL_ENERGY, /* of a layer */
     Q_FRICTION_RATIO,  /* measured over predicted */
     Q_NEEDED_SHEAR,    /* stress that a record asks for */
+    Q_CHANGE,          /* of the friction by a layer */
+    Q_RATIO_PAIR,      /* modulus ratio of a case over that of another */
+    Q_SHARED_WEAR,     /* wear rate of all cases of a severity */
+    Q_SHARED_SHEAR,    /* shear stress of all cases */
+    Q_SHARED_RATE,     /* modulus over a decade of rate, of all cases of a compound, or of all */
+    /* "Yes" and "no" as intervals that hold the truth if they are right; "cannot say" states none */
+    Q_SAID_DIFFERS,
+    Q_SAID_PAIR,
+    Q_SAID_RECORD,
+    Q_SAID_SHARED,
     Q_COUNT
 } quantity;
 

@@ -42,6 +42,8 @@ const place place_density = {surface, "density", NULL, "density_low", "density_h
 const place place_hurst = {surface, "hurst", "standard_error", NULL, NULL};
 const place place_roll_off = {surface, "roll_off", "standard_error", NULL, NULL};
 const place place_c0 = {surface, "c0", "standard_error", NULL, NULL};
+const place place_rms_height = {surface, "rms_height", "standard_error", NULL, NULL};
+const place place_rms_slope = {surface, "rms_slope", "standard_error", NULL, NULL};
 const place place_anisotropy = {surface, "anisotropy", "standard_error", NULL, NULL};
 const place place_texture = {surface, "anisotropy_direction", "standard_error", NULL, NULL};
 
@@ -60,6 +62,20 @@ const place place_energy_wear = {"identification", "specific_wear_rate", NULL,
 const place place_friction_ratio = {PLACE_VALIDATION, "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_needed_shear = {PLACE_VALIDATION, "shear_stress_needed", NULL,
                                   "shear_stress_needed_low", "shear_stress_needed_high"};
+
+static const char collection[] = "collection";
+const place place_collected_ratio = {collection, "modulus_ratio", NULL, "modulus_ratio_low",
+                                     "modulus_ratio_high"};
+const place place_collected_thickness = {collection, "balance_thickness", NULL,
+                                         "balance_thickness_low", "balance_thickness_high"};
+const place place_collected_change = {collection, "friction_change", NULL, "friction_change_low",
+                                      "friction_change_high"};
+const place place_collected_modulus = {"collected_modulus", "modulus", NULL, "modulus_low",
+                                       "modulus_high"};
+const place place_collected_friction = {"collected_friction", "friction", "friction_standard_error",
+                                        NULL, NULL};
+const place place_shared = {"shared_constants", "value", NULL, "value_low", "value_high"};
+const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
 
 static const double normal95 = 1.959963984540054;
 

@@ -25,6 +25,7 @@ extern const place place_layered_friction;              /* at the reference velo
 
 extern const place place_density; /* of a surface, a row for each bin */
 extern const place place_hurst, place_roll_off, place_c0;
+extern const place place_rms_height, place_rms_slope;
 extern const place place_anisotropy, place_texture;
 
 extern const place place_steady, place_running_in, place_drift; /* of a record, a row for a step */
@@ -32,6 +33,27 @@ extern const place place_wear_rate;                             /* a row for eac
 
 extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
+
+extern const place place_collected_ratio, place_collected_thickness, place_collected_change;
+extern const place place_collected_modulus, place_collected_friction, place_pair;
+extern const place place_shared; /* a constant in each row */
+#define PLACE_SAMPLE "sample"    /* in the first five, with the condition: which case it is */
+#define PLACE_CONDITION "condition"
+#define PLACE_ZONE "place" /* "bulk" or another */
+#define PLACE_RATE "indentation_rate"
+#define PLACE_PAIR_OF "of" /* what both have in common */
+#define PLACE_PAIR_FIRST "first"
+#define PLACE_PAIR_SECOND "second"
+#define PLACE_PAIR_DIFFER "differ"
+#define PLACE_CONSTANT "constant"
+#define PLACE_WEAR "specific wear rate"
+#define PLACE_SHEAR "shear stress"
+#define PLACE_RATE_FACTOR "modulus over a decade of rate"
+#define PLACE_SUFFICES "suffices" /* one value: */
+#define PLACE_ONE "one"
+#define PLACE_SHARED_DIFFERS "differs"
+#define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
+
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */

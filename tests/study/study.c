@@ -4,6 +4,7 @@
  * status is 1 if a promised scene fails or the command breaks. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "afm_observe.h"
+#include "collection_observe.h"
 #include "dma_observe.h"
 #include "dwell_observe.h"
 #include "identify_observe.h"
@@ -227,9 +228,10 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    const family families[] = {dma_family(),    track_family(),      afm_family(),
-                               dwell_family(),  lever_family(),      surface_family(),
-                               record_family(), validation_family(), identify_family()};
+    const family families[] = {dma_family(),       track_family(),      afm_family(),
+                               dwell_family(),     lever_family(),      surface_family(),
+                               record_family(),    validation_family(), identify_family(),
+                               collection_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

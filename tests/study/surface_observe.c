@@ -75,6 +75,19 @@ static int write_scan(const surface_scene *s, const made_surface *surface, rando
     return fclose(out) != 0 || bad ? -1 : 0;
 }
 
+/* The square root of 2 pi int C q^power dq over the rows. */
+static double true_rms(const made_surface *truth, double first, double last, double power)
+{
+    enum { STEPS = 4000 }; /* of ln q: the law is smooth but for its roll-off */
+    const double step = log(last / first) / STEPS;
+    double sum = 0;
+    for (int i = 0; i <= STEPS; i++) {
+        const double q = first * exp(step * i), weight = i == 0 || i == STEPS ? 0.5 : 1;
+        sum += weight * made_density(truth, q) * pow(q, power + 1) * step;
+    }
+    return sqrt(2 * M_PI * sum);
+}
+
 static void read_spectrum(const char *path, const surface_scene *s, const made_surface *truth,
                           trial *t)
 {
@@ -92,6 +105,12 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
                   place_row(found, &place_density, i));
     }
     if (n > 0) {
+        const double first = stream_cell(found, place_density.table, PLACE_WAVENUMBER, 0),
+                     last = stream_cell(found, place_density.table, PLACE_WAVENUMBER, n - 1);
+        trial_add(t, Q_RMS_HEIGHT, true_rms(truth, first, last, 1),
+                  place_key(found, &place_rms_height));
+        trial_add(t, Q_RMS_SLOPE, true_rms(truth, first, last, 3),
+                  place_key(found, &place_rms_slope));
         trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
         /* profiles tell too few bins for a roll-off */
         if (!(s->roll_off > 0) && s->profiles == 0) {
@@ -114,13 +133,16 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const int wide = s->profiles > 0 ? s->profiles
                      : s->places > 0 ? s->places
                                      : 1,
-              all = wide + s->near_by;
+              near_by = wide + s->near_by, all = near_by + s->nearest;
+    const double smaller = s->smaller > 0 ? s->smaller : 10;
     made_surface truth = surface_of(s, random, side);
     (void)prepared;
     for (int i = 0; i < all; i++) {
         char name[24];
-        made_surface here =
-            surface_of(s, random, i < wide ? side : side / (s->smaller > 0 ? s->smaller : 10));
+        made_surface here = surface_of(s, random,
+                                       i < wide      ? side
+                                       : i < near_by ? side / smaller
+                                                     : side / (smaller * smaller));
         here.c0 *= exp(s->scatter * random_normal(random));
         snprintf(name, sizeof name, "scan%d.gsf", i + 1);
         arguments[4 + i] = trial_file(t, name);

@@ -10,6 +10,7 @@ typedef struct surface_scene {
     facts facts;
     int places;      /* scans; 0: one */
     int near_by;     /* more of them, smaller */
+    int nearest;     /* and more, smaller again */
     double smaller;  /* by this; 0: ten times */
     int profiles;    /* lines of 250 points instead, each of another surface */
     double hurst;    /* 0: 0.8 */

@@ -33,7 +33,7 @@ typedef struct stage {
     bool keep; /* the files stay */
 } stage;
 
-#define TRIAL_FILES_MAX 12
+#define TRIAL_FILES_MAX 80 /* of a whole study */
 typedef struct trial {
     const stage *stage;
     const char *scene;

@@ -505,6 +505,40 @@ static void test_of_a_made_track(void **state)
     assert_int_equal(wt_track_find(x, z, 39, &t, NULL), WT_E_RANGE);
 }
 
+/* The stated error of the area is what areas scatter by, and no more than half as much again: where
+ * the samples of a narrow track make it, where the line below a wide one does as much, and where
+ * neighbours go together. */
+static void test_error_of_a_track(void **state)
+{
+    (void)state;
+    enum { N = 400, DRAWS = 250 };
+    static double x[N], z[N];
+    const struct {
+        double half_width, memory;
+    } cases[] = {{12, 0}, {80, 0}, {30, 0.6}};
+    uint64_t seed = 77;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const double half = cases[k].half_width, memory = cases[k].memory;
+        double sum = 0, square = 0, stated = 0, noise = 0;
+        for (int draw = 0; draw < DRAWS; draw++) {
+            wt_track t;
+            for (int i = 0; i < N; i++) {
+                const double part = (i - 200) / half;
+                noise = memory * noise + sqrt(1 - memory * memory) * normal(&seed);
+                x[i] = 2e-6 * i;
+                z[i] = 1e-8 * noise - fmax(0, 4e-6 * (1 - part * part));
+            }
+            assert_int_equal(wt_track_find(x, z, N, &t, NULL), WT_OK);
+            assert_true(t.found);
+            sum += t.area.value / DRAWS;
+            square += t.area.value * t.area.value / DRAWS;
+            stated += t.area.standard_error * t.area.standard_error / DRAWS;
+        }
+        const double wider = sqrt(stated / (square - sum * sum));
+        assert_true(wider > 0.95 && wider < 1.5);
+    }
+}
+
 /* The profile by its two columns, in mm and um; the reference by the same rule. */
 static void test_of_a_measured_track(void **state)
 {
@@ -579,6 +613,7 @@ int main(void)
         cmocka_unit_test(test_of_spans_of_time),
         cmocka_unit_test(test_of_a_force_without_a_load),
         cmocka_unit_test(test_of_a_made_track),
+        cmocka_unit_test(test_error_of_a_track),
         cmocka_unit_test(test_of_a_measured_track),
         cmocka_unit_test(test_of_a_ball),
     };

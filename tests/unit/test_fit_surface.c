@@ -281,6 +281,40 @@ static void test_inversion(void **state)
 
 /* Two scans of different size. What a mean of logarithms is too low by, which the reference leaves
  * in, is known. */
+/* What places make of the constants is what the fit makes of bins that the places of each size have
+ * moved, one size after the other. */
+static void check_places_of_law(wt_surface_spectrum *s)
+{
+    enum { CONSTANTS = 3 };
+    const double scatter = 0.01; /* in which the law is linear */
+    double sum[CONSTANTS][CONSTANTS] = {{0}};
+    wt_self_affine law, moved;
+    s->place_scatter = scatter;
+    s->place_freedom = 1e9;
+    assert_int_equal(s->n_sizes, 2);
+    assert_int_equal(wt_self_affine_fit(s, &law, NULL), WT_OK);
+    for (size_t size = 0; size < s->n_sizes; size++) {
+        for (size_t k = 0; k < s->n; k++)
+            s->bins[k].density *= exp(scatter * s->place_part[k * s->n_sizes + size]);
+        assert_int_equal(wt_self_affine_fit(s, &moved, NULL), WT_OK);
+        for (size_t k = 0; k < s->n; k++)
+            s->bins[k].density /= exp(scatter * s->place_part[k * s->n_sizes + size]);
+        const double change[CONSTANTS] = {log(moved.c0.value / law.c0.value),
+                                          log(moved.roll_off.value / law.roll_off.value),
+                                          moved.hurst.value - law.hurst.value};
+        for (size_t i = 0; i < CONSTANTS; i++)
+            for (size_t j = 0; j < CONSTANTS; j++)
+                sum[i][j] += change[i] * change[j];
+    }
+    for (size_t i = 0; i < CONSTANTS; i++) {
+        assert_true(sum[i][i] > 0);
+        for (size_t j = 0; j < CONSTANTS; j++)
+            assert_near_abs(law.place_covariance[i][j], sum[i][j],
+                            0.03 * sqrt(sum[i][i] * sum[j][j]));
+    }
+    s->place_scatter = (double)NAN;
+}
+
 static void test_stitch(void **state)
 {
     (void)state;
@@ -330,6 +364,7 @@ static void test_stitch(void **state)
     assert_true(law.hurst.low < 0.8 && law.hurst.high > 0.8);
     assert_near(law.hurst.value, 0.8, 0.01);
     assert_near(log(law.roll_off.value), log(8.3 * 2 * M_PI / length), 0.02);
+    check_places_of_law(&joined);
     for (size_t i = 0; i < 2; i++)
         wt_surface_spectrum_clear(&s[i]);
     wt_surface_spectrum_clear(&joined);

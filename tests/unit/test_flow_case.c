@@ -50,7 +50,8 @@ static const char full[] = HEAD
     "  <critical-energy>1e10J/m^3</critical-energy><velocity>0.3m/s</velocity>\n"
     "  <times>1:1e5s:log:6</times><incubation>yes</incubation></layer>\n"
     "<compare><track-to-bulk/><by-rate/></compare>\n"
-    "<report style=\"screen\"><result>friction</result><result>layer</result></report>\n"
+    "<report style=\"screen\" figures=\"pdf,png\" width=\"85mm\" "
+    "font=\"Arial\"><result>friction</result><result>layer</result></report>\n"
     "</case>\n";
 
 static void test_full(void **state)
@@ -61,7 +62,10 @@ static void test_full(void **state)
     if (read_text(full, &c, &err) != WT_OK)
         fail_msg("%s: %s; %s", err.place, err.message, err.found);
     assert_string_equal(wt_case_title(c), "Tread, severe track");
-    assert_string_equal(wt_case_style(c), "screen");
+    assert_string_equal(wt_case_report(c)->style, "screen");
+    assert_int_equal(wt_case_report(c)->figures, WT_FIGURE_PDF | WT_FIGURE_PNG);
+    assert_near(wt_case_report(c)->width, 0.085, 1e-14);
+    assert_string_equal(wt_case_report(c)->font, "Arial");
     assert_near(c->indent.tip.half_angle, 35 * M_PI / 180, 1e-14);
     assert_near(c->indent.options.poisson_ratio, 0.49, 0);
     assert_near(c->indent.options.fit_depth, 70e-9, 1e-14);

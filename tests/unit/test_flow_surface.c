@@ -67,6 +67,11 @@ static bool said(const making *m, const char *words)
     return false;
 }
 
+static const char *text_cell(const wt_table *t, size_t row, const char *name)
+{
+    return wt_table_text(t, row, (size_t)wt_table_find(t, name));
+}
+
 static const char *const all[] = {SURFACE "near-by.gsf", SURFACE "place-1.gsf",
                                   SURFACE "place-2.gsf"};
 
@@ -279,10 +284,23 @@ static void test_directions(void **state)
     }
     assert_true(within >= WT_SURFACE_SECTORS - 3);
     assert_true(key(t, "chance") < 1e-6);
+    const double alone = key(m.tables.power_spectrum, "anisotropy"),
+                 fourth = key(m.tables.power_spectrum, "anisotropy_fourth");
+    clear(&m);
+
+    /* profiles beside maps tell nothing of directions and take nothing away */
+    make(&m, (const char *const[]){path, SURFACE "profile-*.gsf"}, 2);
+    t = m.tables.power_spectrum;
+    assert_near(key(t, "anisotropy"), alone, 1e-12);
+    assert_near(key(t, "anisotropy_fourth"), fourth, 1e-12);
+    assert_int_equal(wt_table_n_rows(m.tables.angular_spectrum), WT_SURFACE_SECTORS);
+    assert_non_null(strstr(wt_table_key(t, "profiles"), "where both tell"));
+    assert_true(said(&m, "what the profiles tell is told for a surface that is the same in all"));
     clear(&m);
 
     make(&m, all, COUNT_OF(all));
     assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
+    assert_null(wt_table_key(m.tables.power_spectrum, "profiles"));
     assert_true(key(m.tables.angular_spectrum, "chance") > 0.01);
     clear(&m);
     make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
@@ -372,21 +390,22 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
-/* Places of two sizes are drawn each for itself: ends of the spectrum, of wide scans alone and of
- * narrow ones alone, go their own ways and by their own errors, and a bin between by both. */
-static void test_places_of_two_sizes(void **state)
+/* Places of three sizes are drawn each for itself: what is of one size alone goes its own way and
+ * by its own error, and a bin between by both. */
+static void test_places_of_sizes(void **state)
 {
     (void)state;
-    enum { DRAWS = 2000, POINTS = 3 };
-    double q[POINTS] = {1e5, 1e6, 1e7}, density[POINTS] = {1e-24, 1e-27, 1e-31}, none[POINTS] = {0},
-           parts[2 * POINTS] = {0.5, 0, 0.4, 0.3, 0, 2}, product[POINTS] = {0},
-           square[POINTS] = {0};
+    enum { DRAWS = 2000, POINTS = 4, SIZES = 3 };
+    double q[POINTS] = {1e5, 1e6, 1e7, 1e8}, density[POINTS] = {1e-24, 1e-27, 1e-31, 1e-34},
+           none[POINTS] = {0}, product[POINTS] = {0}, square[POINTS] = {0}, between = 0,
+           parts[SIZES * POINTS] = {0.5, 0.4, 0, 0, 0, 0.3, 2, 0, 0, 0, 0, 1};
     wt_surface surface = {
         .q0 = (double)NAN,
         .q1 = (double)NAN,
         .c0 = {1, 0.2, 0, "1"},
         .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
         .modes_error = none,
+        .n_sizes = SIZES,
         .place_parts = parts};
     for (size_t i = 0; i < DRAWS; i++) {
         double c[POINTS], ln[POINTS];
@@ -401,13 +420,17 @@ static void test_places_of_two_sizes(void **state)
             square[k] += ln[k] * ln[k] / DRAWS;
             product[k] += ln[0] * ln[k] / DRAWS;
         }
+        between += ln[2] * ln[3] / DRAWS;
         assert_near_abs(ln[0], 0.5 * log(factor), 1e-9);
         assert_near_abs(ln[1], 0.4 * log(factor) + 0.15 * ln[2], 1e-9);
     }
     assert_near(sqrt(square[0]), 0.1, 0.06);
     assert_near(sqrt(square[1]), 0.1, 0.06);
     assert_near(sqrt(square[2]), 0.4, 0.06);
+    assert_near(sqrt(square[3]), 0.2, 0.06);
     assert_near_abs(product[2] / sqrt(square[0] * square[2]), 0, 0.08);
+    assert_near_abs(product[3] / sqrt(square[0] * square[3]), 0, 0.08);
+    assert_near_abs(between / sqrt(square[2] * square[3]), 0, 0.08);
     surface.c0.standard_error = 0; /* held */
     wt_roughness *r = NULL;
     double c = 0;
@@ -417,10 +440,12 @@ static void test_places_of_two_sizes(void **state)
     wt_roughness_free(r);
 }
 
-/* A copy whose heights are twice as large. */
-static void write_doubled(const char *from, const char *to)
+/* A copy whose heights are so many times as large, and whose sides are ten times as small if
+ * `near`. */
+static void write_changed(const char *from, float factor, bool near, const char *to)
 {
     enum { VALUES = 112 * 112 }; /* behind the head */
+    static const char *const sides[] = {"XReal = 8.75e-0", "YReal = 8.75e-0"};
     static char bytes[1 << 16];
     FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
     assert_true(in != NULL && out != NULL);
@@ -428,42 +453,265 @@ static void write_doubled(const char *from, const char *to)
     for (size_t i = 0; i < VALUES; i++) {
         float value;
         memcpy(&value, bytes + head + i * sizeof value, sizeof value);
-        value *= 2;
+        value *= factor;
         memcpy(bytes + head + i * sizeof value, &value, sizeof value);
+    }
+    for (size_t i = 0; near && i < COUNT_OF(sides); i++) {
+        char *side = memmem(bytes, head, sides[i], strlen(sides[i]));
+        assert_non_null(side);
+        side[strlen(sides[i])]++;
     }
     assert_int_equal(fwrite(bytes, 1, n, out), n);
     assert_int_equal(fclose(in), 0);
     assert_int_equal(fclose(out), 0);
 }
 
-/* Two places that differ by four in C, and a narrow scan elsewhere: each end of the spectrum has
- * the error of its own places, and the numbers hold that two places tell little of their scatter.
- */
+/* What the places of a size, counted from 1, give a row of the spectrum. */
+static double place_error_of(const wt_table *t, double size, double row)
+{
+    for (size_t i = 0; i < wt_table_n_rows(t); i++)
+        if (cell(t, i, "size") == size && cell(t, i, "row") == row)
+            return cell(t, i, "places_error");
+    return 0;
+}
+
+/* Two places that differ by four in C, a narrow scan elsewhere and a narrower one: each part of the
+ * spectrum has the error of its own places, and the numbers hold that two places tell little of
+ * their scatter. */
 static void test_scatter_of_places(void **state)
 {
     (void)state;
     char path[] = "/tmp/weartrack-place-XXXXXX";
     const int fd = mkstemp(path);
     assert_true(fd >= 0 && close(fd) == 0);
-    write_doubled(SURFACE "place-1.gsf", path);
-    const char *const files[] = {SURFACE "place-1.gsf", path, SURFACE "near-by.gsf"};
+    char narrowest[] = "/tmp/weartrack-place-XXXXXX";
+    const int other = mkstemp(narrowest);
+    assert_true(other >= 0 && close(other) == 0);
+    write_changed(SURFACE "place-1.gsf", 2, false, path);
+    write_changed(SURFACE "near-by.gsf", 0.02F, true, narrowest);
+    const char *const files[] = {narrowest, SURFACE "near-by.gsf", SURFACE "place-1.gsf", path};
     const double t_of_one = 12.7062 / 1.95996, scatter = log(4) / sqrt(2);
     making m = {.job = wt_topography_job_defaults()};
-    make(&m, files, 2);
+    make(&m, files + 2, 2);
     assert_int_equal(m.status, WT_OK);
     const wt_table *t = m.tables.power_spectrum;
     assert_near(key(t, "place_error"), t_of_one * scatter / sqrt(2), 0.05);
     assert_true(error_of(t, "rms_height") / key(t, "rms_height") > key(t, "place_error") / 2);
-    assert_true(isnan(cell(t, 0, "places_wide")));
+    assert_null(m.tables.place_errors);
     clear(&m);
-    make(&m, files, 3);
+    make(&m, files, COUNT_OF(files));
     assert_int_equal(m.status, WT_OK);
-    t = m.tables.power_spectrum;
-    const size_t last = wt_table_n_rows(t) - 1;
-    const double wide = cell(t, 0, "places_wide"), narrow = cell(t, last, "places_narrow");
-    assert_near(narrow, wide * sqrt(2), 1e-6); /* one scan, and two */
-    assert_near_abs(cell(t, 0, "places_narrow"), 0, 0);
-    assert_near_abs(cell(t, last, "places_wide"), 0, 0);
+    t = m.tables.place_errors;
+    assert_non_null(t);
+    const double last = (double)wt_table_n_rows(m.tables.power_spectrum),
+                 wide = place_error_of(t, 1, 1), narrowest_error = place_error_of(t, 3, last);
+    assert_near(narrowest_error, wide * sqrt(2), 1e-6); /* one scan, and two */
+    assert_near(place_error_of(t, 2, floor(last / 2)), narrowest_error, 1e-6);
+    for (double size = 1; size <= 4; size++) {
+        assert_true(size == 1 || place_error_of(t, size, 1) == 0);
+        assert_true(size == 3 || place_error_of(t, size, last) == 0);
+    }
+    clear(&m);
+    unlink(path);
+    unlink(narrowest);
+}
+
+/* What the densities of the spectrum, each moved by ln C of `moves`, change of a number. */
+static double change_by(const wt_table *t, const double *moves,
+                        double (*number)(const wt_roughness *))
+{
+    enum { MOST = 100 };
+    double q[MOST], c[MOST], values[2];
+    const size_t n = wt_table_n_rows(t);
+    assert_true(n <= MOST);
+    for (int moved = 0; moved < 2; moved++) {
+        wt_roughness *r = NULL;
+        for (size_t i = 0; i < n; i++) {
+            q[i] = cell(t, i, "wavenumber");
+            c[i] = cell(t, i, "density") * (moved == 1 ? exp(moves[i]) : 1);
+        }
+        assert_int_equal(wt_roughness_table(q, c, n, &r, NULL), WT_OK);
+        values[moved] = number(r);
+        wt_roughness_free(r);
+    }
+    return values[1] - values[0];
+}
+
+/* Errors of rms height and slope by what the tables say of the rows: every bin by itself, the law
+ * together, and the places of each size together, or of all. */
+static void check_errors(const wt_topography_tables *tables)
+{
+    enum { MOST = 100 };
+    static const struct {
+        const char *name;
+        double (*number)(const wt_roughness *);
+    } numbers[] = {{"rms_height", wt_roughness_rms_height}, {"rms_slope", wt_roughness_rms_slope}};
+    const wt_table *const t = tables->power_spectrum, *const places = tables->place_errors;
+    const size_t n = wt_table_n_rows(t);
+    for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+        double square = 0, law[MOST] = {0};
+        for (size_t i = 0; i < n; i++) {
+            double one[MOST] = {0};
+            one[i] = cell(t, i, "modes_error");
+            law[i] = isnan(cell(t, i, "law_error")) ? 0 : cell(t, i, "law_error");
+            square += isnan(one[i]) ? 0 : pow(change_by(t, one, numbers[k].number), 2);
+        }
+        square += pow(change_by(t, law, numbers[k].number), 2);
+        for (double size = 1; places != NULL && size <= 4; size++) {
+            double of[MOST] = {0};
+            for (size_t i = 0; i < n; i++)
+                of[i] = place_error_of(places, size, (double)i + 1);
+            square += pow(change_by(t, of, numbers[k].number), 2);
+        }
+        if (places == NULL && key(t, "place_error") > 0)
+            square += pow(key(t, numbers[k].name) * key(t, "place_error") / 2, 2);
+        assert_near(error_of(t, numbers[k].name), sqrt(square), 1e-6);
+    }
+}
+
+/* One place, two that differ, more of other sizes, and beyond them by the law. */
+static void test_errors_of_numbers(void **state)
+{
+    (void)state;
+    char twice[] = "/tmp/weartrack-place-XXXXXX", narrowest[] = "/tmp/weartrack-place-XXXXXX";
+    assert_int_equal(close(mkstemp(twice)), 0);
+    assert_int_equal(close(mkstemp(narrowest)), 0);
+    write_changed(SURFACE "place-1.gsf", 2, false, twice);
+    write_changed(SURFACE "near-by.gsf", 0.02F, true, narrowest);
+    const char *const files[] = {SURFACE "place-1.gsf", twice, SURFACE "near-by.gsf", narrowest};
+    for (size_t n = 1; n <= COUNT_OF(files); n++)
+        for (int beyond = 0; beyond < 2; beyond++) {
+            making m = {.job = wt_topography_job_defaults()};
+            m.job.end = beyond == 1 ? 5e8 : (double)NAN;
+            make(&m, files, n);
+            assert_int_equal(m.status, WT_OK);
+            check_errors(&m.tables);
+            assert_true(said(&m, "shorter than 1 nm") == false);
+            clear(&m);
+        }
+    /* ends between bins and on one, and where no roughness is */
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, files, 1);
+    const double first = cell(m.tables.power_spectrum, 0, "wavenumber"),
+                 second = cell(m.tables.power_spectrum, 1, "wavenumber");
+    clear(&m);
+    m.job.end = sqrt(first * second);
+    make(&m, files, 1);
+    assert_int_equal(wt_table_n_rows(m.tables.power_spectrum), 2);
+    assert_string_equal(text_cell(m.tables.power_spectrum, 1, "source"), "cut");
+    clear(&m);
+    m.job.end = second;
+    make(&m, files, 1);
+    assert_int_equal(wt_table_n_rows(m.tables.power_spectrum), 2);
+    assert_string_equal(text_cell(m.tables.power_spectrum, 1, "source"), "measured");
+    clear(&m);
+    m.job.end = 1e10;
+    make(&m, files, 1);
+    assert_true(said(&m, "shorter than 1 nm"));
+    clear(&m);
+    unlink(twice);
+    unlink(narrowest);
+}
+
+/* What profiles are beside height maps: of one surface, of one that is as rough as three times of
+ * it, which is not taken for a scatter of places, of other waves, and where places differ. */
+static void test_profiles_beside(void **state)
+{
+    (void)state;
+    char low[] = "/tmp/weartrack-place-XXXXXX", twice[] = "/tmp/weartrack-place-XXXXXX";
+    assert_int_equal(close(mkstemp(low)), 0);
+    assert_int_equal(close(mkstemp(twice)), 0);
+    write_changed(SURFACE "place-1.gsf", 1.0F / 3, false, low);
+    write_changed(SURFACE "place-1.gsf", 2, false, twice);
+    static const char format[] = "where both tell, C by them is %lf (95 %%: %lf to %lf) of that";
+    const struct {
+        const char *maps[2];
+        double low, high; /* of the ratio */
+        bool disagree;
+    } cases[] = {{{SURFACE "place-1.gsf"}, 0.8, 1.3, false},
+                 {{SURFACE "place-1.gsf", SURFACE "place-2.gsf"}, 0.8, 1.3, false},
+                 {{low}, 7, 12, true},
+                 {{SURFACE "place-1.gsf", twice}, 0.3, 0.8, false}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        making m = {.job = wt_topography_job_defaults()};
+        const char *files[3] = {SURFACE "profile-*.gsf", cases[i].maps[0], cases[i].maps[1]};
+        double ratio[3];
+        make(&m, files, files[2] != NULL ? 3 : 2);
+        assert_int_equal(m.status, WT_OK);
+        const char *const words = wt_table_key(m.tables.power_spectrum, "profiles");
+        assert_int_equal(sscanf(words, format, &ratio[0], &ratio[1], &ratio[2]), 3);
+        assert_true(ratio[0] > cases[i].low && ratio[0] < cases[i].high);
+        assert_true(cases[i].disagree == (ratio[1] > 1 || ratio[2] < 1));
+        assert_true(cases[i].disagree == (strstr(words, "they disagree") != NULL));
+        assert_true(cases[i].disagree == said(&m, "the profiles and the height maps disagree"));
+        if (i == 3) /* two places that differ by four, of which nothing else tells */
+            assert_true(ratio[2] / ratio[1] > exp(0.9 * 12.7 * log(4)));
+        clear(&m);
+    }
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, (const char *const[]){SURFACE "near-by.gsf", SURFACE "profile-*.gsf"}, 2);
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "profiles"),
+                        "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
+                        "the height maps");
+    clear(&m);
+    make(&m, (const char *const[]){SURFACE "road.gsf", SURFACE "profile-*.gsf"}, 2);
+    assert_string_equal(wt_table_key(m.tables.power_spectrum, "profiles"),
+                        "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
+                        "the height maps");
+    clear(&m);
+    unlink(low);
+    unlink(twice);
+}
+
+/* Rows of places that are of no row of the spectrum, or of no size, are no errors. */
+static void test_bad_places(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/weartrack-places-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && close(fd) == 0);
+    making m = {.job = wt_topography_job_defaults()};
+    wt_job work = wt_job_defaults();
+    work.formats = formats;
+    write_changed(SURFACE "place-1.gsf", 2, false, path);
+    make(&m, (const char *const[]){SURFACE "place-1.gsf", path, SURFACE "near-by.gsf"}, 3);
+    assert_non_null(m.tables.place_errors);
+    static const struct {
+        const char *column;
+        double value;
+    } bad[] = {{"size", 0},
+               {"size", 1e300},
+               {"size", (double)NAN},
+               {"row", 0},
+               {"row", 1000},
+               {"row", (double)NAN},
+               {"places_error", -1},
+               {"places_error", (double)INFINITY},
+               {"row", 1}};
+    const size_t last = wt_table_n_rows(m.tables.place_errors) - 1;
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        wt_surface surface = {0};
+        wt_error err = WT_ERROR_INIT;
+        const long column = wt_table_find(m.tables.place_errors, bad[i].column);
+        assert_true(column >= 0);
+        const double was = wt_table_number(m.tables.place_errors, last, (size_t)column);
+        wt_table_put(m.tables.place_errors, (size_t)column, bad[i].value);
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        assert_int_equal(wt_stream_write(out, m.tables.power_spectrum, NULL, NULL), WT_OK);
+        assert_int_equal(wt_stream_write(out, m.tables.place_errors, NULL, NULL), WT_OK);
+        assert_int_equal(fclose(out), 0);
+        wt_table_put(m.tables.place_errors, (size_t)column, was);
+        const bool good = i + 1 == COUNT_OF(bad);
+        assert_int_equal(wt_surface_open(path, NULL, &work, &surface, &err),
+                         good ? WT_OK : WT_E_RANGE);
+        if (good) {
+            assert_int_equal(surface.n_sizes, 2);
+            assert_near(surface.place_parts[0] * surface.c0.standard_error,
+                        place_error_of(m.tables.place_errors, 1, 1), 1e-6);
+        }
+        wt_surface_clear(&surface);
+    }
     clear(&m);
     unlink(path);
 }
@@ -608,8 +856,11 @@ int main(void)
         cmocka_unit_test(test_alone),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_places_of_two_sizes),
+        cmocka_unit_test(test_places_of_sizes),
         cmocka_unit_test(test_scatter_of_places),
+        cmocka_unit_test(test_bad_places),
+        cmocka_unit_test(test_errors_of_numbers),
+        cmocka_unit_test(test_profiles_beside),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),

@@ -2,6 +2,7 @@
  * must obey. */
 #include "near.h"
 
+#include "kernel/angular_weight.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/kernel.h"
 
@@ -348,13 +349,50 @@ static void no_static_limit(void **state)
     wt_material_free(material);
 }
 
+/* The terms of the weight over their sum, where it is worst: by quadrature over phi. */
+static double worst_terms(const double power[WEIGHT_POWERS])
+{
+    enum { STEPS = 20000 };
+    double worst = 1;
+    for (int p = 0; p <= 2; p++) {
+        double sum = 0, all = 0;
+        for (int j = 0; j < WEIGHT_POWERS; j++) {
+            double moment = 0;
+            for (int i = 0; i < STEPS; i++)
+                moment += pow(cos((i + 0.5) * M_PI / 2 / STEPS), p + 2 * j) / STEPS;
+            sum += power[j] * moment;
+            all += fabs(power[j]) * moment;
+        }
+        worst = fmax(worst, all / sum);
+    }
+    return worst;
+}
+
+/* What errors are multiplied by: where terms cancel they are larger than without a weight. */
+static void caution_of_weights(void **state)
+{
+    (void)state;
+    const wt_anisotropy across = {.amplitude = {0.8}, .angle = {M_PI / 2}},
+                        along = {.amplitude = {0.8}, .angle = {0}},
+                        askew = {.amplitude = {0.5, 0.3}, .angle = {0.7, 0.2}};
+    double shift = 0;
+    /* (1 + a + 2 a r) / (1 + a - 2 a r), r = 3/4 of E'' that goes with the frequency squared */
+    assert_near(weight_along(&across).caution, (1 + 2.5 * 0.8) / (1 - 0.5 * 0.8), 1e-12);
+    assert_near(weight_along(&along).caution, 1, 1e-12);
+    const angular_weight to_the_side = weight_aside(&askew, &shift), ahead = weight_along(&askew);
+    assert_near(ahead.caution, worst_terms(ahead.power[0]), 1e-6);
+    assert_near(to_the_side.caution, worst_terms(to_the_side.power[0]), 1e-6);
+    assert_true(ahead.caution > 1.1 && to_the_side.caution > 1.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),  cmocka_unit_test(none_is_isotropic_to_the_bit),
-        cmocka_unit_test(directions),     cmocka_unit_test(full_contact_is_linear),
-        cmocka_unit_test(all_orders),     cmocka_unit_test(grooves_across),
-        cmocka_unit_test(what_cannot_be), cmocka_unit_test(no_static_limit),
+        cmocka_unit_test(numeric_cases),      cmocka_unit_test(none_is_isotropic_to_the_bit),
+        cmocka_unit_test(directions),         cmocka_unit_test(full_contact_is_linear),
+        cmocka_unit_test(all_orders),         cmocka_unit_test(grooves_across),
+        cmocka_unit_test(caution_of_weights), cmocka_unit_test(what_cannot_be),
+        cmocka_unit_test(no_static_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,10 @@
 
 #include "made_file.h"
 
+#include "read/bytes/input.h"
 #include "read/gwyddion/gwyddion.h"
+#include "read/gwyddion/surf.h"
+#include "writers/surf_writer.h"
 
 #include <math.h>
 
@@ -76,6 +79,9 @@ static void fails_with(const char *script, wt_status expected, const char *words
 static void test_failures(void **state)
 {
     (void)state;
+    const size_t open_before = count_files("/proc/self/fd");
+    fails_with("exec >&- 2>&-; sleep 0.3; exit 5", WT_E_TOOL, "exit status 5");
+    fails_with("sleep 1000 & exit 6", WT_E_TOOL, "exit status 6");
     fails_with("sleep 1000 & sleep 1000", WT_E_TOOL, "did not end within 2 s");
     fails_with("while :; do :; done", WT_E_TOOL, "Gwyddion ");
     fails_with("trap '' XCPU TERM; while :; do :; done", WT_E_TOOL, "Gwyddion ");
@@ -88,6 +94,7 @@ static void test_failures(void **state)
     fails_with("mkfifo converted.gwy", WT_E_TOOL, "made nothing");
     fails_with("exec head -c 10000000000 /dev/zero > converted.gwy", WT_E_TOOL, "signal 25");
     fails_with("mkdir -p a/b/c/d/e; echo x > a/b/c/d/e/f; exit 3", WT_E_TOOL, "exit status 3");
+    assert_int_equal(count_files("/proc/self/fd"), open_before);
 }
 
 /* What has reached the limit was cut there, whatever the program says of itself. */
@@ -238,6 +245,105 @@ static void test_heights(void **state)
     check_read(flagged, 1u << 2 | 1u << 5, "2 of 6 pixels");
 }
 
+/* ---- compressed files of Digital Surf ---------------------------------------------------------
+ */
+
+enum { SURF_HEIGHTS = 10, SURF_PIECES = 3, SURF_ROOM = 1024, SURF_HEAD = 512 + 5 };
+static const int surf_heights[SURF_HEIGHTS] = {-3, 7, 1, 0, 100000, -1, 5, 5, 5, 5};
+
+/* What is unpacked is the file as it would be without compression, and that is what the program is
+ * given. */
+static void test_unpacked(void **state)
+{
+    (void)state;
+    unsigned char packed[SURF_ROOM], plain[SURF_ROOM];
+    const size_t n_plain = surf_write_plain(plain, surf_heights, SURF_HEIGHTS);
+    for (size_t pieces = 1; pieces <= SURF_PIECES; pieces++) {
+        const size_t n = surf_write(packed, surf_heights, SURF_HEIGHTS, pieces);
+        for (size_t more = 0; more < 2; more++) { /* bytes behind it, which are said */
+            wt_input *input = NULL, *unpacked = NULL;
+            const unsigned char *bytes = NULL;
+            size_t length = 0;
+            wt_parselog *log = wt_parselog_new();
+            packed[n] = 0;
+            assert_int_equal(wt_input_open_memory(packed, n + more, "a.sur", &input, NULL), WT_OK);
+            assert_int_equal(surf_unpack(input, SURF_ROOM, log, &unpacked, NULL), WT_OK);
+            assert_int_equal(wt_input_bytes(unpacked, &bytes, &length, NULL), WT_OK);
+            assert_int_equal(length, n_plain);
+            assert_memory_equal(bytes, plain, n_plain);
+            assert_int_equal(wt_parselog_count(log), more);
+            wt_input_close(unpacked);
+            wt_input_close(input);
+            wt_parselog_free(log);
+        }
+    }
+    const size_t n = surf_write(packed, surf_heights, SURF_HEIGHTS, 1);
+    FILE *out = fopen("plain.sur", "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(plain, 1, n_plain, out), n_plain);
+    assert_int_equal(fclose(out), 0);
+    write_good(NULL);
+    stand_in("cmp surface.sur ../../plain.sur && cp ../../good.gwy converted.gwy");
+    wt_image *images = NULL;
+    size_t n_images = 0;
+    assert_int_equal(read_images_of(packed, n, "b.sur", NULL, &images, &n_images, NULL), WT_OK);
+    assert_int_equal(n_images, 1);
+    wt_image_clear(&images[0]);
+    free(images);
+}
+
+static void test_damaged(void **state)
+{
+    (void)state;
+    enum { COUNTED = SURF_HEAD, FIRST = SURF_HEAD + 4, STREAM = FIRST + 8 * SURF_PIECES };
+    static const struct {
+        size_t at, length; /* of a byte, SURF_ROOM: none; to which the file is cut, 0: it is not */
+        unsigned char byte;
+        const char *words;
+    } cases[] = {{SURF_ROOM, 100, 0, "its head is cut"},
+                 {SURF_ROOM, SURF_HEAD + 3, 0, "ends before its heights"},
+                 {335, 0, 0x7f, "ends before its heights"},
+                 {335, 0, 0x80, "ends before its heights"},
+                 {COUNTED, 0, 0, "more pieces"},
+                 {COUNTED + 3, 0, 0xff, "more pieces"},
+                 {FIRST + 6, 0, 1, "lies outside"},
+                 {FIRST + 3, 0, 0xff, "lies outside"},
+                 {FIRST, 0, 13, "not of one size"},
+                 {116, 0, 11, "not of one size"},
+                 {98, 0, 16, "not of one size"},
+                 {STREAM, 0, 0, "cannot be unpacked"},
+                 {STREAM + 9, 0, 99, "cannot be unpacked"}};
+    unsigned char packed[SURF_ROOM];
+    const size_t n = surf_write(packed, surf_heights, SURF_HEIGHTS, SURF_PIECES);
+    wt_input *input = NULL, *unpacked = NULL;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_error err = WT_ERROR_INIT;
+        unsigned char changed[SURF_ROOM];
+        memcpy(changed, packed, n);
+        if (cases[i].at < n)
+            changed[cases[i].at] = cases[i].byte;
+        const size_t length = cases[i].length > 0 ? cases[i].length : n;
+        assert_int_equal(wt_input_open_memory(changed, length, "a.sur", &input, NULL), WT_OK);
+        const wt_status status = surf_unpack(input, SURF_ROOM, NULL, &unpacked, &err);
+        if (status != WT_E_CORRUPT || strstr(err.message, cases[i].words) == NULL)
+            fail_msg("case %zu: %d: %s", i, (int)status, err.message);
+        assert_null(unpacked);
+        assert_non_null(strstr(err.advice, "without compression"));
+        wt_input_close(input);
+    }
+    for (size_t length = 0; length < n; length++) {
+        assert_int_equal(wt_input_open_memory(packed, length, "a.sur", &input, NULL), WT_OK);
+        assert_int_equal(surf_unpack(input, SURF_ROOM, NULL, &unpacked, NULL), WT_E_CORRUPT);
+        wt_input_close(input);
+    }
+    assert_int_equal(wt_input_open_memory(packed, n, "a.sur", &input, NULL), WT_OK);
+    assert_int_equal(surf_unpack(input, 4 * SURF_HEIGHTS - 1, NULL, &unpacked, NULL),
+                     WT_E_UNSUPPORTED);
+    assert_int_equal(surf_unpack(input, 4 * SURF_HEIGHTS, NULL, &unpacked, NULL), WT_OK);
+    wt_input_close(unpacked);
+    wt_input_close(input);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_place, remove_place)
 
 int main(void)
@@ -245,7 +351,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_failures), TEST(test_flood_that_goes_on),
         TEST(test_rubbish),  TEST(test_not_installed),
-        TEST(test_heights),
+        TEST(test_heights),  TEST(test_unpacked),
+        TEST(test_damaged),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

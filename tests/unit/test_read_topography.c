@@ -413,6 +413,7 @@ static const measured_file measured_files[] = {
     {"whitelight.gsf", "/data/topography/whitelight.gsf", true, false, .dx = 5e-9, .dy = 1e-8},
     {"test.gwy", "/data/topography/test.gwy", true, false, .dx = 1, .dy = 1},
     {"sur-2.sur", "/data/topography/sur-2.sur", true, true, .converted = true},
+    {"test_surface.sur", "/data/topography/test_surface.sur", true, true, .converted = true},
     {"al3d-1.al3d", "/data/topography/al3d-1.al3d", true, true, .converted = true},
     {"test_1.opd", "/data/topography/test_1.opd", false, true, .converted = true},
     {"sdf-1.sdf", "/data/topography/sdf-1.sdf", true, true, .converted = true},

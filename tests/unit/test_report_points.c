@@ -163,7 +163,9 @@ static void test_groups(void **state)
     static const char *const samples[] = {"HC", FIXTURE_EVIL}, *const conditions[] = {"mild",
                                                                                       "severe"};
     sections rates = begin_sections("collected_modulus"),
-             rubbers = begin_sections("collected_friction");
+             rubbers = begin_sections("collected_friction"),
+             forces = begin_sections("collected_force"),
+             constants = begin_sections("shared_constants");
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < 3; i++)
             next_is(&rates, (chosen){"collected_modulus",
@@ -174,8 +176,19 @@ static void test_groups(void **state)
             next_is(&rubbers, (chosen){"collected_friction",
                                        {"condition", "sample"},
                                        {conditions[k], samples[i]}});
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < 3; i++)
+            next_is(&forces, (chosen){"collected_force",
+                                      {"sample", "place"},
+                                      {samples[k], i == 0 ? "bulk" : conditions[i - 1]}});
+    for (size_t k = 0; k < 3; k++)
+        next_is(&constants, (chosen){"shared_members",
+                                     {"constant", "of"},
+                                     {"modulus over a decade of rate", k < 2 ? samples[k] : ""}});
     end_sections(&rates);
     end_sections(&rubbers);
+    end_sections(&forces);
+    end_sections(&constants);
     sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),
              dma = begin_sections("dma_comparison"), ratio = begin_sections("material_ratio");
     next_is(&dma, (chosen){.table = "dma_comparison"});

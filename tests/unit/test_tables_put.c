@@ -376,14 +376,19 @@ static void test_collection(void **state)
     see(tables.collection);
     see(tables.collected_modulus);
     see(tables.collected_friction);
+    see(tables.collected_force);
     see(tables.ratio_pairs);
+    see(tables.shared_constants);
+    see(tables.shared_members);
     wt_collection_tables_clear(&tables);
-    const wt_collect_job job = wt_collect_job_defaults();
+    wt_collect_job job = wt_collect_job_defaults();
+    job.constant_margin = 1e-9; /* which nothing meets */
     wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
     see(wt_result_find(labelled, "answer"));
     const wt_collected cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
     assert_int_equal(wt_collect(cases, 2, &job, &tables, NULL), WT_OK);
     assert_null(tables.ratio_pairs);
+    see(tables.shared_constants);
     wt_collection_tables_clear(&tables);
     wt_result_free(labelled);
     fixture_free();
@@ -1121,6 +1126,8 @@ static void see_surfaces(const char *const *files, size_t n)
     if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.power_spectrum);
+    if (tables.place_errors != NULL)
+        see(tables.place_errors);
     if (tables.angular_spectrum != NULL)
         see(tables.angular_spectrum);
     if (tables.height_map != NULL)

@@ -50,6 +50,64 @@
       "friction coefficient with the modified layer", NUMBER, SPARSE)
 #define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), TEXT)
 
+/* A block for each group of each case, and for each sample one of every group beside the cases. */
+#define COLLECTED_FORCE_COLUMNS(X)                                                                 \
+    OF_CASE(X, COLLECTED_FORCE)                                                                    \
+    X(COLLECTED_FORCE_PLACE, AS(place),                                                            \
+      "bulk, the condition of the track, or a group beside the cases", TEXT)                       \
+    X(COLLECTED_FORCE_INDENTATION, AS(indentation), "indentation depth", SI(INDENTATION))          \
+    X(COLLECTED_FORCE_FORCE, AS(force),                                                            \
+      "force above the baseline, of the curve with the median modulus", SI(FORCE))
+#define COLLECTED_FORCE_KEYS(X)
+
+#define OF_CONSTANT(X, ID)                                                                         \
+    X(ID##_CONSTANT, AS(constant), "what is compared", TEXT, LABEL("Constant"))                    \
+    X(ID##_OVER, AS(over), "what the cases have in common: sample, condition, or all cases", TEXT, \
+      LABEL("Common to"))                                                                          \
+    X(ID##_OF, AS(of), "its name", TEXT, LABEL("Of"))
+
+/* A constant that cases may have in common in each row. */
+#define SHARED_CONSTANTS_COLUMNS(X)                                                                \
+    OF_CONSTANT(X, SHARED_CONSTANTS)                                                               \
+    VALUE_AND_INTERVAL(X, SHARED_CONSTANTS_VALUE, "value", "shared value, weighted by the errors", \
+                       NUMBER, SHOWS(value), LABEL("Shared value"), SPARSE)                        \
+    X(SHARED_CONSTANTS_UNIT, AS(unit), "unit of the three numbers before", TEXT, LABEL("Unit"))    \
+    X(SHARED_CONSTANTS_N, AS(n), "values that it is of", NUMBER, LABEL("Values"))                  \
+    X(SHARED_CONSTANTS_CHI_SQUARED, AS(chi_squared), "chi-squared of their scatter about it",      \
+      NUMBER, LABEL("Chi-squared"), DIGITS(3))                                                     \
+    X(SHARED_CONSTANTS_DF, AS(df), "its degrees of freedom", NUMBER, LABEL("Degrees of freedom"))  \
+    X(SHARED_CONSTANTS_P, AS(p), "chance of as much scatter if one value is behind them", NUMBER,  \
+      LABEL("p"), DIGITS(2))                                                                       \
+    X(SHARED_CONSTANTS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of rows",     \
+      NUMBER, LABEL("p (Holm)"), DIGITS(2))                                                        \
+    X(SHARED_CONSTANTS_SUFFICES, AS(suffices), "does one value suffice: one, differs, cannot say", \
+      TEXT, LABEL("One value"))
+#define SHARED_CONSTANTS_KEYS(X)                                                                   \
+    X(SHARED_CONSTANTS_KEY_TESTED, "constants_tested", NUMBER, SHOWS(tested),                      \
+      LABEL("Constants tested"))                                                                   \
+    X(SHARED_CONSTANTS_KEY_DIFFERENT, "constants_that_differ", NUMBER, SHOWS(different),           \
+      LABEL("Constants that differ"))                                                              \
+    X(SHARED_CONSTANTS_KEY_UNDECIDED, AS(undecided), NUMBER,                                       \
+      LABEL("Constants of which it cannot be said"))                                               \
+    X(SHARED_CONSTANTS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))           \
+    X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT,                                       \
+      LABEL("What would settle the others"), OPTIONAL)                                             \
+    X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin))
+
+/* What it is the shared value of: a block for each. */
+#define SHARED_MEMBERS_COLUMNS(X)                                                                  \
+    OF_CONSTANT(X, SHARED_MEMBERS)                                                                 \
+    X(SHARED_MEMBERS_MEMBER, AS(member), "case, and bulk or track where it has both", TEXT,        \
+      LABEL("Case"))                                                                               \
+    X(SHARED_MEMBERS_NUMBER, AS(number), "its number", NUMBER)                                     \
+    X(SHARED_MEMBERS_VALUE, AS(value), "its own value", NUMBER, LABEL("Value"), DIGITS(4))         \
+    X(SHARED_MEMBERS_UNIT, AS(unit), "unit of that", TEXT, LABEL("Unit"))                          \
+    VALUE_AND_INTERVAL(X, SHARED_MEMBERS_RATIO, "ratio",                                           \
+                       "over the shared one; the intervals of all of a constant hold together in " \
+                       "95 %",                                                                     \
+                       NUMBER, SHOWS(ratio), LABEL("Over the shared one"), SPARSE)
+#define SHARED_MEMBERS_KEYS(X)
+
 /* Of every two cases of one sample or of one condition: by how much more the track of the first
  * differs from its bulk. */
 #define RATIO_PAIRS_COLUMNS(X)                                                                     \

@@ -92,6 +92,11 @@
       "Modulus against indentation rate, of all cases", "collect")                                 \
     X(collected_friction, COLLECTED_FRICTION, "collected_friction",                                \
       "Friction against velocity, of all cases", "collect")                                        \
+    X(collected_force, COLLECTED_FORCE, "collected_force",                                         \
+      "Force against indentation, of all cases", "collect")                                        \
+    X(shared_constants, SHARED_CONSTANTS, "shared_constants",                                      \
+      "Constants that cases have in common", "collect")                                            \
+    X(shared_members, SHARED_MEMBERS, "shared_members", "What a shared constant is of", "collect") \
     X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
       "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
@@ -113,6 +118,8 @@
     X(record_cycles, RECORD_CYCLES, "record_cycles", "Friction of every cycle", "record")          \
     X(wear, WEAR, "wear", "Wear as measured", "record")                                            \
     X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
+      "psd")                                                                                       \
+    X(place_errors, PLACE_ERRORS, "place_errors", "Errors of a power spectrum by its places",      \
       "psd")                                                                                       \
     X(angular_spectrum, ANGULAR_SPECTRUM, "angular_spectrum",                                      \
       "Angular spectrum of a measured surface", "psd")                                             \

@@ -19,13 +19,6 @@
       "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
       "together",                                                                                  \
       NUMBER, OPTIONAL, SPARSE)                                                                    \
-    X(POWER_SPECTRUM_PLACES_WIDE, AS(places_wide),                                                 \
-      "of scans of several sizes: standard error of ln C by the places of the widest scans, all "  \
-      "rows together",                                                                             \
-      NUMBER, OPTIONAL, SPARSE)                                                                    \
-    X(POWER_SPECTRUM_PLACES_NARROW, AS(places_narrow),                                             \
-      "by those of all narrower scans, likewise, and not together with that of the widest",        \
-      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(POWER_SPECTRUM_LAW, AS(self_affine), "the self-affine law that is fitted",                   \
       SI(POWER_SPECTRUM_2D), SPARSE)                                                               \
     X(POWER_SPECTRUM_MODES, AS(modes), "modes of the full plane in the bin", NUMBER, SPARSE)       \
@@ -66,6 +59,7 @@
       LABEL("Roughest direction of order 4 from x"), OPTIONAL)                                     \
     X(POWER_SPECTRUM_KEY_DIRECTIONS, "directions_verdict", TEXT, SHOWS(directions),                \
       LABEL("Directions"))                                                                         \
+    X(POWER_SPECTRUM_KEY_PROFILES, AS(profiles), TEXT, LABEL("What the profiles add"), OPTIONAL)   \
     X(POWER_SPECTRUM_KEY_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
     X(POWER_SPECTRUM_KEY_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
@@ -75,6 +69,19 @@
       LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
     X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention), OPTIONAL)              \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
+
+/* Of scans of several sizes, what the places of each give the rows of the spectrum. */
+#define PLACE_ERRORS_COLUMNS(X)                                                                    \
+    X(PLACE_ERRORS_SIZE, AS(size),                                                                 \
+      "scans that are alike in size and points, counted from the widest", NUMBER)                  \
+    X(PLACE_ERRORS_ROW, AS(row), "row of the table power_spectrum, from 1", NUMBER)                \
+    X(PLACE_ERRORS_WAVENUMBER, AS(wavenumber), "its wavenumber", SI(WAVENUMBER),                   \
+      LABEL("Wavenumber"))                                                                         \
+    X(PLACE_ERRORS_ERROR, "places_error",                                                          \
+      "standard error of ln C of the row by the places of these scans: all rows of a size "        \
+      "together, those of another size by themselves",                                             \
+      NUMBER, SHOWS(error))
+#define PLACE_ERRORS_KEYS(X)
 
 /* A direction in each row, half a turn of them: the other half is the same. */
 #define ANGULAR_SPECTRUM_COLUMNS(X)                                                                \

@@ -221,7 +221,9 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
 static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
 {
     const wt_prony *spectrum = f->options->spectrum;
-    const bool memory = f->kind.memory && !f->kind.adhesive;
+    /* a memory of a power of time, which is taken where that of the spectrum does not converge, has
+     * another unit */
+    const bool memory = f->kind.memory && !f->kind.adhesive && !(f->loss_power > 0.0);
     if (spectrum == NULL || !(fit->load_time > 0.0) || (f->another_rubber && !f->kind.adhesive))
         return;
     const double here = hereditary_modulus(spectrum, 1.0 / fit->load_time);

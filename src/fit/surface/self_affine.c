@@ -19,7 +19,7 @@ enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 typedef struct law_fit {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
     size_t n;
-    double *places;                    /* [n * n_places] parts of the scans in each y, or NULL */
+    double *places;                    /* [n * n_sizes] what the sizes have of each y, or NULL */
     double c, power;                   /* of the last roll-off that was tried: ln C0, -2 (1 + H), */
     double c_variance, power_variance; /* and theirs for that roll-off */
 } law_fit;
@@ -71,29 +71,54 @@ static double find_roll_off(law_fit *f, double *best)
     return at;
 }
 
-/* (J^T W J)^-1 times the misfit. */
-static bool find_covariance(const law_fit *f, double r, bool rolls_off, double misfit,
-                            double to[CONSTANTS][CONSTANTS])
+/* The law about its best constants, linear in those that are fitted: J^T W J, and in what order. */
+typedef struct linear_law {
+    const law_fit *f;
+    double r;
+    size_t n; /* 3, or 2 without a roll-off */
+    double normal[CONSTANTS][CONSTANTS];
+} linear_law;
+/* The roll-off last, for without one it is not fitted. */
+static const size_t fitted[CONSTANTS] = {LN_C0, HURST, LN_ROLL_OFF};
+
+/* What a constant changes a point by. */
+static double slope_of(const linear_law *l, size_t i, size_t constant)
 {
-    const size_t of[] = {LN_C0, HURST, LN_ROLL_OFF}, n = rolls_off ? 3 : 2;
-    double normal[CONSTANTS][CONSTANTS] = {{0}};
-    for (size_t i = 0; i < f->n; i++) {
-        const double x = f->x[i] - r, above = x > 0 ? 1 : 0;
-        const double slope[] = {1, -2 * above * x, -above * f->power};
-        for (size_t a = 0; a < n; a++)
-            for (size_t b = 0; b < n; b++)
-                normal[a][b] += f->weight[i] * slope[a] * slope[b];
-    }
-    for (size_t c = 0; c < n; c++) {
-        double m[CONSTANTS][CONSTANTS], e[CONSTANTS] = {0};
-        for (size_t a = 0; a < n; a++)
-            for (size_t b = 0; b < n; b++)
-                m[a][b] = normal[a][b];
+    const double x = l->f->x[i] - l->r;
+    return constant == LN_C0 ? 1 : !(x > 0) ? 0 : constant == HURST ? -2 * x : -l->f->power;
+}
+
+static linear_law linear_about(const law_fit *f, double r, bool rolls_off)
+{
+    linear_law l = {.f = f, .r = r, .n = rolls_off ? 3 : 2};
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t a = 0; a < l.n; a++)
+            for (size_t b = 0; b < l.n; b++)
+                l.normal[a][b] +=
+                    f->weight[i] * slope_of(&l, i, fitted[a]) * slope_of(&l, i, fitted[b]);
+    return l;
+}
+
+/* e becomes (J^T W J)^-1 e; in the order of `fitted`. */
+static bool solve_linear(const linear_law *l, double e[CONSTANTS])
+{
+    double m[CONSTANTS][CONSTANTS];
+    for (size_t a = 0; a < l->n; a++)
+        for (size_t b = 0; b < l->n; b++)
+            m[a][b] = l->normal[a][b];
+    return cholesky_solve(&m[0][0], CONSTANTS, l->n, (double)(l->n * l->n) * DBL_EPSILON, e);
+}
+
+/* (J^T W J)^-1 times the misfit. */
+static bool find_covariance(const linear_law *l, double misfit, double to[CONSTANTS][CONSTANTS])
+{
+    for (size_t c = 0; c < l->n; c++) {
+        double e[CONSTANTS] = {0};
         e[c] = misfit;
-        if (!cholesky_solve(&m[0][0], CONSTANTS, n, (double)(n * n) * DBL_EPSILON, e))
+        if (!solve_linear(l, e))
             return false;
-        for (size_t a = 0; a < n; a++)
-            to[of[a]][of[c]] = e[a];
+        for (size_t a = 0; a < l->n; a++)
+            to[fitted[a]][fitted[c]] = e[a];
     }
     return true;
 }
@@ -144,41 +169,31 @@ static wt_interval of_span(double value, value_span span, bool logarithm)
     return (wt_interval){exp(value), exp(value) * half, exp(span.low), exp(span.high)};
 }
 
-/* What the places make of ln c0 and of the power: each scan is off by an error of its own, the same
- * in all its bins, so that scans of two sizes tilt the law. The fit is linear in y at its
- * roll-off. */
-static void find_place_covariance(const law_fit *f, double r, const wt_surface_spectrum *s,
+/* What the places make of the constants: the scans of a size are off by an error of their own, the
+ * same in all their bins, so that scans of several sizes tilt the law and move its roll-off. */
+static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum *s,
                                   double to[CONSTANTS][CONSTANTS])
 {
+    const law_fit *const f = l->f;
     const double t = s->place_scatter > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
-    const double scatter = s->place_scatter > 0 ? t * s->place_scatter : 0;
-    double sum = 0, sx = 0, sxx = 0;
     if (f->places == NULL) {
         const double error = s->place_error > 0 ? t * s->place_error : 0;
         to[LN_C0][LN_C0] = error * error;
-        return;
+        return true;
     }
-    for (size_t k = 0; k < f->n; k++) {
-        const double x = fmax(0, f->x[k] - r);
-        sum += f->weight[k];
-        sx += f->weight[k] * x;
-        sxx += f->weight[k] * x * x;
+    for (size_t size = 0; t > 0 && size < s->n_sizes; size++) {
+        double e[CONSTANTS] = {0};
+        for (size_t k = 0; k < f->n; k++)
+            for (size_t a = 0; a < l->n; a++)
+                e[a] += f->weight[k] * slope_of(l, k, fitted[a]) * t * s->place_scatter *
+                        f->places[k * s->n_sizes + size];
+        if (!solve_linear(l, e))
+            return false;
+        for (size_t a = 0; a < l->n; a++)
+            for (size_t b = 0; b < l->n; b++)
+                to[fitted[a]][fitted[b]] += e[a] * e[b];
     }
-    const double d = sum * sxx - sx * sx;
-    for (size_t i = 0; i < s->n_places; i++) {
-        double y = 0, xy = 0;
-        for (size_t k = 0; k < f->n; k++) {
-            const double part = f->weight[k] * f->places[k * s->n_places + i];
-            y += part;
-            xy += part * fmax(0, f->x[k] - r);
-        }
-        const double power = scatter * (sum * xy - sx * y) / d,
-                     c = scatter * (sxx * y - sx * xy) / d, hurst = -power / 2;
-        to[LN_C0][LN_C0] += c * c;
-        to[LN_C0][HURST] += c * hurst;
-        to[HURST][LN_C0] += c * hurst;
-        to[HURST][HURST] += hurst * hurst;
-    }
+    return true;
 }
 
 static value_span with_places(value_span span, double value, double error)
@@ -187,45 +202,42 @@ static value_span with_places(value_span span, double value, double error)
                         value + hypot(span.high - value, error)};
 }
 
-static void fill_law(law_fit *f, double r, const wt_surface_spectrum *s, double freedom,
-                     wt_self_affine *to)
+static void fill_law(law_fit *f, double r, double freedom, wt_self_affine *to)
 {
     gsl_quiet();
     const double t = students_t_quantile(freedom);
     law_spans spans = find_spans(f, r, to->rolls_off, t, fmax(1, to->misfit));
     const double hurst = -f->power / 2 - 1;
-    find_place_covariance(f, r, s, to->place_covariance);
     for (size_t a = 0; a < CONSTANTS; a++)
         for (size_t b = 0; b < CONSTANTS; b++)
             to->covariance[a][b] += to->place_covariance[a][b];
     to->freedom = freedom;
-    value_span *const c = &spans.of[LN_C0], *const h = &spans.of[HURST];
-    *c = with_places(*c, f->c, t * sqrt(to->place_covariance[LN_C0][LN_C0]));
-    *h = with_places(*h, hurst, t * sqrt(to->place_covariance[HURST][HURST]));
-    to->c0 = of_span(f->c, *c, true);
+    const double best[CONSTANTS] = {[LN_C0] = f->c, [LN_ROLL_OFF] = r, [HURST] = hurst};
+    for (size_t a = 0; a < CONSTANTS; a++)
+        spans.of[a] = with_places(spans.of[a], best[a], t * sqrt(to->place_covariance[a][a]));
+    to->c0 = of_span(f->c, spans.of[LN_C0], true);
     to->roll_off = of_span(r, spans.of[LN_ROLL_OFF], true);
-    to->hurst = of_span(hurst, *h, false);
+    to->hurst = of_span(hurst, spans.of[HURST], false);
 }
 
 wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
                              wt_error *err)
 {
     *law = (wt_self_affine){.found = false};
-    law_fit f = {.x = malloc((3 + spectrum->n_places) * (spectrum->n + 1) * sizeof *f.x)};
+    law_fit f = {.x = malloc((3 + spectrum->n_sizes) * (spectrum->n + 1) * sizeof *f.x)};
     if (f.x == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
-    f.places = spectrum->n_places > 0 ? f.weight + spectrum->n : NULL;
+    f.places = spectrum->n_sizes > 0 ? f.weight + spectrum->n : NULL;
     for (size_t k = 0; k < spectrum->n; k++) {
         const wt_spectrum_bin *b = &spectrum->bins[k];
         if (!b->reliable)
             continue;
         f.x[f.n] = log(b->wavenumber);
         f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
-        for (size_t i = 0; i < spectrum->n_places; i++)
-            f.places[f.n * spectrum->n_places + i] =
-                spectrum->place_weight[k * spectrum->n_places + i];
+        for (size_t i = 0; i < spectrum->n_sizes; i++)
+            f.places[f.n * spectrum->n_sizes + i] = spectrum->place_part[k * spectrum->n_sizes + i];
         f.weight[f.n++] = 1 / surface_log_variance(b->shared_freedom);
     }
     if (f.n > CONSTANTS + 1) {
@@ -238,10 +250,12 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
         const double at = law->rolls_off ? r : f.x[0];
         law->n = f.n;
         law->misfit = chi_squared(&f, at) / (law->rolls_off ? freedom : freedom + 1);
+        const linear_law linear = linear_about(&f, at, law->rolls_off);
         law->found = f.power < 0 &&
-                     find_covariance(&f, at, law->rolls_off, fmax(1, law->misfit), law->covariance);
+                     find_covariance(&linear, fmax(1, law->misfit), law->covariance) &&
+                     find_place_covariance(&linear, spectrum, law->place_covariance);
         if (law->found)
-            fill_law(&f, at, spectrum, law->rolls_off ? freedom : freedom + 1, law);
+            fill_law(&f, at, law->rolls_off ? freedom : freedom + 1, law);
     }
     free(f.x);
     return WT_OK;

@@ -49,16 +49,14 @@ wt_interval surface_interval(double mean, double freedom);
 /* ---- places: surface_places.c -----------------------------------------------------------------
  */
 
-typedef enum surface_scans {
-    SURFACE_ALL_SCANS,
-    SURFACE_WIDE_SCANS,  /* that begin with the longest waves */
-    SURFACE_NARROW_SCANS /* all others */
-} surface_scans;
-/* Whether bins are of other scans than others are. */
-bool surface_places_differ(const wt_surface_spectrum *s);
-/* Standard error of ln C of a bin by the places of these scans, over the scatter of one place.
- * Where they are not kept all count alike, and as wide. */
-double surface_places_part(const wt_surface_spectrum *s, size_t bin, surface_scans which);
+/* Finds the sizes, and what they have, from the parts of the scans in each bin of `to`, [n_scans]
+ * for each. */
+wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_spectrum *to,
+                              wt_error *err) WT_NODISCARD;
+/* Standard error of ln C of a bin by the places of one size, over the scatter of one place; and by
+ * all. Where they are not kept all scans count alike. */
+double surface_places_of(const wt_surface_spectrum *s, size_t bin, size_t size);
+double surface_places_part(const wt_surface_spectrum *s, size_t bin);
 
 /* ---- C of C1: surface_invert.c ------------------------------------------------------------------
  */

@@ -29,7 +29,7 @@ void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum)
     if (spectrum == NULL)
         return;
     free(spectrum->bins);
-    free(spectrum->place_weight);
+    free(spectrum->place_part);
     *spectrum = (wt_surface_spectrum){.n = 0};
 }
 

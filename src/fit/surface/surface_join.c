@@ -153,7 +153,7 @@ static void find_place_error(wt_surface_spectrum *to)
 {
     double sum = 0;
     for (size_t k = 0; k < to->n; k++) {
-        const double part = surface_places_part(to, k, SURFACE_ALL_SCANS);
+        const double part = surface_places_part(to, k);
         sum += part * part;
     }
     to->place_error = to->place_scatter * sqrt(sum / (double)to->n);
@@ -267,25 +267,27 @@ wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
         return WT_E_EMPTY;
     }
     made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
-    made.place_weight = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof(double));
     j.offset = calloc(3 * n, sizeof *j.offset);
     j.group = calloc(n, sizeof *j.group);
+    double *weights = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof *weights);
     wt_status status = WT_OK;
-    if (made.bins == NULL || made.place_weight == NULL || j.offset == NULL || j.group == NULL)
+    if (made.bins == NULL || weights == NULL || j.offset == NULL || j.group == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     if (status == WT_OK) {
         j.weight = j.offset + n;
         find_places(&j, &made, j.offset + 2 * n);
-        made.n_places = n;
         for (int index = j.first; index <= j.last; index++)
             if (join_bin(&j, index, &made.bins[made.n]))
-                weigh_places(&j, index, made.place_weight + made.n++ * n);
+                weigh_places(&j, index, weights + made.n++ * n);
+        status = surface_places_take(weights, n, &made, err);
+    }
+    if (status == WT_OK) {
         find_place_error(&made);
         *joined = made;
     } else {
         free(made.bins);
-        free(made.place_weight);
     }
+    free(weights);
     free(j.offset);
     free(j.group);
     return status;
@@ -296,8 +298,7 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place = spectrum->place_scatter *
-                             surface_places_part(spectrum, bin, SURFACE_ALL_SCANS) *
+        const double place = spectrum->place_scatter * surface_places_part(spectrum, bin) *
                              students_t_quantile(spectrum->place_freedom) / NORMAL_95;
         freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
     }

@@ -76,8 +76,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     wt_surface_spectrum made = *profile;
     double *q = malloc(2 * profile->n * sizeof *q);
     made.kind = WT_SPECTRUM_2D;
-    made.n = made.n_places = 0;
-    made.place_weight = NULL; /* each bin of C is of many of C1 */
+    made.n = made.n_sizes = 0;
+    made.place_part = NULL; /* each bin of C is of many of C1 */
     made.bins = malloc(profile->n * sizeof *made.bins);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
     wt_status status = q != NULL && made.bins != NULL && rule != NULL

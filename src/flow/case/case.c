@@ -56,9 +56,9 @@ const char *wt_case_title(const wt_case *c)
     return c->title;
 }
 
-const char *wt_case_style(const wt_case *c)
+const wt_report_options *wt_case_report(const wt_case *c)
 {
-    return c->report.style;
+    return &c->report;
 }
 
 wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)

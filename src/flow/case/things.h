@@ -85,6 +85,7 @@
     X(WEAR, "wear", &wear_schema, "")                                                              \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(POWER_SPECTRUM, "power_spectrum", &power_spectrum_schema, "")                                \
+    X(PLACE_ERRORS, "place_errors", &place_errors_schema, "")                                      \
     X(ANGULAR_SPECTRUM, "angular_spectrum", &angular_spectrum_schema, "")                          \
     X(SURFACES, "surfaces", &surfaces_schema, "")                                                  \
     X(HEIGHT_MAP, "height_map", &height_map_schema, "")                                            \

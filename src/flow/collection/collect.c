@@ -4,18 +4,27 @@
 #include "flow/comparison/margin.h"
 
 #include "base/array.h"
+#include "base/normal.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Half as much again: a wear rate is hardly known better than to a fifth, and a margin that no
+ * error allows is none. */
+static const double constant_margin = 0.5;
+
 wt_collect_job wt_collect_job_defaults(void)
 {
-    return (wt_collect_job){.margin = 0.2};
+    return (wt_collect_job){.margin = 0.2, .constant_margin = constant_margin};
 }
 
-static const wt_param rows[] = {EQUIVALENCE_MARGIN(wt_collect_job)};
+static const wt_param rows[] = {
+    EQUIVALENCE_MARGIN(wt_collect_job),
+    {PARAM("constant-margin", wt_collect_job, constant_margin, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "relative difference of a constant that does not matter: that one value suffices for "
+             "several cases is said only if all of them lie within it"}};
 PARAM_TABLE(wt_collect_job_params, wt_collect_job, rows, wt_collect_job_defaults, NO_PARTS)
 
 void wt_collection_tables_clear(wt_collection_tables *tables)
@@ -25,7 +34,10 @@ void wt_collection_tables_clear(wt_collection_tables *tables)
     wt_table_free(tables->collection);
     wt_table_free(tables->collected_modulus);
     wt_table_free(tables->collected_friction);
+    wt_table_free(tables->collected_force);
     wt_table_free(tables->ratio_pairs);
+    wt_table_free(tables->shared_constants);
+    wt_table_free(tables->shared_members);
     *tables = (wt_collection_tables){0};
 }
 
@@ -56,6 +68,7 @@ static wt_status take_case(const wt_collected *from, collected_case *c, wt_error
         return status;
     }
     const wt_estimate ratio = comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO);
+    c->result = from->result;
     c->file = from->file;
     c->sample = text_or(answer_words(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
     c->condition = text_or(answer_words(&answer, ANSWER_KEY_CASE_CONDITION), "");
@@ -85,6 +98,11 @@ static wt_status check_names(const collected_case *cases, size_t n, wt_error *er
             return WT_E_AMBIGUOUS;
         }
     return WT_OK;
+}
+
+const char *collected_place(const collected_case *c, const char *group)
+{
+    return strcmp(group, "bulk") == 0 ? group : text_or(c->condition, "track");
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -134,6 +152,38 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
     return table_end(&w, table);
 }
 
+/* Relative standard error of what all curves of a group share (lever, tip and their like), by the
+ * budget of its modulus: 0 where nothing is stated, NaN where what is stated has an unknown effect.
+ * Between groups of one case it cancels, between cases it does not. */
+static double shared_error(const finding_tables *tables, const char *group)
+{
+    const table_view *budget = &tables->budget;
+    double variance = 0;
+    for (size_t row = 0; row < budget->n_rows; row++) {
+        const char *kind = modulus_budget_text(budget, row, MODULUS_BUDGET_KIND);
+        const double error = modulus_budget_get(budget, row, MODULUS_BUDGET_RELATIVE_ERROR);
+        if (strcmp(modulus_budget_text(budget, row, MODULUS_BUDGET_GROUP), group) != 0)
+            continue;
+        if (strcmp(kind, "together") == 0 && isnan(error))
+            return (double)NAN;
+        if (strcmp(kind, "shared") == 0 && !isnan(error))
+            variance += error * error;
+    }
+    return sqrt(variance);
+}
+
+/* The interval of a rate, which has the scatter of the spots, with what they share. */
+static wt_interval modulus_at(const collected_case *c, const char *group, size_t row)
+{
+    const table_view *rates = &c->tables.rates;
+    const double shared = NORMAL_95 * shared_error(&c->tables, group),
+                 value = modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
+                 down = log(value / modulus_rate_get(rates, row, MODULUS_RATE_LOW)),
+                 up = log(modulus_rate_get(rates, row, MODULUS_RATE_HIGH) / value);
+    return (wt_interval){value, (double)NAN, value * exp(-hypot(down, shared)),
+                         value * exp(hypot(up, shared))};
+}
+
 /* Rows of a rate, or one for all of a case that has none. */
 static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
 {
@@ -145,16 +195,11 @@ static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **t
         const char *before = "";
         for (size_t row = 0; row < rates->n_rows; row++) {
             const char *group = modulus_rate_text(rates, row, MODULUS_RATE_GROUP);
-            const bool bulk = strcmp(group, "bulk") == 0;
             if (strcmp(group, before) != 0)
                 table_block(&w);
             before = group;
-            TABLE_ADD(collected_modulus, &w, c->sample, c->condition,
-                      bulk ? "bulk" : text_or(c->condition, "track"),
-                      modulus_rate_get(rates, row, MODULUS_RATE_RATE),
-                      (wt_interval){modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
-                                    (double)NAN, modulus_rate_get(rates, row, MODULUS_RATE_LOW),
-                                    modulus_rate_get(rates, row, MODULUS_RATE_HIGH)});
+            TABLE_ADD(collected_modulus, &w, c->sample, c->condition, collected_place(c, group),
+                      modulus_rate_get(rates, row, MODULUS_RATE_RATE), modulus_at(c, group, row));
             n_rows++;
         }
     }
@@ -197,6 +242,27 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
     return table_end(&w, table);
 }
 
+/* Cases, those of one sample together; behind them, in `beside`, what is none. */
+static wt_status take_all(const wt_collected *from, size_t n, collected_case *cases,
+                          size_t *n_cases, wt_collected *beside, wt_error *err)
+{
+    *n_cases = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (wt_result_find(from[i].result, answer_schema.name) == NULL) {
+            beside[i - *n_cases] = from[i];
+            continue;
+        }
+        const wt_status status = take_case(&from[i], &cases[*n_cases], err);
+        if (status != WT_OK)
+            return status;
+        ++*n_cases;
+    }
+    if (*n_cases == 0)
+        return wt_fail(err, WT_E_EMPTY, "there is no case");
+    qsort(cases, *n_cases, sizeof *cases, by_sample);
+    return check_names(cases, *n_cases, err);
+}
+
 wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *job,
                      wt_collection_tables *tables, wt_error *err)
 {
@@ -204,23 +270,26 @@ wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *j
     if (n == 0)
         return wt_fail(err, WT_E_EMPTY, "there is no case");
     wt_status status = param_check(wt_collect_job_params(), job, err);
-    collected_case *cases = status == WT_OK ? calloc(n, sizeof *cases) : NULL;
-    if (status == WT_OK && cases == NULL)
+    collected_case *cases = calloc(n, sizeof *cases);
+    wt_collected *beside = calloc(n, sizeof *beside);
+    size_t n_cases = 0;
+    if (status == WT_OK && (cases == NULL || beside == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = take_case(&from[i], &cases[i], err);
-    if (status == WT_OK) {
-        qsort(cases, n, sizeof *cases, by_sample);
-        status = check_names(cases, n, err);
-    }
     if (status == WT_OK)
-        status = list_cases(cases, n, &tables->collection, err);
+        status = take_all(from, n, cases, &n_cases, beside, err);
     if (status == WT_OK)
-        status = list_moduli(cases, n, &tables->collected_modulus, err);
+        status = list_cases(cases, n_cases, &tables->collection, err);
     if (status == WT_OK)
-        status = list_friction(cases, n, &tables->collected_friction, err);
+        status = list_moduli(cases, n_cases, &tables->collected_modulus, err);
     if (status == WT_OK)
-        status = collect_pairs(cases, n, job->margin, &tables->ratio_pairs, err);
+        status = list_friction(cases, n_cases, &tables->collected_friction, err);
+    if (status == WT_OK)
+        status = collect_force(cases, n_cases, beside, n - n_cases, &tables->collected_force, err);
+    if (status == WT_OK)
+        status = collect_pairs(cases, n_cases, job->margin, &tables->ratio_pairs, err);
+    if (status == WT_OK)
+        status = collect_constants(cases, n_cases, job->constant_margin, tables, err);
+    free(beside);
     free(cases);
     if (status != WT_OK)
         wt_collection_tables_clear(tables);

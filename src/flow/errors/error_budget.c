@@ -68,6 +68,7 @@ static void hold_roughness(setting *s)
 {
     s->surface.c0.standard_error = 0;
     s->surface.modes_error = s->surface.law_error = s->surface.place_parts = NULL;
+    s->surface.n_sizes = 0;
 }
 
 /* What the spots tell, and what is known beside them: parts of one variance. */

@@ -56,8 +56,8 @@ typedef enum flow_extra {
       FLOW_NO_MORE, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                \
     X(TOPOGRAPHY, topography, "Power spectrum of the measured counter surface", B(HEIGHT_MAPS), 0, \
       FLOW_NO_MORE,                                                                                \
-      B(POWER_SPECTRUM) | B(ANGULAR_SPECTRUM) | B(SURFACES) | B(HEIGHT_MAP) | B(HEIGHT_PROFILE) |  \
-          B(ROUGHNESS) | B(SURFACE),                                                               \
+      B(POWER_SPECTRUM) | B(PLACE_ERRORS) | B(ANGULAR_SPECTRUM) | B(SURFACES) | B(HEIGHT_MAP) |    \
+          B(HEIGHT_PROFILE) | B(ROUGHNESS) | B(SURFACE),                                           \
       flow_step_topography)                                                                        \
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO), 0,           \
       FLOW_NO_MORE, B(MODULUS_RATIO), flow_step_given_ratio)                                       \

@@ -403,6 +403,7 @@ wt_status flow_step_topography(flow_run *run, wt_error *err)
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
+    run->table[FLOW_PLACE_ERRORS] = made.place_errors;
     run->table[FLOW_ANGULAR_SPECTRUM] = made.angular_spectrum;
     run->table[FLOW_SURFACES] = made.surfaces;
     run->table[FLOW_HEIGHT_MAP] = made.height_map;

@@ -108,32 +108,52 @@ static double *column_errors(const wt_table *table, power_spectrum_column which,
     return errors;
 }
 
-/* What scans of several sizes have of the places, if any row does. */
-static bool take_places(const wt_table *table, wt_surface *surface)
+/* The size or the row in a row of the table of places, from 0. */
+static bool counted(const table_view *places, size_t row, place_errors_column column, size_t most,
+                    size_t *to)
 {
-    const size_t n = surface->spectrum.n;
-    double *const wide = column_errors(table, POWER_SPECTRUM_PLACES_WIDE, n),
-                  *const narrow = column_errors(table, POWER_SPECTRUM_PLACES_NARROW, n),
-                  *parts = malloc((2 * n + 1) * sizeof *parts);
-    const bool made = wide != NULL && narrow != NULL && parts != NULL;
-    bool any = false;
-    for (size_t i = 0; made && i < n; i++) {
-        parts[2 * i] = wide[i] / surface->c0.standard_error;
-        parts[2 * i + 1] = narrow[i] / surface->c0.standard_error;
-        any = any || wide[i] > 0 || narrow[i] > 0;
-    }
-    free(wide);
-    free(narrow);
-    if (any)
-        surface->place_parts = parts;
-    else
-        free(parts);
-    return made;
+    const double value = place_errors_get(places, row, column);
+    if (!(value >= 1) || !(value <= (double)most))
+        return false;
+    *to = (size_t)value - 1;
+    return true;
 }
 
-/* The errors of the table power_spectrum and the ends of it. *taken: its rows are the points that
- * were read. */
-static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *taken, wt_error *err)
+/* What the places of scans of several sizes give the rows of the spectrum; of one size there is no
+ * such table. */
+static wt_status take_places(const wt_table *table, wt_surface *surface, wt_error *err)
+{
+    table_view view = {.n_rows = 0};
+    wt_status status =
+        table != NULL ? table_bind(table, &place_errors_schema, "", &view, err) : WT_OK;
+    const size_t n = surface->spectrum.n, rows = view.n_rows;
+    if (status != WT_OK || rows == 0)
+        return status;
+    for (size_t i = 0, size; status == WT_OK && i < rows; i++)
+        if (counted(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
+            surface->n_sizes = size + 1;
+    surface->place_parts = calloc(surface->n_sizes * n + 1, sizeof *surface->place_parts);
+    if (surface->place_parts == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0, size, at; status == WT_OK && i < rows; i++) {
+        const double error = place_errors_get(&view, i, PLACE_ERRORS_ERROR);
+        if (!counted(&view, i, PLACE_ERRORS_SIZE, surface->n_sizes, &size) ||
+            !counted(&view, i, PLACE_ERRORS_ROW, n, &at) || !(error >= 0) || !isfinite(error)) {
+            wt_fail(err, WT_E_RANGE, "row %zu of the table %s is of no row of the spectrum", i + 1,
+                    place_errors_schema.name);
+            wt_error_expected(err, "a size from 1, a row from 1 to %zu, an error of 0 or more", n);
+            status = WT_E_RANGE;
+        } else {
+            surface->place_parts[size * n + at] = error / surface->c0.standard_error;
+        }
+    }
+    return status;
+}
+
+/* The errors of the table power_spectrum and the ends of it, and those of its places, if there is
+ * such a table. *taken: its rows are the points that were read. */
+static wt_status take_errors(const wt_table *table, const wt_table *places, wt_surface *surface,
+                             bool *taken, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
     const long column =
@@ -153,11 +173,9 @@ static wt_status take_errors(const wt_table *table, wt_surface *surface, bool *t
         surface->c0.standard_error = place.value;
         surface->places_known = true;
     }
-    if (surface->c0.standard_error > 0 && !take_places(table, surface))
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
     surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
-    return WT_OK;
+    return surface->c0.standard_error > 0 ? take_places(places, surface, err) : WT_OK;
 }
 
 /* Of a file that this program wrote. One from a pipe is read once, and then friction has no error
@@ -180,7 +198,8 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
     const wt_table *table =
         status == WT_OK && !piped ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
     if (table != NULL)
-        status = take_errors(table, surface, &taken, err);
+        status = take_errors(table, wt_result_find(tables, place_errors_schema.name), surface,
+                             &taken, err);
     if (status == WT_OK && !taken && (piped || table != NULL))
         wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
                         "the errors of the spectrum are not read%s: no error holds the surface",
@@ -230,8 +249,9 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
 
 /* ---- from height maps ------------------------------------------------------------------------ */
 
-static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_error *err)
+static wt_status take_spectrum(const wt_topography_tables *made, wt_surface *surface, wt_error *err)
 {
+    const wt_table *const table = made->power_spectrum;
     const size_t n = wt_table_n_rows(table);
     wt_power_spectrum *const s = &surface->spectrum;
     bool taken = false;
@@ -244,7 +264,7 @@ static wt_status take_spectrum(const wt_table *table, wt_surface *surface, wt_er
         s->wavenumber[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_WAVENUMBER);
         s->density[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_DENSITY);
     }
-    return take_errors(table, surface, &taken, err);
+    return take_errors(table, made->place_errors, surface, &taken, err);
 }
 
 wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
@@ -255,7 +275,7 @@ wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     if (status == WT_OK)
-        status = take_spectrum(made.power_spectrum, surface, err);
+        status = take_spectrum(&made, surface, err);
     if (status == WT_OK && tables != NULL) {
         *tables = made;
         return WT_OK;
@@ -401,23 +421,23 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     /* each point has a draw of its own, behind all others, the law that of one more point, and the
-     * places of narrow scans that of another */
+     * places of each size but the first, which are drawn with the factor, that of another */
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
-    const double *const parts = surface->place_parts;
-    const double places = surface->c0.standard_error / surface->c0.value,
-                 narrow = parts == NULL
-                              ? 0
-                              : places * flow_draw_normal(seed, replicate,
-                                                          (flow_draw)(FLOW_DRAW_MODES + s->n + 1));
+    const bool sizes = surface->place_parts != NULL;
+    const double places = surface->c0.standard_error / surface->c0.value;
     for (size_t i = 0; i < s->n; i++) {
         const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
         const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
         drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
-        if (parts != NULL)
-            drawn.spectrum.density[i] *= pow(factor, parts[2 * i]) * exp(parts[2 * i + 1] * narrow);
     }
-    const wt_status status =
-        wt_surface_roughness(&drawn, parts != NULL ? 1 : factor, roughness, err);
+    for (size_t size = 0; size < surface->n_sizes; size++) {
+        const flow_draw what = (flow_draw)(FLOW_DRAW_MODES + s->n + size);
+        const double by =
+            size == 0 ? log(factor) : places * flow_draw_normal(seed, replicate, what);
+        for (size_t i = 0; i < s->n; i++)
+            drawn.spectrum.density[i] *= exp(by * surface->place_parts[size * s->n + i]);
+    }
+    const wt_status status = wt_surface_roughness(&drawn, sizes ? 1 : factor, roughness, err);
     free(drawn.spectrum.density);
     return status;
 }

@@ -44,6 +44,10 @@ void surface_knots_clear(surface_knots *knots);
 /* What the spectrum is as a whole. */
 typedef struct surface_whole {
     wt_surface_spectrum spectrum;
+    size_t n_maps, n_profiles;
+    wt_surface_spectrum maps; /* of both, that of the height maps alone; else without bins */
+    double profiles_from, profiles_to; /* then, what the profiles tell [rad/m] */
+    wt_interval profiles_ratio;        /* C by them over that by the maps; NaN */
     wt_self_affine law;
     wt_surface_anisotropy directions, fourth; /* of orders 2 and 4 */
     surface_knots knots;
@@ -52,6 +56,14 @@ typedef struct surface_whole {
     wt_estimate rms_height, rms_slope; /* of the knots */
     double extrapolated_share;         /* of the squared slope */
 } surface_whole;
+/* The spectra of the scans to one. */
+wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole *to,
+                             wt_error *err) WT_NODISCARD;
+/* What tells directions: the height maps, if there are any. */
+const wt_surface_spectrum *surface_of_maps(const surface_whole *whole);
+/* What profiles add to height maps; "" without either. */
+void surface_print_profiles(const surface_whole *w, char *to, size_t size);
+bool surface_profiles_disagree(const surface_whole *w);
 /* Of the reliable bins, to the end that the job asks for. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
@@ -60,9 +72,10 @@ double surface_law_error(const surface_whole *w, double wavenumber);
 /* What the places give all of the spectrum; with few of them it is hardly known itself: half an
  * interval of 95 %, over 1.96. NaN: not known. */
 double surface_place_error(const wt_surface_spectrum *s);
-/* Of scans of several sizes, what the places of these give a knot, likewise; the law beyond has
- * that of the last bin. NaN: not known, or every bin is of all scans. */
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which);
+/* Of scans of several sizes, what the places of one give a knot, and what those of all do,
+ * likewise; the law beyond has that of the last bin. NaN: not known, or there is one size. */
+double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size);
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot);
 /* Is it more than scatter? */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
 /* rms slope at which rubber stops following a surface, by practice. */

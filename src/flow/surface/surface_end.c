@@ -5,6 +5,7 @@
 #include "base/param.h"
 #include "fit/surface/surface.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -105,27 +106,18 @@ static wt_status find_number(const surface_knots *k, number_of *number, double *
     return status;
 }
 
-/* What a knot of the spectrum is moved up by, in ln C. */
-typedef double error_of_knot(const surface_whole *w, size_t knot);
+enum { NO_SIZE = INT_MAX };
 
+/* What its scatter moves a knot of the spectrum up by, in ln C. */
 static double own_error(const surface_whole *w, size_t i)
 {
     return i < w->knots.n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
                                    : surface_law_error(w, w->knots.wavenumber[i]);
 }
 
-static double wide_places(const surface_whole *w, size_t i)
-{
-    return surface_knot_places(&w->spectrum, i, SURFACE_WIDE_SCANS);
-}
-
-static double narrow_places(const surface_whole *w, size_t i)
-{
-    return surface_knot_places(&w->spectrum, i, SURFACE_NARROW_SCANS);
-}
-
-/* What the number is with the knots from `from` to `to` moved up, each by that error. */
-static wt_status move_knots(surface_whole *w, size_t from, size_t to, error_of_knot *error,
+/* What the number is with the knots from `from` to `to` moved up, each by its own error or, of a
+ * size, by what its places give. */
+static wt_status move_knots(surface_whole *w, size_t from, size_t to, size_t size,
                             number_of *number, double *moved, wt_error *err)
 {
     surface_knots *k = &w->knots;
@@ -134,7 +126,8 @@ static wt_status move_knots(surface_whole *w, size_t from, size_t to, error_of_k
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = from; i < to; i++) {
         was[i - from] = k->density[i];
-        k->density[i] *= exp(error(w, i));
+        k->density[i] *=
+            exp(size == NO_SIZE ? own_error(w, i) : surface_knot_size(&w->spectrum, i, size));
     }
     const wt_status status = find_number(k, number, moved, err);
     for (size_t i = from; i < to; i++)
@@ -144,20 +137,19 @@ static wt_status move_knots(surface_whole *w, size_t from, size_t to, error_of_k
 }
 
 /* Adds the squares of what the places make of the number: it is a root of a sum over C, and of
- * scans of several sizes those that are wide move what they have of it. */
+ * scans of several sizes each moves what it has of it. */
 static wt_status add_places(surface_whole *w, number_of *number, double value, double *square,
                             wt_error *err)
 {
-    const bool differ = surface_places_differ(&w->spectrum);
-    error_of_knot *const of[] = {wide_places, narrow_places};
+    const size_t n = w->spectrum.n_sizes;
     double moved = 0;
     wt_status status = WT_OK;
     if (!(w->spectrum.place_error > 0))
         return WT_OK;
     const double place = value * surface_place_error(&w->spectrum) / 2;
-    *square += differ ? 0 : place * place;
-    for (size_t i = 0; status == WT_OK && differ && i < 2; i++) {
-        status = move_knots(w, 0, w->knots.n, of[i], number, &moved, err);
+    *square += n > 1 ? 0 : place * place;
+    for (size_t size = 0; status == WT_OK && n > 1 && size < n; size++) {
+        status = move_knots(w, 0, w->knots.n, size, number, &moved, err);
         *square += (moved - value) * (moved - value);
     }
     return status;
@@ -174,11 +166,11 @@ static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate 
     if (status == WT_OK)
         status = add_places(w, number, value, &square, err);
     for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
-        status = move_knots(w, i, i + 1, own_error, number, &moved, err);
+        status = move_knots(w, i, i + 1, NO_SIZE, number, &moved, err);
         square += (moved - value) * (moved - value);
     }
     if (status == WT_OK && k->n > k->n_measured) {
-        status = move_knots(w, k->n_measured, k->n, own_error, number, &moved, err);
+        status = move_knots(w, k->n_measured, k->n, NO_SIZE, number, &moved, err);
         square += (moved - value) * (moved - value);
     }
     *to = (wt_estimate){value, sqrt(square), 0, NULL};

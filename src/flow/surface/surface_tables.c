@@ -21,14 +21,15 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, law_error, places_wide, places_narrow, self_affine, modes, scans;
-          const char *source;)
+          double modes_error, law_error, self_affine, modes, scans; const char *source;)
+TABLE_ROW(place_errors, PLACE_ERRORS, size_t size, row; double wavenumber, error;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
            anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
-           const char *directions, *includes, *lacks, *option, *anisotropy_option, *convention;
+           const char *directions, *profiles, *includes, *lacks, *option, *anisotropy_option,
+           *convention;
            size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
@@ -53,20 +54,35 @@ double surface_place_error(const wt_surface_spectrum *s)
                               : s->place_error;
 }
 
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot, surface_scans which)
+static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
 {
-    const size_t bin = knot < s->n ? knot : s->n - 1;
-    return s->place_error > 0 && surface_places_differ(s)
-               ? s->place_scatter * surface_places_part(s, bin, which) *
-                     students_t_quantile(s->place_freedom) / NORMAL_95
+    return knot < s->n ? knot : s->n - 1;
+}
+
+/* Of a scan at one place; NaN: not known, or there is one size. */
+static double one_place(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 && s->n_sizes > 1
+               ? s->place_scatter * students_t_quantile(s->place_freedom) / NORMAL_95
                : (double)NAN;
+}
+
+double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size)
+{
+    return s->n_sizes > 1 ? one_place(s) * surface_places_of(s, bin_of(s, knot), size)
+                          : (double)NAN;
+}
+
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
+{
+    return one_place(s) * surface_places_part(s, bin_of(s, knot));
 }
 
 double surface_law_error(const surface_whole *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 last = surface_knot_places(&w->spectrum, w->spectrum.n, SURFACE_ALL_SCANS),
+                 last = surface_knot_places(&w->spectrum, w->spectrum.n),
                  places = isnan(last) ? surface_place_error(&w->spectrum) : last,
                  common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
@@ -94,10 +110,8 @@ static void add_rows(table_writer *t, const surface_whole *w)
                   : law ? of_law(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  law ? surface_law_error(w, q) : nan,
-                  surface_knot_places(&w->spectrum, i, SURFACE_WIDE_SCANS),
-                  surface_knot_places(&w->spectrum, i, SURFACE_NARROW_SCANS),
-                  wt_self_affine_density(&w->law, q), bin ? (double)w->spectrum.bins[i].n : nan,
+                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
+                  bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
                   bin   ? "measured"
                   : cut ? "cut"
@@ -123,8 +137,7 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
 {
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
-        clocale_print(to, size,
-                      "cannot say: profiles are among the scans; height maps alone would tell");
+        clocale_print(to, size, "cannot say: profiles tell none; a height map would");
     else if (surface_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
@@ -193,7 +206,7 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
         const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
         const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
         double modes = 0;
-        const wt_interval ratio = wt_surface_sector(&w->spectrum, sector, &modes);
+        const wt_interval ratio = wt_surface_sector(surface_of_maps(w), sector, &modes);
         TABLE_ADD(angular_spectrum, &t, phi, ratio,
                   1 + two->amplitude * cos(2 * (phi - two->direction)) +
                       four->amplitude * cos(4 * (phi - four->direction)),
@@ -215,7 +228,7 @@ static const char *included(const surface_whole *w, bool places)
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
-    char law[256], directions[256], option[256], anisotropy[256];
+    char law[256], directions[256], profiles[256], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
     const bool places = !isnan(s->place_scatter);
     const double nan = (double)NAN;
@@ -223,6 +236,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     add_rows(&t, w);
     print_law(w, law, sizeof law);
     print_directions(w, directions, sizeof directions);
+    surface_print_profiles(w, profiles, sizeof profiles);
     print_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
     TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
@@ -244,13 +258,28 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
                   number(w->directions.direction, w->directions.direction_error),
               .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
               .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-              .directions = directions, .includes = included(w, places),
+              .directions = directions, .profiles = profiles, .includes = included(w, places),
               .lacks = places ? "calibration of the scanner, noise of the instrument"
                               : "places of the surface, calibration of the scanner, noise of the "
                                 "instrument",
               .option = option, .anisotropy_option = anisotropy,
               .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
               .n_scans = n_scans);
+    return table_end(&t, table);
+}
+
+/* ---- what the places of each size give it ------------------------------------------------------
+ */
+
+static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&place_errors_schema, err);
+    for (size_t size = 0; size < w->spectrum.n_sizes; size++)
+        for (size_t i = 0; i < w->knots.n; i++) {
+            const double error = surface_knot_size(&w->spectrum, i, size);
+            if (error > 0)
+                TABLE_ADD(place_errors, &t, size + 1, i + 1, w->knots.wavenumber[i], error);
+        }
     return table_end(&t, table);
 }
 
@@ -290,6 +319,7 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->power_spectrum);
+    wt_table_free(tables->place_errors);
     wt_table_free(tables->angular_spectrum);
     wt_table_free(tables->surfaces);
     wt_table_free(tables->scan_spectra);
@@ -307,6 +337,8 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     for (size_t i = 0; i < n; i++)
         maps = maps || scans[i].map.ny > 1;
     wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK && surface_knot_places(&whole->spectrum, 0) > 0)
+        status = make_place_errors(whole, &made.place_errors, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = make_angular(whole, &made.angular_spectrum, err);
     if (status == WT_OK)

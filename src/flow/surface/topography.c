@@ -114,53 +114,28 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
 
 /* ---- one spectrum of them -------------------------------------------------------------------- */
 
-/* The profiles among the scans, as one spectrum of the surface. */
-static wt_status invert_profiles(const wt_surface_spectrum *const *profiles, size_t n,
-                                 const wt_job *work, wt_surface_spectrum *to, wt_error *err)
+static void say_profiles(const surface_whole *w, const wt_job *work)
 {
-    wt_surface_spectrum one = {.n = 0};
-    wt_status status = wt_surface_join(profiles, n, &one, err);
-    if (status == WT_OK)
-        status = wt_surface_invert(&one, to, err);
-    wt_surface_spectrum_clear(&one);
-    if (status == WT_OK)
+    if (w->n_profiles > 0 && isnan(w->directions.amplitude))
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "the spectrum of profiles is told for a surface that is the same in all "
                         "directions; a height map would tell");
-    return status;
-}
-
-static wt_status join_scans(const surface_scan *scans, size_t n, const wt_job *work,
-                            wt_surface_spectrum *to, wt_error *err)
-{
-    const wt_surface_spectrum **of = malloc(2 * (n + 1) * sizeof *of);
-    if (of == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_surface_spectrum **profiles = of + n + 1;
-    wt_surface_spectrum inverted = {.n = 0};
-    size_t n_areas = 0, n_profiles = 0;
-    for (size_t i = 0; i < n; i++)
-        if (scans[i].spectrum.kind == WT_SPECTRUM_2D)
-            of[n_areas++] = &scans[i].spectrum;
-        else
-            profiles[n_profiles++] = &scans[i].spectrum;
-    wt_status status = WT_OK;
-    if (n_profiles > 0)
-        status = invert_profiles(profiles, n_profiles, work, &inverted, err);
-    if (status == WT_OK && n_areas > 0) {
-        if (n_profiles > 0)
-            of[n_areas++] = &inverted;
-        status = wt_surface_join(of, n_areas, to, err);
-        wt_surface_spectrum_clear(&inverted);
-    } else if (status == WT_OK) {
-        *to = inverted;
-    }
-    free(of);
-    return status;
+    else if (w->n_profiles > 0 && surface_anisotropic(&w->directions))
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "what the profiles tell is told for a surface that is the same in all "
+                        "directions, which by the height maps it is not");
+    if (surface_profiles_disagree(w))
+        wt_parselog_add(
+            work->log, WT_WARNING, NULL, NULL,
+            "the profiles and the height maps disagree: where both tell, the density by "
+            "the profiles is %.2g of that by the maps (95 %%: %.2g to %.2g); see "
+            "whether they are of one surface, and leave out what is not",
+            w->profiles_ratio.value, w->profiles_ratio.low, w->profiles_ratio.high);
 }
 
 static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
 {
+    say_profiles(w, work);
     if (n == 1)
         wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                         "one scan: how much places of the surface differ is not known, and no "
@@ -192,12 +167,12 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
     if (status == WT_OK)
         status = measure_scans(job, work, &files, scans, &n, err);
     if (status == WT_OK)
-        status = join_scans(scans, n, work, &whole.spectrum, err);
+        status = surface_join_scans(scans, n, &whole, err);
     if (status == WT_OK)
         status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
-        whole.directions = wt_surface_directions(&whole.spectrum, 2);
-        whole.fourth = wt_surface_directions(&whole.spectrum, 4);
+        whole.directions = wt_surface_directions(surface_of_maps(&whole), 2);
+        whole.fourth = wt_surface_directions(surface_of_maps(&whole), 4);
         say_whole(&whole, n, work);
         status = surface_end_find(job, work, &whole, err);
     }
@@ -212,6 +187,7 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
     free(scans);
     surface_knots_clear(&whole.knots);
     wt_surface_spectrum_clear(&whole.spectrum);
+    wt_surface_spectrum_clear(&whole.maps);
     flow_files_clear(&files);
     return status;
 }

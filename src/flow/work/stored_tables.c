@@ -91,6 +91,11 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
 
 wt_status wt_tables_read_headlines(const char *path, wt_result **tables, wt_error *err)
 {
+    const wt_status status = wt_store_read_abstract(path, tables, err);
+    if (status != WT_E_NOT_FOUND)
+        return status;
+    if (err != NULL)
+        *err = (wt_error)WT_ERROR_INIT;
     return read_tables(path, path, NULL, (wt_tables_role){.instead = NULL}, wt_store_read_headlines,
                        tables, err);
 }

@@ -6,21 +6,19 @@
 #include "read/gwyddion/gwyddion.h"
 
 #include "read/gwy/gwy.h"
+#include "read/gwyddion/surf.h"
 #include "read/images.h"
 #include "read/reader.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SURF "DIGITAL SURF"
-#define SURF_PACKED "DSCOMPRESSED"
-
 /* Any other file is given to Gwyddion by --format. */
 static const char *whose(const file_peek *peek)
 {
     if (PEEK_BEGINS(peek, "AliconaImaging"))
         return "Alicona";
-    if (PEEK_BEGINS(peek, SURF) || PEEK_BEGINS(peek, SURF_PACKED))
+    if (PEEK_BEGINS(peek, SURF_PLAIN) || PEEK_BEGINS(peek, SURF_PACKED))
         return "Digital Surf, MountainsMap";
     if (PEEK_BEGINS(peek, "\1\0Directory"))
         return "Wyko, Veeco";
@@ -45,8 +43,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
 static bool surf_has_missing(const file_peek *peek)
 {
     enum { FLAG = 86 };
-    return (PEEK_BEGINS(peek, SURF) || PEEK_BEGINS(peek, SURF_PACKED)) && peek->length > FLAG + 1 &&
-           peek->bytes[FLAG] == 1 && peek->bytes[FLAG + 1] == 0;
+    return (PEEK_BEGINS(peek, SURF_PLAIN) || PEEK_BEGINS(peek, SURF_PACKED)) &&
+           peek->length > FLAG + 1 && peek->bytes[FLAG] == 1 && peek->bytes[FLAG + 1] == 0;
 }
 
 /* Digital Surf marks them by a height below all others, and Gwyddion (2.62) takes it for one. A map
@@ -72,18 +70,40 @@ static void take_out_lowest(wt_image *image, const char *file, wt_parselog *log)
                     taken, n);
 }
 
+static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
+{
+    enum { HEAD = 512 };
+    return wt_input_peek(input, HEAD, &peek->bytes, &peek->length, &peek->whole, err);
+}
+
+/* Has Gwyddion convert the file, a compressed one of Digital Surf unpacked. */
+static wt_status convert(wt_input *input, wt_parselog *log, wt_input **converted, char version[64],
+                         wt_error *err)
+{
+    const gwyddion_limits *const limits = &gwyddion_usual_limits;
+    file_peek peek = {.name = wt_input_name(input)};
+    wt_status status = peek_head(input, &peek, err);
+    if (status != WT_OK || !PEEK_BEGINS(&peek, SURF_PACKED))
+        return status == WT_OK ? gwyddion_convert(input, limits, converted, version, err) : status;
+    wt_input *plain = NULL;
+    status = surf_unpack(input, limits->file_size, log, &plain, err);
+    if (status == WT_OK)
+        status = gwyddion_convert(plain, limits, converted, version, err);
+    wt_input_close(plain);
+    return status;
+}
+
 static wt_status read_images(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log, wt_image **images,
                              size_t *n_images, wt_error *err)
 {
-    enum { HEAD = 512 };
     char version[64];
     file_peek peek = {.name = wt_input_name(input)};
     wt_input *converted = NULL;
     wt_error inner = WT_ERROR_INIT;
     (void)self;
     (void)options;
-    wt_status status = gwyddion_convert(input, &gwyddion_usual_limits, &converted, version, err);
+    wt_status status = convert(input, log, &converted, version, err);
     if (status == WT_OK) {
         status = gwy_read(converted, true, log, images, n_images, &inner);
         if (status != WT_OK) {
@@ -93,10 +113,10 @@ static wt_status read_images(const file_reader *self, wt_input *input,
         }
         wt_input_close(converted);
     }
-    const wt_status seen = wt_input_peek(input, HEAD, &peek.bytes, &peek.length, &peek.whole, NULL);
+    const wt_status seen = peek_head(input, &peek, NULL); /* where the bytes are now */
     if (status != WT_OK) {
         const char *const maker = seen == WT_OK ? whose(&peek) : NULL;
-        if (maker != NULL)
+        if (maker != NULL && (err == NULL || err->found[0] == '\0'))
             wt_error_found(err, "a topography (%s)", maker);
         return status;
     }

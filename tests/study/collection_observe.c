@@ -1,0 +1,338 @@
+/* Whole studies through run and collect. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "collection_observe.h"
+#include "collection_sample.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What is neither more nor less than this is no difference; the default of collect. */
+static const double margin = 0.2;
+
+/* Where a row of a study belongs. */
+typedef struct study_place {
+    int compound, severity;
+} study_place;
+
+static const facts *scene_facts(int scene)
+{
+    return &collection_scenes[scene].facts;
+}
+
+static void *prepare(int scene)
+{
+    (void)scene;
+    return study_prepare();
+}
+
+static bool find_case(const stream *found, const char *table, int row, study_place *at)
+{
+    for (int c = 0; c < COMPOUNDS; c++)
+        for (int k = 0; k < SEVERITIES; k++)
+            if (stream_is(found, table, PLACE_SAMPLE, row, study_compound[c]) &&
+                stream_is(found, table, PLACE_CONDITION, row, study_severity[k])) {
+                *at = (study_place){c, k};
+                return true;
+            }
+    return false;
+}
+
+/* A "yes" is right if the ratio is not 1, a "no" if it is within the margin. */
+static void take_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
+                         const char *column, int row)
+{
+    const bool yes = stream_is(found, table, column, row, PLACE_YES) != 0,
+               no = stream_is(found, table, column, row, PLACE_NO) != 0;
+    const bool right = yes  ? fabs(log(ratio)) > 0
+                       : no ? fabs(log(ratio)) < log1p(margin)
+                            : stream_is(found, table, column, row, PLACE_CANNOT_SAY) != 0;
+    const double said = yes || no || !right ? 0 : (double)NAN;
+    trial_add(t, q, right ? 0 : 1, (estimate){0, said, said});
+    if (!right)
+        t->draw->verdict = NO;
+}
+
+/* ---- what collect says ----------------------------------------------------------------------- */
+
+static int read_cases(const collection_scene *s, const study_truth *truth, const stream *found,
+                      trial *t)
+{
+    const char *table = place_collected_ratio.table;
+    const int n = stream_rows(found, table);
+    enum { REFERENCE = 2 };
+    for (int row = 0; row < n; row++) {
+        study_place at;
+        if (!find_case(found, table, row, &at))
+            return -1;
+        const contact_truth *bare = &truth->contact[at.compound][at.severity];
+        const double ratio = s->cases[at.compound][at.severity].ratio;
+        trial_add(t, Q_RATIO, ratio, place_row(found, &place_collected_ratio, row));
+        trial_add(t, Q_THICKNESS, bare->thickness,
+                  place_row(found, &place_collected_thickness, row));
+        trial_add(
+            t, Q_CHANGE,
+            truth->with_layer[at.compound][at.severity][REFERENCE] / bare->friction[REFERENCE] - 1,
+            place_row(found, &place_collected_change, row));
+        take_verdict(t, Q_SAID_DIFFERS, ratio, found, table, PLACE_DIFFERS, row);
+    }
+    return n == COMPOUNDS * SEVERITIES ? 0 : -1;
+}
+
+static int nearest(double value, const double *of, int n)
+{
+    int best = 0;
+    for (int i = 1; i < n; i++)
+        if (fabs(log(value / of[i])) < fabs(log(value / of[best])))
+            best = i;
+    return best;
+}
+
+static int read_moduli(const collection_scene *s, const study_prepared *p, const stream *found,
+                       trial *t)
+{
+    static const double rate[STUDY_RATES] = {1e-7, 1e-6, 1e-5};
+    const char *table = place_collected_modulus.table;
+    const int n = stream_rows(found, table);
+    for (int row = 0; row < n; row++) {
+        study_place at;
+        if (!find_case(found, table, row, &at))
+            return -1;
+        const bool bulk = stream_is(found, table, PLACE_ZONE, row, "bulk") != 0;
+        const int k = nearest(stream_cell(found, table, PLACE_RATE, row), rate, STUDY_RATES);
+        trial_add(t, Q_GROUP_MODULUS,
+                  p->compound[at.compound].modulus[k] *
+                      (bulk ? 1 : s->cases[at.compound][at.severity].ratio),
+                  place_row(found, &place_collected_modulus, row));
+    }
+    return n == COMPOUNDS * SEVERITIES * 2 * STUDY_RATES ? 0 : -1;
+}
+
+static int read_friction(const study_truth *truth, const stream *found, trial *t)
+{
+    const char *table = place_collected_friction.table;
+    const int n = stream_rows(found, table);
+    for (int row = 0; row < n; row++) {
+        study_place at;
+        if (!find_case(found, table, row, &at))
+            return -1;
+        const int v = nearest(stream_cell(found, table, PLACE_VELOCITY, row), study_velocity,
+                              STUDY_VELOCITIES);
+        trial_add(t, Q_FRICTION, truth->contact[at.compound][at.severity].friction[v],
+                  place_row(found, &place_collected_friction, row));
+    }
+    return n == COMPOUNDS * SEVERITIES * STUDY_VELOCITIES ? 0 : -1;
+}
+
+static int place_of(const char *const *names, int n, const stream *found, const char *table,
+                    const char *column, int row)
+{
+    for (int i = 0; i < n; i++)
+        if (stream_is(found, table, column, row, names[i]))
+            return i;
+    return -1;
+}
+
+/* Of a compound two severities, or of a severity two compounds. */
+static int read_pairs(const collection_scene *s, const stream *found, trial *t)
+{
+    const int n = stream_rows(found, place_pair.table);
+    for (int row = 0; row < n; row++) {
+        const int c = place_of(study_compound, COMPOUNDS, found, place_pair.table, PLACE_PAIR_OF,
+                               row),
+                  k = place_of(study_severity, SEVERITIES, found, place_pair.table, PLACE_PAIR_OF,
+                               row);
+        const char *const *names = c >= 0 ? study_severity : study_compound;
+        const int first = place_of(names, 2, found, place_pair.table, PLACE_PAIR_FIRST, row),
+                  second = place_of(names, 2, found, place_pair.table, PLACE_PAIR_SECOND, row);
+        if ((c < 0 && k < 0) || first < 0 || second < 0)
+            return -1;
+        const double ratio = c >= 0 ? s->cases[c][first].ratio / s->cases[c][second].ratio
+                                    : s->cases[first][k].ratio / s->cases[second][k].ratio;
+        trial_add(t, Q_RATIO_PAIR, ratio, place_row(found, &place_pair, row));
+        take_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
+    }
+    return n == 2 * COMPOUNDS ? 0 : -1;
+}
+
+/* Where the values behind a constant are one, "differs" is wrong. Two severities wear so
+ * differently that "one" would be. */
+static void take_shared(trial *t, quantity q, double truth, const stream *found, int row)
+{
+    const char *table = place_shared.table;
+    const bool is_one = stream_is(found, table, PLACE_SUFFICES, row, PLACE_ONE) != 0,
+               differs = stream_is(found, table, PLACE_SUFFICES, row, PLACE_SHARED_DIFFERS) != 0,
+               right = !(isnan(truth) ? is_one : differs);
+    const double said = is_one || differs ? 0 : (double)NAN;
+    if (!isnan(truth))
+        trial_add(t, q, truth, place_row(found, &place_shared, row));
+    trial_add(t, Q_SAID_SHARED, right ? 0 : 1, (estimate){0, said, said});
+    if (!right)
+        t->draw->verdict = NO;
+}
+
+/* By least squares over three rates a decade apart. The second compound has the spectrum of the
+ * first, so that it is one of all. */
+static double rate_factor(const study_prepared *p)
+{
+    const double *e = p->compound[0].modulus;
+    return sqrt(e[STUDY_RATES - 1] / e[0]);
+}
+
+static int read_shared(const study_prepared *p, const study_truth *truth, const stream *found,
+                       trial *t)
+{
+    const char *table = place_shared.table;
+    const int n = stream_rows(found, table);
+    for (int row = 0; row < n; row++) {
+        const int k = place_of(study_severity, SEVERITIES, found, table, PLACE_PAIR_OF, row);
+        if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_WEAR))
+            take_shared(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found, row);
+        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_SHEAR))
+            take_shared(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
+        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_RATE_FACTOR))
+            take_shared(t, Q_SHARED_RATE, rate_factor(p), found, row);
+        else
+            return -1;
+    }
+    return n > 0 ? 0 : -1;
+}
+
+static void read_collected(const collection_scene *s, const study_prepared *p,
+                           const study_truth *truth, const char *path, trial *t)
+{
+    stream *found = stream_read(path);
+    if (found == NULL || read_cases(s, truth, found, t) != 0)
+        trial_broke(t, "other cases than were collected");
+    else if (read_moduli(s, p, found, t) != 0)
+        trial_broke(t, "other moduli than were collected");
+    else if (read_friction(truth, found, t) != 0)
+        trial_broke(t, "other frictions than were collected");
+    else if (read_pairs(s, found, t) != 0)
+        trial_broke(t, "other pairs of cases than there are");
+    else if (read_shared(p, truth, found, t) != 0)
+        trial_broke(t, "other constants than the cases have in common");
+    stream_free(found);
+}
+
+/* ---- what a case says ------------------------------------------------------------------------ */
+
+/* A table of a result; to be freed. NULL if there is none. */
+static stream *take_table(const char *result, const char *name, const char *path, trial *t)
+{
+    const char *const arguments[] = {"table", result, name, "--as", "stream", "-o", path, NULL};
+    return trial_run(t, arguments) ? stream_read(path) : NULL;
+}
+
+/* The record is made by the theory, so that it never fails to explain. */
+static bool read_validation(const study_truth *truth, const char *result, const char *path,
+                            trial *t)
+{
+    stream *found = take_table(result, PLACE_VALIDATION, path, t);
+    const char *said =
+        found != NULL ? stream_key(found, PLACE_VALIDATION, PLACE_VALIDATION_VERDICT) : NULL;
+    if (said != NULL) {
+        const bool wrong = strncmp(said, "does not", strlen("does not")) == 0,
+                   open = strncmp(said, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0;
+        const double stated = open ? (double)NAN : 0;
+        trial_add(t, Q_SAID_RECORD, wrong ? 1 : 0, (estimate){0, stated, stated});
+        if (wrong)
+            t->draw->verdict = NO;
+        trial_add(t, Q_FRICTION_RATIO, 1, place_key(found, &place_friction_ratio));
+        trial_add(t, Q_NEEDED_SHEAR, truth->shear_stress, place_key(found, &place_needed_shear));
+    }
+    stream_free(found);
+    return said != NULL;
+}
+
+static bool read_record(const study_truth *truth, int c, int k, const char *result,
+                        const char *path, trial *t)
+{
+    stream *found = take_table(result, place_steady.table, path, t);
+    const bool whole = found != NULL && stream_rows(found, place_steady.table) == STUDY_VELOCITIES;
+    for (int v = 0; whole && v < STUDY_VELOCITIES; v++)
+        trial_add(t, Q_STEADY, truth->with_layer[c][k][v], place_row(found, &place_steady, v));
+    stream_free(found);
+    found = whole ? take_table(result, place_wear_rate.table, path, t) : NULL;
+    const bool worn = found != NULL && stream_rows(found, place_wear_rate.table) > 0;
+    if (worn)
+        trial_add(t, Q_WEAR_RATE, truth->wear_rate[k], place_row(found, &place_wear_rate, 0));
+    stream_free(found);
+    return worn;
+}
+
+/* Does friction take the wavenumbers of which the truth is known? */
+static bool is_surface(const char *result, const char *path, trial *t)
+{
+    const double near = 1e-3;
+    stream *found = take_table(result, PLACE_ROUGHNESS, path, t);
+    const int n = found != NULL ? stream_rows(found, PLACE_ROUGHNESS) : 0;
+    const bool is =
+        n > 1 &&
+        fabs(stream_cell(found, PLACE_ROUGHNESS, PLACE_WAVENUMBER, 0) / study_q0 - 1) < near &&
+        fabs(stream_cell(found, PLACE_ROUGHNESS, PLACE_WAVENUMBER, n - 1) / study_q1 - 1) < near;
+    stream_free(found);
+    return is;
+}
+
+static bool read_case(const study_truth *truth, int c, int k, const char *result, trial *t)
+{
+    const char *path = trial_file(t, "table.tsv");
+    if (!is_surface(result, path, t))
+        trial_broke(t, "a surface of other wavenumbers");
+    else if (!read_record(truth, c, k, result, path, t))
+        trial_broke(t, "another number of steps, or no wear");
+    else if (!read_validation(truth, result, path, t))
+        trial_broke(t, "no verdict on the record");
+    return t->draw->outcome == OUTCOME_GOOD;
+}
+
+static bool run_case(const collection_scene *s, const study_prepared *p, const study_truth *truth,
+                     const study_files *files, int c, int k, random_source *random,
+                     const char *result, trial *t)
+{
+    char name[24];
+    snprintf(name, sizeof name, "%s-%s.xml", study_compound[c], study_severity[k]);
+    const char *path = trial_file(t, name);
+    const char *const arguments[] = {"run",         path,        "-o", result,
+                                     "--no-report", "--threads", "1",  NULL};
+    if (study_write_case(s, p, truth, files, c, k, random, t, path) != 0) {
+        trial_broke(t, "the files of a case cannot be written");
+        return false;
+    }
+    return trial_run(t, arguments) && read_case(truth, c, k, result, t);
+}
+
+static void observe(int scene, const void *prepared, random_source *random, trial *t)
+{
+    const collection_scene *s = &collection_scenes[scene];
+    const study_prepared *p = prepared;
+    const char *collected = trial_file(t, "collected.tsv"), *results[COMPOUNDS * SEVERITIES];
+    const study_files files = {{trial_file(t, "wide1.gsf"), trial_file(t, "wide2.gsf"),
+                                trial_file(t, "near1.gsf"), trial_file(t, "near2.gsf")},
+                               {trial_file(t, "dma-HC.csv"), trial_file(t, "dma-HS.csv")}};
+    const study_truth truth = study_draw(s, p, random);
+    t->draw->verdict = YES;
+    if (study_write_common(p, random, &files) != 0) {
+        trial_broke(t, "the files of a study cannot be written");
+        return;
+    }
+    for (int i = 0; i < COMPOUNDS * SEVERITIES; i++) {
+        char name[24];
+        const int c = i / SEVERITIES, k = i % SEVERITIES;
+        snprintf(name, sizeof name, "%s-%s.h5", study_compound[c], study_severity[k]);
+        results[i] = trial_file(t, name);
+        if (!run_case(s, p, &truth, &files, c, k, random, results[i], t))
+            return;
+    }
+    const char *const arguments[] = {"collect",  results[0],        results[1],
+                                     results[2], results[3],        "-o",
+                                     collected,  "--no-provenance", NULL};
+    if (trial_run(t, arguments))
+        read_collected(s, p, &truth, collected, t);
+}
+
+family collection_family(void)
+{
+    return (family){
+        .n = n_collection_scenes, .facts = scene_facts, .prepare = prepare, .observe = observe};
+}

@@ -1,0 +1,9 @@
+/* Whole studies through run and collect. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_COLLECTION_OBSERVE_H
+#define STUDY_COLLECTION_OBSERVE_H
+
+#include "trial.h"
+
+family collection_family(void);
+
+#endif

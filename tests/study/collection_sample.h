@@ -1,0 +1,52 @@
+/* The truth behind a whole study, and its files. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_COLLECTION_SAMPLE_H
+#define STUDY_COLLECTION_SAMPLE_H
+
+#include "afm_sample.h"
+#include "collection_scene.h"
+#include "contact.h"
+#include "material.h"
+#include "trial.h"
+
+enum { STUDY_RATES = 3, STUDY_VELOCITIES = 4 };
+extern const double study_velocity[STUDY_VELOCITIES]; /* [m/s] */
+extern const double study_q0, study_q1;               /* what the scans resolve [rad/m] */
+extern const char *const study_compound[COMPOUNDS], *const study_severity[SEVERITIES];
+
+/* Of a compound: the rubber of its isotherms, and the curve at each rate of a lever that does not
+ * bend, as base positions and forces. */
+typedef struct study_compound_truth {
+    rubber rubber;
+    double modulus[STUDY_RATES]; /* |E*| at 1/(time of loading) [Pa] */
+    afm_sample *curve[STUDY_RATES];
+} study_compound_truth;
+
+typedef struct study_prepared {
+    study_compound_truth compound[COMPOUNDS];
+} study_prepared;
+
+/* What all draws share; to be freed as one. */
+study_prepared *study_prepare(void);
+
+/* What is drawn once for a study, and what follows from it for each case. */
+typedef struct study_truth {
+    double shear_stress, lever, wear_rate[SEVERITIES], critical_energy[COMPOUNDS];
+    contact_truth contact[COMPOUNDS][SEVERITIES]; /* without the layer */
+    double with_layer[COMPOUNDS][SEVERITIES][STUDY_VELOCITIES];
+} study_truth;
+
+study_truth study_draw(const collection_scene *s, const study_prepared *p, random_source *random);
+
+/* Files of the counter surface and of the isotherms of the compounds, which the cases have in
+ * common. */
+typedef struct study_files {
+    const char *scans[4], *sweep[COMPOUNDS];
+} study_files;
+
+int study_write_common(const study_prepared *p, random_source *random, const study_files *files);
+/* The case file of a compound and a severity, its curves and its record; 0 or -1. */
+int study_write_case(const collection_scene *s, const study_prepared *p, const study_truth *truth,
+                     const study_files *files, int compound, int severity, random_source *random,
+                     trial *t, const char *path);
+
+#endif

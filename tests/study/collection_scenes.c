@@ -1,0 +1,11 @@
+/* Whole studies of several rubbers and severities. Fixed before the method was tried on any of
+ * them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "collection_scene.h"
+
+const collection_scene collection_scenes[] = {
+    {NAMED("G1",
+           "two compounds at two severities: soft tracks, one without a layer, one undecidable"),
+     .facts.intervals_promised = true, .facts.right = RIGHT(YES),
+     .cases = {{{0.82, 5, 0.04}, {0.64, 5, 0.04}}, {{1, 5, 0.04}, {0.64, 3, 0.25}}}},
+};
+const int n_collection_scenes = sizeof collection_scenes / sizeof collection_scenes[0];

@@ -1,0 +1,231 @@
+/* The abstract of a result file: what headlines are made of, without HDF5, and never older than
+ * the file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/data.h"
+
+#include <endian.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char path[] = "/tmp/weartrack-abstract-XXXXXX";
+enum { END = 16 }; /* bytes behind an abstract: its length, its mark */
+
+static int set_up(void **state)
+{
+    (void)state;
+    const int fd = mkstemp(path);
+    return fd >= 0 ? close(fd) : -1;
+}
+
+static int clean(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static void add_table(wt_result *result, const char *name, size_t n_rows)
+{
+    wt_table *const t = wt_table_new(name, "some words");
+    assert_non_null(t);
+    assert_int_equal(wt_table_add_text_column(t, "file", "name", NULL), WT_OK);
+    assert_int_equal(wt_table_add_column(t, "modulus", "Pa", "Young's modulus", NULL), WT_OK);
+    assert_int_equal(wt_table_set_key(t, "case_title", "made", NULL), WT_OK);
+    assert_int_equal(
+        wt_table_set_estimate(t, "modulus", (wt_estimate){1e6, 1e3, (double)NAN, "Pa"}, NULL),
+        WT_OK);
+    for (size_t i = 0; i < n_rows; i++) {
+        assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(t, 0, "curve", NULL), WT_OK);
+        wt_table_put(t, 1, 1e6 + (double)i);
+    }
+    assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
+}
+
+/* Writes the file anew and gives its size. */
+static size_t write_result(void)
+{
+    struct stat info;
+    wt_result *const result = wt_result_new();
+    assert_non_null(result);
+    add_table(result, "indentation/track", 40);
+    add_table(result, "answer", 3);
+    add_table(result, "shift_factors", 500);
+    add_table(result, "notes", 7);
+    assert_int_equal(wt_store_write(path, result, true, NULL), WT_OK);
+    wt_result_free(result);
+    assert_int_equal(stat(path, &info), 0);
+    return (size_t)info.st_size;
+}
+
+static void change_byte(size_t at)
+{
+    FILE *const file = fopen(path, "r+b");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, (long)at, SEEK_SET), 0);
+    const int is = fgetc(file);
+    assert_int_equal(fseek(file, (long)at, SEEK_SET), 0);
+    assert_true(fputc(is ^ 1, file) != EOF);
+    assert_int_equal(fclose(file), 0);
+}
+
+static uint64_t length_of_abstract(size_t size)
+{
+    uint64_t length = 0;
+    FILE *const file = fopen(path, "rb");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, (long)size - END, SEEK_SET), 0);
+    assert_int_equal(fread(&length, sizeof length, 1, file), 1);
+    assert_int_equal(fclose(file), 0);
+    return le64toh(length);
+}
+
+static wt_status read_abstract(wt_error *err)
+{
+    wt_result *read = NULL;
+    *err = (wt_error)WT_ERROR_INIT;
+    const wt_status status = wt_store_read_abstract(path, &read, err);
+    assert_true((read != NULL) == (status == WT_OK));
+    wt_result_free(read);
+    return status;
+}
+
+static void assert_whole(void)
+{
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_read(path, &read, NULL), WT_OK);
+    assert_int_equal(wt_result_n_tables(read), 4);
+    wt_result_free(read);
+}
+
+/* The tables with their keys; of those that are headlines by their keys alone, no rows. */
+static void what_headlines_need(void **state)
+{
+    (void)state;
+    wt_result *all = NULL, *read = NULL;
+    (void)write_result();
+    assert_int_equal(wt_store_read(path, &all, NULL), WT_OK);
+    assert_int_equal(wt_store_read_abstract(path, &read, NULL), WT_OK);
+    assert_int_equal(wt_result_n_tables(read), 3);
+    assert_null(wt_result_find(read, "indentation/track"));
+    static const struct {
+        const char *name;
+        size_t n_rows;
+    } expected[] = {{"answer", 0}, {"shift_factors", 0}, {"notes", 7}};
+    for (size_t i = 0; i < 3; i++) {
+        const wt_table *const t = wt_result_find(read, expected[i].name);
+        wt_estimate e = {0};
+        assert_non_null(t);
+        assert_int_equal(wt_table_n_rows(t), expected[i].n_rows);
+        assert_int_equal(wt_table_n_columns(t), 2);
+        assert_string_equal(wt_table_key(t, "case_title"), "made");
+        assert_true(wt_table_estimate(t, "modulus", &e));
+        assert_true(e.value == 1e6 && e.standard_error == 1e3 && e.numerical_error != 0.0);
+    }
+    const wt_table *const notes = wt_result_find(read, "notes");
+    const wt_table *const of_all = wt_result_find(all, "notes");
+    for (size_t row = 0; row < 7; row++)
+        assert_true(wt_table_number(notes, row, 1) == wt_table_number(of_all, row, 1));
+    wt_result_free(read);
+    wt_result_free(all);
+    assert_whole();
+}
+
+/* Each changed byte is noticed, or the file is read as one without an abstract: what is read by
+ * HDF5 does not hang on it. */
+static void every_byte(void **state)
+{
+    (void)state;
+    wt_error err;
+    const size_t size = write_result();
+    const size_t length = (size_t)length_of_abstract(size);
+    assert_true(length > 500 && length + END < size);
+    for (size_t at = size - END - length; at < size; at++) {
+        change_byte(at);
+        const wt_status status = read_abstract(&err);
+        if (status == WT_OK)
+            fail_msg("byte %zu of %zu is changed and not noticed", at - (size - END - length),
+                     length);
+        assert_true(status == WT_E_NOT_FOUND || (status == WT_E_CORRUPT && err.file[0] != '\0'));
+        assert_true(status == WT_E_CORRUPT || at >= size - END);
+        change_byte(at);
+    }
+    assert_int_equal(read_abstract(&err), WT_OK);
+    assert_whole();
+}
+
+/* A program that opens the file for writing, even one that changes nothing, takes it away. */
+static void not_older_than_the_file(void **state)
+{
+    (void)state;
+    wt_error err;
+    const size_t size = write_result();
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    const double other = 5.0;
+    const hid_t column = H5Dopen2(file, "/notes/modulus", H5P_DEFAULT);
+    const hsize_t first = 0, one = 1;
+    const hid_t in_file = H5Dget_space(column), in_memory = H5Screate_simple(1, &one, NULL);
+    assert_true(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &first, NULL, &one, NULL) >= 0);
+    assert_true(H5Dwrite(column, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, &other) >= 0);
+    assert_true(H5Sclose(in_file) >= 0 && H5Sclose(in_memory) >= 0 && H5Dclose(column) >= 0 &&
+                H5Fclose(file) >= 0);
+    struct stat info;
+    assert_int_equal(stat(path, &info), 0);
+    assert_true((size_t)info.st_size < size);
+    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_read(path, &read, &err), WT_E_CORRUPT); /* by its digest */
+    assert_null(read);
+}
+
+static void put_file(const void *begin, size_t n_begin, uint64_t length)
+{
+    const uint64_t low_first = htole64(length);
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(begin, 1, n_begin, file), n_begin);
+    assert_int_equal(fwrite(&low_first, sizeof low_first, 1, file), 1);
+    assert_int_equal(fwrite("WTABST1\n", 1, 8, file), 8);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Lengths that are none, and a text that ends as an abstract does. */
+static void made_files(void **state)
+{
+    (void)state;
+    wt_error err;
+    char begin[64] = "\x89HDF\r\n\x1a\n";
+    static const uint64_t none[] = {0, sizeof begin + 1, UINT64_MAX, UINT64_MAX - 7, 1ull << 63};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        put_file(begin, sizeof begin, none[i]);
+        assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    }
+    /* Longer than any may be, in a file that takes no room. */
+    put_file(begin, sizeof begin, (uint64_t)1 << 40);
+    FILE *const file = fopen(path, "r+b");
+    const uint64_t length = htole64((uint64_t)1 << 30);
+    assert_non_null(file);
+    assert_int_equal(fseek(file, (long)2 << 30, SEEK_SET), 0);
+    assert_int_equal(fwrite(&length, sizeof length, 1, file), 1);
+    assert_int_equal(fwrite("WTABST1\n", 1, 8, file), 8);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    put_file(begin, sizeof begin, sizeof begin);
+    assert_int_equal(read_abstract(&err), WT_E_CORRUPT);
+    begin[0] = '#';
+    put_file(begin, sizeof begin, sizeof begin);
+    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    assert_int_equal(wt_store_read_abstract("/dev/null", &(wt_result *){NULL}, &err),
+                     WT_E_NOT_FOUND);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_headlines_need), cmocka_unit_test(every_byte),
+        cmocka_unit_test(not_older_than_the_file), cmocka_unit_test(made_files)};
+    return cmocka_run_group_tests_name("abstract of a result", tests, set_up, clean);
+}

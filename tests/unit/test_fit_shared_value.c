@@ -1,0 +1,107 @@
+/* One value behind several, against closed forms and draws.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/comparison/shared_value.h"
+#include "near.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+/* Two normal values: a mean of inverse variances and the square of their distance. */
+static void test_two(void **state)
+{
+    (void)state;
+    const wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {1.3, 0.2, (double)NAN}};
+    shared_value found;
+    shared_deviation d[2];
+    assert_int_equal(shared_value_fit(of, NULL, NULL, 2, &found, d, NULL), WT_OK);
+    assert_near(found.value, (1 / 0.01 + 1.3 / 0.04) / 125, 1e-12);
+    assert_near(found.error, sqrt(1.0 / 125), 1e-12);
+    assert_near(found.chi_squared, 0.09 / 0.05, 1e-12);
+    assert_near(found.df, 1, 0);
+    assert_near(found.p, gsl_cdf_chisq_Q(1.8, 1), 1e-12);
+    /* of a value less the mean, by Bonferroni */
+    assert_near(d[1].value, 1.3 - found.value, 1e-12);
+    assert_near(d[1].high - d[1].value, gsl_cdf_ugaussian_Qinv(0.0125) * sqrt(0.04 - 1.0 / 125),
+                1e-12);
+}
+
+/* What both share leaves their distance as it is and does not average out. */
+static void test_common(void **state)
+{
+    (void)state;
+    const double shared[] = {0, 0.09, 0.09, 0};
+    const wt_log_ratio of[] = {{2, sqrt(0.1), (double)NAN}, {2.2, sqrt(0.1), (double)NAN}};
+    shared_value found;
+    shared_deviation d[2];
+    assert_int_equal(shared_value_fit(of, shared, shared, 2, &found, d, NULL), WT_OK);
+    assert_near(found.value, 2.1, 1e-12);
+    assert_near(found.error, sqrt(0.09 + 0.01 / 2), 1e-12);
+    assert_near(found.chi_squared, 0.04 / 0.02, 1e-9);
+    /* possible alone: the test is that of errors of their own */
+    assert_int_equal(shared_value_fit(of, NULL, shared, 2, &found, d, NULL), WT_OK);
+    assert_near(found.chi_squared, 0.04 / 0.2, 1e-9);
+    assert_near(found.error, sqrt(0.09 + 0.01 / 2), 1e-12);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const double too_much[] = {0, 0.02, 0.02, 0};
+    wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {2, 0.1, (double)NAN}};
+    shared_value found;
+    shared_deviation d[2];
+    assert_int_equal(shared_value_fit(of, NULL, NULL, 1, &found, d, NULL), WT_E_ARG);
+    assert_int_equal(shared_value_fit(of, too_much, NULL, 2, &found, d, NULL), WT_E_ARG);
+    of[0].standard_error = 0;
+    assert_int_equal(shared_value_fit(of, NULL, NULL, 2, &found, d, NULL), WT_E_ARG);
+}
+
+/* Means of a few values each that scatter by different amounts: how often the interval holds the
+ * truth, and how often they are said to differ. */
+static void count(int each)
+{
+    enum { DRAWS = 4000, GROUPS = 4, MOST = 10 };
+    static const double scatter[GROUPS] = {0.1, 0.1, 0.3, 0.5};
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_taus2);
+    int held = 0, different = 0;
+    for (int i = 0; i < DRAWS; i++) {
+        wt_log_ratio of[GROUPS];
+        shared_value found;
+        shared_deviation d[GROUPS];
+        for (int g = 0; g < GROUPS; g++) {
+            double x[MOST], mean = 0, square = 0;
+            for (int k = 0; k < each; k++)
+                mean += (x[k] = 3 + gsl_ran_gaussian(random, scatter[g])) / each;
+            for (int k = 0; k < each; k++)
+                square += (x[k] - mean) * (x[k] - mean) / (each - 1);
+            of[g] = (wt_log_ratio){mean, sqrt(square / each), each - 1};
+        }
+        assert_int_equal(shared_value_fit(of, NULL, NULL, GROUPS, &found, d, NULL), WT_OK);
+        held += found.low <= 3 && found.high >= 3;
+        different += found.p < 0.05;
+    }
+    gsl_rng_free(random);
+    /* 95 % and 5 %, with what the corrections are off by and three binomial errors */
+    assert_in_range(held, 0.93 * DRAWS, 0.975 * DRAWS);
+    assert_in_range(different, 0.035 * DRAWS, 0.075 * DRAWS);
+}
+
+static void test_few_degrees(void **state)
+{
+    (void)state;
+    count(3); /* the plain mean */
+    count(5); /* weighted by the errors */
+    count(10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_two),
+        cmocka_unit_test(test_common),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_few_degrees),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
