@@ -322,6 +322,8 @@ static void test_below_hysteresis(void **state)
     assert_true(key_of(t.validation, "shear_stress_needed") < 0);
     check_begins(t.validation, "verdict", "does not");
     check_begins(t.validation, "verdict_with_needed", "does not");
+    check_begins(t.validation, "shear_stress_plausible",
+                 "no: the hysteresis part alone is more than was measured");
     wt_validation_tables_clear(&t);
 }
 
