@@ -186,6 +186,7 @@ static void test_cutoff(void **state)
                 0.02);
     assert_true(key_of(t.validation, "largest_wavenumber_needed_low") < 0.8 * surface.q1);
     assert_true(key_of(t.validation, "largest_wavenumber_needed_high") > 0.8 * surface.q1);
+    assert_int_equal(wt_table_block(t.validation, STEPS - 1), 0); /* alike: one line of a figure */
     wt_validation_tables_clear(&t);
 }
 
