@@ -302,15 +302,15 @@ static void check_places_of_law(wt_surface_spectrum *s)
         const double change[CONSTANTS] = {log(moved.c0.value / law.c0.value),
                                           log(moved.roll_off.value / law.roll_off.value),
                                           moved.hurst.value - law.hurst.value};
-        for (size_t a = 0; a < CONSTANTS; a++)
-            for (size_t b = 0; b < CONSTANTS; b++)
-                sum[a][b] += change[a] * change[b];
+        for (size_t i = 0; i < CONSTANTS; i++)
+            for (size_t j = 0; j < CONSTANTS; j++)
+                sum[i][j] += change[i] * change[j];
     }
-    for (size_t a = 0; a < CONSTANTS; a++) {
-        assert_true(sum[a][a] > 0);
-        for (size_t b = 0; b < CONSTANTS; b++)
-            assert_near_abs(law.place_covariance[a][b], sum[a][b],
-                            0.03 * sqrt(sum[a][a] * sum[b][b]));
+    for (size_t i = 0; i < CONSTANTS; i++) {
+        assert_true(sum[i][i] > 0);
+        for (size_t j = 0; j < CONSTANTS; j++)
+            assert_near_abs(law.place_covariance[i][j], sum[i][j],
+                            0.03 * sqrt(sum[i][i] * sum[j][j]));
     }
     s->place_scatter = (double)NAN;
 }
