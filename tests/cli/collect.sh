@@ -50,6 +50,10 @@ if [ "$(verdicts)" != "$expected" ]; then
   cat pairs.tsv >&2
   exit 1
 fi
+# what would settle a pair of which it cannot be said; where all are judged there is none
+! "$program" table --keys study.h5 ratio_pairs | grep 'would settle'
+"$program" collect -q --equivalence-margin 0.001 HC-*.h5 HS-*.h5 -o fine.h5
+"$program" table --keys fine.h5 ratio_pairs | grep -q 'settle the nearest of them, severe: HC against HS'
 # every row of the cases, and a figure that draws them
 "$program" table study.h5 collection --as csv | cut -d , -f 1,2,6 >cases.csv
 printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv

@@ -471,6 +471,12 @@ static void test_of_a_force_without_a_load(void **state)
     assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
     assert_near(c.difference, 0.03, 1e-12);
     wt_cycles_clear(&c);
+    record.n = 1; /* a cycle */
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
+    assert_int_equal(c.n, 1);
+    wt_cycles_clear(&c);
+    record.n = 0;
+    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_E_ARG);
 }
 
 /* ---- wear ------------------------------------------------------------------------------------ */

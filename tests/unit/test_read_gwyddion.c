@@ -10,6 +10,7 @@
 #include "writers/surf_writer.h"
 
 #include <math.h>
+#include <time.h>
 
 /* ---- what stands for the program ------------------------------------------------------------- */
 
@@ -76,12 +77,49 @@ static void fails_with(const char *script, wt_status expected, const char *words
     wt_input_close(input);
 }
 
+/* A process that is neither gone nor waits to be reaped. */
+static bool runs(int process)
+{
+    char place[64], state = 'X';
+    snprintf(place, sizeof place, "/proc/%d/stat", process);
+    FILE *in = fopen(place, "r");
+    if (in != NULL && fscanf(in, "%*d (%*[^)]) %c", &state) != 1)
+        state = 'X';
+    if (in != NULL)
+        (void)fclose(in);
+    return state != 'X' && state != 'Z';
+}
+
+/* What it started ends with it. */
+static void test_left_behind(void **state)
+{
+    (void)state;
+    enum { PATIENCE = 500 }; /* times 10 ms: the kill is sent before */
+    const struct timespec moment = {.tv_nsec = 10000000};
+    int process = 0;
+    fails_with("sleep 1000 & echo $! > ../../left; exit 6", WT_E_TOOL, "exit status 6");
+    FILE *in = fopen("left", "r");
+    assert_non_null(in);
+    assert_int_equal(fscanf(in, "%d", &process), 1);
+    assert_int_equal(fclose(in), 0);
+    for (int i = 0; i < PATIENCE && runs(process); i++)
+        (void)nanosleep(&moment, NULL);
+    assert_false(runs(process));
+}
+
+/* One that says no more is waited for without work. */
+static void test_closed_output(void **state)
+{
+    (void)state;
+    const clock_t before = clock();
+    fails_with("exec >&- 2>&-; sleep 1; exit 5", WT_E_TOOL, "exit status 5");
+    assert_true((double)(clock() - before) / CLOCKS_PER_SEC < 0.3);
+}
+
 static void test_failures(void **state)
 {
     (void)state;
     const size_t open_before = count_files("/proc/self/fd");
-    fails_with("exec >&- 2>&-; sleep 0.3; exit 5", WT_E_TOOL, "exit status 5");
-    fails_with("sleep 1000 & exit 6", WT_E_TOOL, "exit status 6");
     fails_with("sleep 1000 & sleep 1000", WT_E_TOOL, "did not end within 2 s");
     fails_with("while :; do :; done", WT_E_TOOL, "Gwyddion ");
     fails_with("trap '' XCPU TERM; while :; do :; done", WT_E_TOOL, "Gwyddion ");
@@ -349,9 +387,10 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_failures), TEST(test_flood_that_goes_on),
-        TEST(test_rubbish),  TEST(test_not_installed),
-        TEST(test_heights),  TEST(test_unpacked),
+        TEST(test_failures),    TEST(test_flood_that_goes_on),
+        TEST(test_left_behind), TEST(test_closed_output),
+        TEST(test_rubbish),     TEST(test_not_installed),
+        TEST(test_heights),     TEST(test_unpacked),
         TEST(test_damaged),
     };
     return cmocka_run_group_tests(tests, set_up, clean);

@@ -105,8 +105,7 @@ static void ask_for_more(const pair_list *list, double margin, char *text, size_
 
 static wt_interval ratio_of(const wt_log_ratio_difference *d)
 {
-    const double value = exp(d->value), error = (d->high - d->low) / 2;
-    return (wt_interval){value, value * error, exp(d->low), exp(d->high)};
+    return (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)};
 }
 
 static wt_status make_table(const pair_list *list, double margin, wt_table **table, wt_error *err)
