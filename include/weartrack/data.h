@@ -399,13 +399,11 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* `name` is used in errors. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
-/* The tables alone that wt_result_headlines takes, from behind the end of the HDF5 file, without
- * HDF5 and without a process; WT_E_NOT_FOUND: it is no such file, or has none. */
-WT_API wt_status wt_store_read_abstract(const char *path, wt_result **result,
-                                        wt_error *err) WT_NODISCARD;
-/* The same tables by HDF5. */
-WT_API wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
-                                         wt_result **result, wt_error *err) WT_NODISCARD;
+/* The tables alone that wt_result_headlines takes: from behind the end of the file without HDF5 and
+ * without a process, where they stand there, without rows if their keys are enough. WT_E_FORMAT: it
+ * is no HDF5 file. */
+WT_API wt_status wt_store_read_headlines(const char *path, wt_result **result,
+                                         wt_error *err) WT_NODISCARD;
 
 /* A map of force curves in such a file: written curve by curve, so that memory hardly grows with
  * it. The path is borrowed until the end. */

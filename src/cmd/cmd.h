@@ -94,6 +94,7 @@ typedef struct cmd_usage {
     const char *first;  /* the options that most need, for --help without "all"; NULL: all */
     const char *master; /* those that are told by weartrack master; NULL: none */
     const char *notes;  /* after the options; NULL if none */
+    bool exports;       /* tables for other programs, databases too */
     int n_files;        /* how many must be given; CMD_SOME: one or more; 0: any number */
     const char *files;  /* said of another number: "two files are needed" */
 } cmd_usage;

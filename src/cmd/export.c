@@ -31,9 +31,10 @@ static wt_export_form form_of(const char *output, const cmd_part *part)
     } known[] = {{".csv", WT_EXPORT_CSV},
                  {".json", WT_EXPORT_JSON},
                  {".sqlite", WT_EXPORT_SQLITE},
+                 {".sqlite3", WT_EXPORT_SQLITE},
                  {".db", WT_EXPORT_SQLITE}};
     for (size_t i = 0; i < COUNT_OF(known); i++)
-        if (strcmp(dot, known[i].ending) == 0)
+        if (strcasecmp(dot, known[i].ending) == 0)
             return known[i].form;
     return options->form;
 }

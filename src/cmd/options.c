@@ -257,19 +257,36 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
                : cmd_usage_error(s, "unknown option '%s'", word);
 }
 
-/* What is written is text or HDF5, whatever the name says. */
-static bool check_output(cmd_session *s)
+/* Nothing is written under the name of what it is not. */
+static bool check_output(cmd_session *s, const cmd_usage *usage)
 {
-    static const char *const sheets[] = {".xlsx", ".xlsm", ".xls", ".ods"};
+    static const char of_sheet[] = "TABLE.csv` gives a table that one opens";
+    static const char of_database[] = "TABLE.sqlite` gives a table as a database";
+    static const struct {
+        const char *ending, *what, *instead;
+        bool exported;
+    } others[] = {{".xlsx", "spreadsheet", of_sheet, false},
+                  {".xlsm", "spreadsheet", of_sheet, false},
+                  {".xls", "spreadsheet", of_sheet, false},
+                  {".ods", "spreadsheet", of_sheet, false},
+                  {".parquet", "Parquet file", of_database, false},
+                  {".sqlite", "database", of_database, true},
+                  {".sqlite3", "database", of_database, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
-    for (size_t i = 0; dot != NULL && i < COUNT_OF(sheets); i++)
-        if (strcasecmp(dot, sheets[i]) == 0)
-            return cmd_usage_error(
-                s,
-                "-o %s: no spreadsheet is written; write the result as .h5 or .tsv, then "
-                "`weartrack table RESULT NAME -o TABLE.csv` gives a table that one opens",
-                output);
+    for (size_t i = 0; dot != NULL && i < COUNT_OF(others); i++) {
+        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports))
+            continue;
+        if (usage->exports)
+            return cmd_usage_error(s,
+                                   "-o %s: no %s is written; -o TABLE.csv is what a spreadsheet "
+                                   "opens, -o TABLE.sqlite a database",
+                                   output, others[i].what);
+        return cmd_usage_error(s,
+                               "-o %s: no %s is written; write the result as .h5 or .tsv, then "
+                               "`weartrack table RESULT NAME -o %s",
+                               output, others[i].what, others[i].instead);
+    }
     return true;
 }
 
@@ -438,8 +455,9 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
         print_help(usage, &list, optind < argc && strcmp(argv[optind], "all") == 0);
         good = false;
     }
-    good = good && check_output(s) && list_files(s, (size_t)(argc - optind), argv + optind) &&
-           check_required(s, &list) && check_inputs(s, inputs, n_inputs, &n_pipes) &&
+    good = good && check_output(s, usage) &&
+           list_files(s, (size_t)(argc - optind), argv + optind) && check_required(s, &list) &&
+           check_inputs(s, inputs, n_inputs, &n_pipes) &&
            check_inputs(s, s->files, s->n_files, &n_pipes) && check_number(s, usage);
     free(inputs);
     return good;

@@ -87,6 +87,7 @@ int cmd_summary(int argc, char **argv)
         .what = "One row for each result (HDF5 or text stream) with its main numbers, their errors "
                 "or intervals, and verdicts. A column is there if one of the results has it.",
         .common = "output files-from",
+        .exports = true,
         .notes =
             "Exit status 3 if a file could not be read, which then has no row; 1 if none could.",
         .n_files = CMD_SOME,

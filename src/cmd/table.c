@@ -56,6 +56,7 @@ int cmd_table(int argc, char **argv)
                 "other programs: rows of cells parted by tabs or commas under one header line, or "
                 "JSON. In SI units, which stand in the header: modulus[Pa].",
         .common = "output",
+        .exports = true,
         .notes = "NAME may be left out if there is one table only."};
     own_options own = {0};
     export_options form = {.form = WT_EXPORT_TSV};

@@ -43,11 +43,19 @@ bool store_has_headline_rows(const char *table); /* and not of its keys alone */
 /* Puts the tables that headlines are made of behind the end of a result file that HDF5 has closed
  * (store_abstract.c). */
 wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err) WT_NODISCARD;
+/* Reads them from there; WT_END: there are none, or memory is short. */
+wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
+                              wt_error *err) WT_NODISCARD;
 /* The samples of a map, data/map.h: blocks of all channels. A hdf5_reading, too. */
 wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err);
 /* As wt_store_read_memory, also from a descriptor; by store_pass or store_pass_headlines. */
 wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
                            wt_result **result, wt_error *err);
+struct stat;
+/* Opens a file that can be read again and again; -1 or open, for the caller to close, on failure.
+ */
+wt_status store_open_regular(const char *path, int *file, struct stat *info,
+                             wt_error *err) WT_NODISCARD;
 /* Makes a result of that; not a byte of it is trusted. */
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
 

@@ -10,7 +10,6 @@
 
 #include <endian.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -81,18 +80,13 @@ static bool read_at(int file, size_t at, void *to, size_t n)
 #define ABSTRACT_MOST ((size_t)16 << 20)
 
 /* The bytes of the abstract, new; NULL if the file has none or memory is short. */
-static char *take_abstract(int file, size_t *length)
+static char *take_abstract(int file, size_t size, size_t *length)
 {
-    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    struct stat info;
     abstract_end end;
-    unsigned char begin[sizeof signature];
-    if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode) ||
-        info.st_size < (off_t)(sizeof begin + sizeof end))
+    if (size < sizeof end)
         return NULL;
-    const size_t before = (size_t)info.st_size - sizeof end;
-    if (!read_at(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0 ||
-        !read_at(file, 0, begin, sizeof begin) || memcmp(begin, signature, sizeof begin) != 0)
+    const size_t before = size - sizeof end;
+    if (!read_at(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
         return NULL;
     *length = (size_t)le64toh(end.length);
     const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_MOST;
@@ -103,16 +97,13 @@ static char *take_abstract(int file, size_t *length)
     return NULL;
 }
 
-wt_status wt_store_read_abstract(const char *path, wt_result **result, wt_error *err)
+wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
+                              wt_error *err)
 {
     size_t length = 0;
-    /* Opening a pipe would wait for somebody who writes. */
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    char *const bytes = file >= 0 ? take_abstract(file, &length) : NULL;
-    if (file >= 0)
-        (void)close(file);
+    char *const bytes = take_abstract(file, size, &length);
     if (bytes == NULL)
-        return wt_fail(err, WT_E_NOT_FOUND, "no abstract");
+        return WT_END;
     wt_result *const read = wt_result_new();
     const wt_status status = read != NULL ? store_take(bytes, length, read, err)
                                           : wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -120,8 +111,31 @@ wt_status wt_store_read_abstract(const char *path, wt_result **result, wt_error 
     if (status == WT_OK) {
         *result = read;
     } else {
-        wt_error_file(err, path);
+        wt_error_file(err, name);
         wt_result_free(read);
     }
+    return status;
+}
+
+wt_status wt_store_read_headlines(const char *path, wt_result **result, wt_error *err)
+{
+    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    unsigned char begin[sizeof signature];
+    struct stat info;
+    int file = -1;
+    wt_status status = store_open_regular(path, &file, &info, err);
+    if (status == WT_OK && (pread(file, begin, sizeof begin, 0) != (ssize_t)sizeof begin ||
+                            memcmp(begin, signature, sizeof begin) != 0)) {
+        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file");
+        wt_error_file(err, path);
+    }
+    if (status == WT_OK)
+        status = store_abstract_read(file, (size_t)info.st_size, path, result, err);
+    if (status == WT_END) {
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, store_pass_headlines, path, result, err);
+    }
+    if (file >= 0)
+        (void)close(file);
     return status;
 }

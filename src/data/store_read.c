@@ -141,33 +141,34 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
     return store_read_bytes(&from, store_pass, name, result, err);
 }
 
-wt_status wt_store_read_headlines(const void *bytes, size_t length, const char *name,
-                                  wt_result **result, wt_error *err)
+/* Opening a pipe would wait for somebody who writes. */
+wt_status store_open_regular(const char *path, int *file, struct stat *info, wt_error *err)
 {
-    const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
-    return store_read_bytes(&from, store_pass_headlines, name, result, err);
+    *file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool opened = *file >= 0 && fstat(*file, info) == 0;
+    wt_status status = WT_OK;
+    if (!opened) {
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+    } else if (!S_ISREG(info->st_mode)) {
+        status = wt_fail(err, WT_E_IO, "not a regular file");
+        wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
+    } else if (info->st_size == 0) {
+        status = wt_fail(err, WT_E_FORMAT, "an empty file");
+    }
+    if (status != WT_OK)
+        wt_error_file(err, path);
+    return status;
 }
 
 wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
 {
     struct stat info;
-    wt_status status = WT_OK;
-    /* Opening a pipe would wait for somebody who writes. */
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    const bool opened = file >= 0 && fstat(file, &info) == 0;
-    if (!opened) {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
-    } else if (!S_ISREG(info.st_mode)) {
-        status = wt_fail(err, WT_E_IO, "not a regular file");
-        wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
-    } else if (info.st_size == 0) {
-        status = wt_fail(err, WT_E_FORMAT, "an empty file");
-    } else {
+    int file = -1;
+    wt_status status = store_open_regular(path, &file, &info, err);
+    if (status == WT_OK) {
         const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
         status = store_read_bytes(&from, store_pass, path, result, err);
     }
-    if (status != WT_OK)
-        wt_error_file(err, path);
     if (file >= 0)
         (void)close(file);
     return status;

@@ -66,7 +66,7 @@ static void read_weartrack(void *data)
     kept_result *const kept = data;
     wt_error err = WT_ERROR_INIT;
     wt_result *read = NULL;
-    bench_check(wt_store_read_abstract(kept->path, &read, &err), &err);
+    bench_check(wt_store_read_headlines(kept->path, &read, &err), &err);
     take(kept, read);
 }
 

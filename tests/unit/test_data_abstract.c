@@ -1,10 +1,11 @@
 /* The abstract of a result file: what headlines are made of, without HDF5, and never older than
  * the file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/data.h"
+
+#include "data/store.h"
 
 #include <endian.h>
-#include <hdf5.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,12 +84,24 @@ static uint64_t length_of_abstract(size_t size)
     return le64toh(length);
 }
 
-static wt_status read_abstract(wt_error *err)
+/* WT_END: it has none. */
+static wt_status read_abstract(wt_result **read, wt_error *err)
+{
+    struct stat info;
+    const int file = open(path, O_RDONLY);
+    assert_true(file >= 0 && fstat(file, &info) == 0);
+    *read = NULL;
+    *err = (wt_error)WT_ERROR_INIT;
+    const wt_status status = store_abstract_read(file, (size_t)info.st_size, path, read, err);
+    assert_true((*read != NULL) == (status == WT_OK));
+    assert_int_equal(close(file), 0);
+    return status;
+}
+
+static wt_status try_abstract(wt_error *err)
 {
     wt_result *read = NULL;
-    *err = (wt_error)WT_ERROR_INIT;
-    const wt_status status = wt_store_read_abstract(path, &read, err);
-    assert_true((read != NULL) == (status == WT_OK));
+    const wt_status status = read_abstract(&read, err);
     wt_result_free(read);
     return status;
 }
@@ -106,9 +119,10 @@ static void what_headlines_need(void **state)
 {
     (void)state;
     wt_result *all = NULL, *read = NULL;
+    wt_error err;
     (void)write_result();
     assert_int_equal(wt_store_read(path, &all, NULL), WT_OK);
-    assert_int_equal(wt_store_read_abstract(path, &read, NULL), WT_OK);
+    assert_int_equal(read_abstract(&read, &err), WT_OK);
     assert_int_equal(wt_result_n_tables(read), 3);
     assert_null(wt_result_find(read, "indentation/track"));
     static const struct {
@@ -145,16 +159,41 @@ static void every_byte(void **state)
     assert_true(length > 500 && length + END < size);
     for (size_t at = size - END - length; at < size; at++) {
         change_byte(at);
-        const wt_status status = read_abstract(&err);
+        const wt_status status = try_abstract(&err);
         if (status == WT_OK)
             fail_msg("byte %zu of %zu is changed and not noticed", at - (size - END - length),
                      length);
-        assert_true(status == WT_E_NOT_FOUND || (status == WT_E_CORRUPT && err.file[0] != '\0'));
+        assert_true(status == WT_END || (status == WT_E_CORRUPT && err.file[0] != '\0'));
         assert_true(status == WT_E_CORRUPT || at >= size - END);
         change_byte(at);
     }
-    assert_int_equal(read_abstract(&err), WT_OK);
+    assert_int_equal(try_abstract(&err), WT_OK);
     assert_whole();
+}
+
+/* With an abstract and without one the same tables have the same keys. */
+static void by_both_ways(void **state)
+{
+    (void)state;
+    const size_t size = write_result();
+    wt_result *by[2] = {NULL, NULL};
+    assert_int_equal(wt_store_read_headlines(path, &by[0], NULL), WT_OK);
+    assert_int_equal(truncate(path, (off_t)size - 1), 0);
+    assert_int_equal(wt_store_read_headlines(path, &by[1], NULL), WT_OK);
+    assert_int_equal(wt_result_n_tables(by[0]), wt_result_n_tables(by[1]));
+    for (size_t i = 0; i < wt_result_n_tables(by[0]); i++) {
+        const wt_table *const a = wt_result_table(by[0], i), *const b = wt_result_table(by[1], i);
+        assert_string_equal(wt_table_name(a), wt_table_name(b));
+        assert_int_equal(wt_table_n_keys(a), wt_table_n_keys(b));
+        for (size_t k = 0; k < wt_table_n_keys(a); k++) {
+            const char *const key = wt_table_key_name(a, k);
+            assert_string_equal(wt_table_key(a, key), wt_table_key(b, key));
+        }
+    }
+    assert_int_equal(wt_table_n_rows(wt_result_find(by[0], "shift_factors")), 0);
+    assert_int_equal(wt_table_n_rows(wt_result_find(by[1], "shift_factors")), 500);
+    wt_result_free(by[0]);
+    wt_result_free(by[1]);
 }
 
 /* A program that opens the file for writing, even one that changes nothing, takes it away. */
@@ -175,7 +214,7 @@ static void not_older_than_the_file(void **state)
     struct stat info;
     assert_int_equal(stat(path, &info), 0);
     assert_true((size_t)info.st_size < size);
-    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    assert_int_equal(try_abstract(&err), WT_END);
     wt_result *read = NULL;
     assert_int_equal(wt_store_read(path, &read, &err), WT_E_CORRUPT); /* by its digest */
     assert_null(read);
@@ -201,7 +240,7 @@ static void made_files(void **state)
     static const uint64_t none[] = {0, sizeof begin + 1, UINT64_MAX, UINT64_MAX - 7, 1ull << 63};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
         put_file(begin, sizeof begin, none[i]);
-        assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+        assert_int_equal(try_abstract(&err), WT_END);
     }
     /* Longer than any may be, in a file that takes no room. */
     put_file(begin, sizeof begin, (uint64_t)1 << 40);
@@ -212,20 +251,25 @@ static void made_files(void **state)
     assert_int_equal(fwrite(&length, sizeof length, 1, file), 1);
     assert_int_equal(fwrite("WTABST1\n", 1, 8, file), 8);
     assert_int_equal(fclose(file), 0);
-    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
+    assert_int_equal(try_abstract(&err), WT_END);
     put_file(begin, sizeof begin, sizeof begin);
-    assert_int_equal(read_abstract(&err), WT_E_CORRUPT);
+    assert_int_equal(try_abstract(&err), WT_E_CORRUPT);
     begin[0] = '#';
     put_file(begin, sizeof begin, sizeof begin);
-    assert_int_equal(read_abstract(&err), WT_E_NOT_FOUND);
-    assert_int_equal(wt_store_read_abstract("/dev/null", &(wt_result *){NULL}, &err),
-                     WT_E_NOT_FOUND);
+    /* Of what is no HDF5 file nothing is read, whatever its end. */
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_E_FORMAT);
+    assert_string_equal(err.file, path);
+    assert_int_equal(wt_store_read_headlines("/dev/null", &read, &err), WT_E_IO);
+    assert_int_equal(wt_store_read_headlines("/no/such.h5", &read, &err), WT_E_NOT_FOUND);
+    assert_null(read);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_headlines_need), cmocka_unit_test(every_byte),
-        cmocka_unit_test(not_older_than_the_file), cmocka_unit_test(made_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_headlines_need),
+                                       cmocka_unit_test(every_byte), cmocka_unit_test(by_both_ways),
+                                       cmocka_unit_test(not_older_than_the_file),
+                                       cmocka_unit_test(made_files)};
     return cmocka_run_group_tests_name("abstract of a result", tests, set_up, clean);
 }

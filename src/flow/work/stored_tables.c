@@ -52,12 +52,8 @@ static bool have_table(const wt_result *tables, const char *prefix)
     return false;
 }
 
-typedef wt_status store_reader(const void *bytes, size_t length, const char *name,
-                               wt_result **result, wt_error *err);
-
-static wt_status read_tables(const char *path, const char *name, const wt_job *work,
-                             wt_tables_role role, store_reader *read_store, wt_result **tables,
-                             wt_error *err)
+wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
+                         wt_tables_role role, wt_result **tables, wt_error *err)
 {
     static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     const unsigned char *bytes = NULL;
@@ -69,7 +65,7 @@ static wt_status read_tables(const char *path, const char *name, const wt_job *w
     const bool store = length >= sizeof hdf5_signature &&
                        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
     if (status == WT_OK)
-        status = store ? read_store(bytes, length, name, tables, err)
+        status = store ? wt_store_read_memory(bytes, length, name, tables, err)
                        : read_text(bytes, length, name, role.instead, tables, err);
     if (status == WT_OK && work != NULL)
         status = wt_job_input(
@@ -83,19 +79,14 @@ static wt_status read_tables(const char *path, const char *name, const wt_job *w
     return status;
 }
 
-wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
-                         wt_tables_role role, wt_result **tables, wt_error *err)
-{
-    return read_tables(path, name, work, role, wt_store_read_memory, tables, err);
-}
-
 wt_status wt_tables_read_headlines(const char *path, wt_result **tables, wt_error *err)
 {
-    const wt_status status = wt_store_read_abstract(path, tables, err);
-    if (status != WT_E_NOT_FOUND)
+    const bool named = strcmp(path, "-") != 0;
+    const wt_status status = named ? wt_store_read_headlines(path, tables, err) : WT_E_FORMAT;
+    if (status != WT_E_FORMAT && status != WT_E_IO && status != WT_E_NOT_FOUND)
         return status;
+    /* A pipe, a text stream or a packed file; what else is wrong is said there. */
     if (err != NULL)
         *err = (wt_error)WT_ERROR_INIT;
-    return read_tables(path, path, NULL, (wt_tables_role){.instead = NULL}, wt_store_read_headlines,
-                       tables, err);
+    return wt_tables_read(path, path, NULL, (wt_tables_role){.instead = NULL}, tables, err);
 }
