@@ -98,7 +98,10 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
             row.members[row.n++] = &values->of[i];
     }
     const bool room = row.members != NULL && row.deviation != NULL && grown != NULL;
-    if (room && row.n > 1 && row.members[0] == v) {
+    const shared_row *last = list->n > 0 ? &list->rows[list->n - 1] : NULL;
+    const bool again = common == OF_ALL && last != NULL && last->constant == v->constant &&
+                       last->n == row.n; /* all cases are of one sample or condition */
+    if (room && row.n > 1 && row.members[0] == v && !again) {
         list->rows[list->n++] = row;
         return WT_OK;
     }

@@ -181,16 +181,22 @@ static bool has_input(const table_view *inputs, const char *role, const char *sh
     return false;
 }
 
-/* How many files of a role, and how many of these the other has, too. */
-static void count_inputs(const table_view *a, const table_view *b, const char *role, size_t *n,
-                         size_t *common)
+/* Files of some roles: all, those that the other case has, too, and those without a digest, of
+ * which that is not known. */
+typedef struct input_count {
+    size_t all, common, unknown;
+} input_count;
+
+static void count_inputs(const table_view *a, const table_view *b, const char *role,
+                         input_count *to)
 {
     for (size_t row = 0; row < a->n_rows; row++) {
         const char *sha256 = inputs_text(a, row, INPUTS_SHA256);
         if (strcmp(inputs_text(a, row, INPUTS_ROLE), role) != 0)
             continue;
-        ++*n;
-        *common += sha256[0] != '\0' && has_input(b, role, sha256);
+        to->all++;
+        to->unknown += sha256[0] == '\0';
+        to->common += sha256[0] != '\0' && has_input(b, role, sha256);
     }
 }
 
@@ -199,33 +205,37 @@ static bool inputs_of(const collected_case *c, table_view *inputs)
     return table_bind_of(c->result, &inputs_schema, "", inputs, NULL) == WT_OK;
 }
 
-/* Is every file of these roles of both cases one file, or (any) some? */
-static bool in_common(const collected_case *a, const collected_case *b, const char *const *roles,
-                      size_t n_roles, bool any)
+static input_count in_common(const collected_case *a, const collected_case *b,
+                             const char *const *roles, size_t n_roles)
 {
     table_view of_a, of_b;
-    size_t n = 0, common = 0;
+    input_count count = {0, 0, 0};
     if (!inputs_of(a, &of_a) || !inputs_of(b, &of_b))
-        return false;
+        return count;
     for (size_t i = 0; i < n_roles; i++) {
-        count_inputs(&of_a, &of_b, roles[i], &n, &common);
-        count_inputs(&of_b, &of_a, roles[i], &n, &common);
+        count_inputs(&of_a, &of_b, roles[i], &count);
+        count_inputs(&of_b, &of_a, roles[i], &count);
     }
-    return any ? common > 0 : n > 0 && common == n;
+    return count;
 }
 
 double shared_covariance(const case_value *a, const case_value *b, bool sure)
 {
     static const char *const roles[] = {"dma", "material", "topography", "roughness"};
     const double most = sqrt(a->material * b->material);
-    return most > 0 && in_common(a->of, b->of, roles, COUNT_OF(roles), !sure) ? most : 0;
+    if (!(most > 0))
+        return 0;
+    const input_count files = in_common(a->of, b->of, roles, COUNT_OF(roles));
+    const bool common =
+        sure ? files.all > 0 && files.common == files.all : files.common > 0 || files.unknown > 0;
+    return common ? most : 0;
 }
 
 /* Curves that an earlier case has, too, count once. */
 static bool counts_already(const collected_case *cases, size_t i, const char *group)
 {
     for (size_t k = 0; k < i; k++)
-        if (in_common(&cases[k], &cases[i], &group, 1, true))
+        if (in_common(&cases[k], &cases[i], &group, 1).common > 0)
             return true;
     return false;
 }
