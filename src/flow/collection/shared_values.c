@@ -5,10 +5,11 @@
 
 #include "base/array.h"
 #include "base/normal.h"
+#include "data/tables/tables.h"
 #include "fit/students_t.h"
-#include "flow/validation/validation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,12 +22,38 @@ static wt_status bind(const collected_case *c, const table_schema *schema, const
     return status;
 }
 
-/* One without an error tells nothing of what is common. */
+const char *const shared_words[SHARED_N] = {[SHARED_WEAR] = "specific wear rate",
+                                            [SHARED_SHEAR] = "shear stress",
+                                            [SHARED_RATE] = "modulus over a decade of rate"};
+
+void shared_name(const case_value *v, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s%s%s", v->of->sample, v->of->condition[0] != '\0' ? ", " : "",
+             v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
+}
+
+static void leave_out(case_values *from, const case_value *v)
+{
+    char name[256];
+    const size_t used = strlen(from->left_out);
+    shared_name(v, name, sizeof name);
+    const int length = snprintf(NULL, 0, "; %s of %s", shared_words[v->constant], name);
+    if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
+        from->unnamed++;
+    else
+        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s",
+                 used > 0 ? "; " : "", shared_words[v->constant], name);
+}
+
+/* One without an error tells nothing of what is common, nor does one whose interval reaches 0. */
 static wt_status add_value(case_values *to, case_value value, wt_error *err)
 {
-    if (!isfinite(value.log.value) || !(value.log.standard_error > 0) ||
-        !isfinite(value.log.standard_error))
+    if (!isfinite(value.log.value))
         return WT_OK;
+    if (!(value.log.standard_error > 0) || !isfinite(value.log.standard_error)) {
+        leave_out(to, &value);
+        return WT_OK;
+    }
     case_value *grown = array_grow(to->of, to->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -57,8 +84,8 @@ static wt_status material_share(const collected_case *c, double *share, wt_error
     *share = 0;
     for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
         const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
-        if (of > 0 && validation_source_is_material(
-                          validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE)))
+        if (of > 0 && strncmp(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE),
+                              VALIDATION_OF_MATERIAL, strlen(VALIDATION_OF_MATERIAL)) == 0)
             *share += of;
     }
     return status;
@@ -244,7 +271,7 @@ wt_status shared_values_of(const collected_case *cases, size_t n, case_values *t
 {
     static const char *const groups[] = {"bulk", "track"};
     wt_status status = WT_OK;
-    *to = (case_values){NULL, 0};
+    *to = (case_values){.n = 0};
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = add_wear(&cases[i], to, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
