@@ -436,8 +436,9 @@ typedef struct wt_collection_tables {
         *shared_constants, *shared_members;
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
-/* Modulus ratios of pairs are compared as if they knew nothing of each other; of constants in common
- * the errors that come from the same files are one. WT_E_EMPTY without a case; WT_E_AMBIGUOUS for two cases of one sample and condition. */
+/* Modulus ratios of pairs are compared as if they knew nothing of each other; of constants in
+ * common the errors that come from the same files are one. WT_E_EMPTY without a case;
+ * WT_E_AMBIGUOUS for two cases of one sample and condition. */
 WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
                             wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 

@@ -17,10 +17,11 @@ static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **result
         if (read == WT_OK && wt_result_find(result, "answer") == NULL &&
             wt_result_find(result, "force_indentation") == NULL) {
             read = wt_fail(&s->err, WT_E_NOT_FOUND,
-                           "this is no result of a case, and has no force curve");
+                           "this is no result of a case, and no curve of it has a modulus");
             wt_error_file(&s->err, path);
             wt_error_advice(&s->err, "give what weartrack run wrote, or weartrack indent with "
-                                     "--curves median");
+                                     "--curves median; a hard particle tells a modulus only under "
+                                     "a stiff lever");
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);

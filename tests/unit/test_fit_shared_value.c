@@ -1,6 +1,6 @@
 /* One value behind several, against closed forms and draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/comparison/shared_value.h"
+#include "fit/shared_value.h"
 #include "near.h"
 
 #include <gsl/gsl_cdf.h>

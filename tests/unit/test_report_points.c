@@ -181,6 +181,10 @@ static void test_groups(void **state)
             next_is(&forces, (chosen){"collected_force",
                                       {"sample", "place"},
                                       {samples[k], i == 0 ? "bulk" : conditions[i - 1]}});
+    for (size_t k = 0; k < 2; k++)
+        next_is(&constants, (chosen){"shared_members",
+                                     {"constant", "of"},
+                                     {"specific wear rate", k == 0 ? "severe" : ""}});
     for (size_t k = 0; k < 3; k++)
         next_is(&constants, (chosen){"shared_members",
                                      {"constant", "of"},

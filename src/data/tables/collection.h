@@ -90,6 +90,8 @@
     X(SHARED_CONSTANTS_KEY_UNDECIDED, AS(undecided), NUMBER,                                       \
       LABEL("Constants of which it cannot be said"))                                               \
     X(SHARED_CONSTANTS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))           \
+    X(SHARED_CONSTANTS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),      \
+      OPTIONAL)                                                                                    \
     X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT,                                       \
       LABEL("What would settle the others"), OPTIONAL)                                             \
     X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin))

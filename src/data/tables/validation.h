@@ -117,6 +117,9 @@
     X(VALIDATION_CHOICES_KEY_JUDGED, "judged", TEXT, LABEL("Likelihood of"))                       \
     X(VALIDATION_CHOICES_KEY_NARROWS, "narrows", TEXT, LABEL("What the record leaves"))
 
+/* What the source begins with that is what the DMA and the scans of the surface are off by. */
+#define VALIDATION_OF_MATERIAL "material"
+
 /* A source of the error in each row. */
 #define VALIDATION_SOURCES_COLUMNS(X)                                                              \
     X(VALIDATION_SOURCES_SOURCE, AS(source), "where the error comes from", TEXT, LABEL("Source"))  \

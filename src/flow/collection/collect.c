@@ -100,11 +100,6 @@ static wt_status check_names(const collected_case *cases, size_t n, wt_error *er
     return WT_OK;
 }
 
-const char *collected_place(const collected_case *c, const char *group)
-{
-    return strcmp(group, "bulk") == 0 ? group : text_or(c->condition, "track");
-}
-
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 static wt_interval interval_of(const finding *f)

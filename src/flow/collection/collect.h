@@ -40,7 +40,14 @@ typedef struct case_value {
 typedef struct case_values {
     case_value *of;
     size_t n;
+    char
+        left_out[400]; /* values without an error that can be used, in words; "" if there is none */
+    size_t unnamed;    /* of them that it has no room for */
 } case_values;
+
+/* "specific wear rate", and the case of a value: "HC, mild, bulk". */
+extern const char *const shared_words[SHARED_N];
+void shared_name(const case_value *v, char *text, size_t size);
 
 /* All that the cases tell, the constants one after the other; to be freed with free(to->of), also
  * after a failure. */

@@ -10,6 +10,11 @@
 TABLE_ROW(collected_force, COLLECTED_FORCE, const char *sample, *condition, *place;
           double indentation, force;)
 
+const char *collected_place(const collected_case *c, const char *group)
+{
+    return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
+}
+
 static wt_status bind_force(const wt_result *result, const char *file, table_view *force,
                             wt_error *err)
 {

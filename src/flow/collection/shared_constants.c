@@ -7,7 +7,7 @@
 #include "base/array.h"
 #include "base/clocale.h"
 #include "data/tables/rows.h"
-#include "fit/comparison/shared_value.h"
+#include "fit/shared_value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ static const double level = 0.05;
 TABLE_ROW(shared_constants, SHARED_CONSTANTS, const char *constant, *over, *of; wt_interval value;
           const char *unit; double n, chi_squared, df, p, holm_p; const char *suffices;)
 TABLE_KEYS(shared_constants, SHARED_CONSTANTS, double tested, different, undecided;
-           const char *includes, *settled_by; double margin;)
+           const char *includes, *left_out, *settled_by; double margin;)
 TABLE_ROW(shared_members, SHARED_MEMBERS, const char *constant, *over, *of, *member;
           double number, value; const char *unit; wt_interval ratio;)
 
@@ -29,11 +29,11 @@ static const char *const common_words[COMMONS] = {"sample", "condition", "all ca
 
 /* What it is a constant of, as far as the theory goes, and of all cases. */
 static const struct {
-    const char *words, *unit;
+    const char *unit;
     common_to of;
-} constants[SHARED_N] = {[SHARED_WEAR] = {"specific wear rate", "m^2/N", OF_CONDITION},
-                         [SHARED_SHEAR] = {"shear stress", "Pa", OF_ALL},
-                         [SHARED_RATE] = {"modulus over a decade of rate", "1", OF_SAMPLE}};
+} constants[SHARED_N] = {[SHARED_WEAR] = {"m^2/N", OF_CONDITION},
+                         [SHARED_SHEAR] = {"Pa", OF_ALL},
+                         [SHARED_RATE] = {"1", OF_SAMPLE}};
 
 /* Values that may be one. */
 typedef struct shared_row {
@@ -98,7 +98,10 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
             row.members[row.n++] = &values->of[i];
     }
     const bool room = row.members != NULL && row.deviation != NULL && grown != NULL;
-    if (room && row.n > 1 && row.members[0] == v) {
+    const shared_row *last = list->n > 0 ? &list->rows[list->n - 1] : NULL;
+    const bool again = common == OF_ALL && last != NULL && last->constant == v->constant &&
+                       last->n == row.n; /* all cases are of one sample or condition */
+    if (room && row.n > 1 && row.members[0] == v && !again) {
         list->rows[list->n++] = row;
         return WT_OK;
     }
@@ -172,12 +175,6 @@ static wt_status judge(shared_rows *list, wt_error *err)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void member_name(const case_value *v, char *text, size_t size)
-{
-    snprintf(text, size, "%s%s%s%s%s", v->of->sample, v->of->condition[0] != '\0' ? ", " : "",
-             v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
-}
-
 /* By how much smaller errors would settle a row. */
 static double needed_of(const shared_row *row, double margin)
 {
@@ -205,12 +202,24 @@ static void ask_for_more(const shared_rows *list, char *text, size_t size)
             text, size,
             "errors smaller by a factor of %.2g, of each case, would settle the nearest of "
             "them, the %s of %s%s%s",
-            fmax(1.1, least), constants[nearest->constant].words, common_words[nearest->common],
+            fmax(1.1, least), shared_words[nearest->constant], common_words[nearest->common],
             nearest->of[0] != '\0' ? " " : "", nearest->of);
 }
 
-static wt_status list_constants(const shared_rows *list, wt_table **table, wt_error *err)
+static void say_left_out(const case_values *values, char *text, size_t size)
 {
+    if (values->left_out[0] == '\0')
+        return;
+    clocale_print(text, size, "%s", values->left_out);
+    if (values->unnamed > 0)
+        clocale_append(text, size, "; and %zu more", values->unnamed);
+    clocale_append(text, size, ": no error is stated, or the interval reaches zero");
+}
+
+static wt_status list_constants(const shared_rows *list, const case_values *values,
+                                wt_table **table, wt_error *err)
+{
+    char left_out[600] = "";
     char settled_by[320] = "";
     double different = 0, undecided = 0;
     table_writer w = table_begin(&shared_constants_schema, err);
@@ -220,16 +229,17 @@ static wt_status list_constants(const shared_rows *list, wt_table **table, wt_er
         const double value = exp(f->value);
         different += row->suffices == differs;
         undecided += row->suffices == open_;
-        TABLE_ADD(shared_constants, &w, constants[row->constant].words, common_words[row->common],
+        TABLE_ADD(shared_constants, &w, shared_words[row->constant], common_words[row->common],
                   row->of, (wt_interval){value, value * f->error, exp(f->low), exp(f->high)},
                   constants[row->constant].unit, (double)row->n, f->chi_squared, f->df, f->p,
                   row->holm_p, row->suffices);
     }
     ask_for_more(list, settled_by, sizeof settled_by);
+    say_left_out(values, left_out, sizeof left_out);
     TABLE_SET(shared_constants, &w, (double)list->n, different, undecided,
               "what those of the cases include, an error by a DMA or by scans of a surface that "
               "cases share as one; not what else they share, such as a load cell",
-              settled_by, list->margin);
+              left_out, settled_by, list->margin);
     return table_end(&w, table);
 }
 
@@ -242,8 +252,8 @@ static wt_status list_members(const shared_rows *list, wt_table **table, wt_erro
         for (size_t k = 0; k < row->n; k++) {
             char name[256];
             const shared_deviation *d = &row->deviation[k];
-            member_name(row->members[k], name, sizeof name);
-            TABLE_ADD(shared_members, &w, constants[row->constant].words, common_words[row->common],
+            shared_name(row->members[k], name, sizeof name);
+            TABLE_ADD(shared_members, &w, shared_words[row->constant], common_words[row->common],
                       row->of, name, (double)(k + 1), exp(row->members[k]->log.value),
                       constants[row->constant].unit,
                       (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)});
@@ -255,7 +265,7 @@ static wt_status list_members(const shared_rows *list, wt_table **table, wt_erro
 wt_status collect_constants(const collected_case *cases, size_t n, double margin,
                             wt_collection_tables *tables, wt_error *err)
 {
-    case_values values = {NULL, 0};
+    case_values values;
     shared_rows list = {.margin = margin};
     wt_status status = shared_values_of(cases, n, &values, err);
     if (status == WT_OK)
@@ -265,7 +275,7 @@ wt_status collect_constants(const collected_case *cases, size_t n, double margin
     if (status == WT_OK)
         status = judge(&list, err);
     if (status == WT_OK && list.n > 0)
-        status = list_constants(&list, &tables->shared_constants, err);
+        status = list_constants(&list, &values, &tables->shared_constants, err);
     if (status == WT_OK && list.n > 0)
         status = list_members(&list, &tables->shared_members, err);
     free_rows(&list);

@@ -5,10 +5,11 @@
 
 #include "base/array.h"
 #include "base/normal.h"
+#include "data/tables/tables.h"
 #include "fit/students_t.h"
-#include "flow/validation/validation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,12 +22,38 @@ static wt_status bind(const collected_case *c, const table_schema *schema, const
     return status;
 }
 
-/* One without an error tells nothing of what is common. */
+const char *const shared_words[SHARED_N] = {[SHARED_WEAR] = "specific wear rate",
+                                            [SHARED_SHEAR] = "shear stress",
+                                            [SHARED_RATE] = "modulus over a decade of rate"};
+
+void shared_name(const case_value *v, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s%s%s", v->of->sample, v->of->condition[0] != '\0' ? ", " : "",
+             v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
+}
+
+static void leave_out(case_values *from, const case_value *v)
+{
+    char name[256];
+    const size_t used = strlen(from->left_out);
+    shared_name(v, name, sizeof name);
+    const int length = snprintf(NULL, 0, "; %s of %s", shared_words[v->constant], name);
+    if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
+        from->unnamed++;
+    else
+        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s",
+                 used > 0 ? "; " : "", shared_words[v->constant], name);
+}
+
+/* One without an error tells nothing of what is common, nor does one whose interval reaches 0. */
 static wt_status add_value(case_values *to, case_value value, wt_error *err)
 {
-    if (!isfinite(value.log.value) || !(value.log.standard_error > 0) ||
-        !isfinite(value.log.standard_error))
+    if (!isfinite(value.log.value))
         return WT_OK;
+    if (!(value.log.standard_error > 0) || !isfinite(value.log.standard_error)) {
+        leave_out(to, &value);
+        return WT_OK;
+    }
     case_value *grown = array_grow(to->of, to->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -57,8 +84,8 @@ static wt_status material_share(const collected_case *c, double *share, wt_error
     *share = 0;
     for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
         const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
-        if (of > 0 && validation_source_is_material(
-                          validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE)))
+        if (of > 0 && strncmp(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE),
+                              VALIDATION_OF_MATERIAL, strlen(VALIDATION_OF_MATERIAL)) == 0)
             *share += of;
     }
     return status;
@@ -181,16 +208,22 @@ static bool has_input(const table_view *inputs, const char *role, const char *sh
     return false;
 }
 
-/* How many files of a role, and how many of these the other has, too. */
-static void count_inputs(const table_view *a, const table_view *b, const char *role, size_t *n,
-                         size_t *common)
+/* Files of some roles: all, those that the other case has, too, and those without a digest, of
+ * which that is not known. */
+typedef struct input_count {
+    size_t all, common, unknown;
+} input_count;
+
+static void count_inputs(const table_view *a, const table_view *b, const char *role,
+                         input_count *to)
 {
     for (size_t row = 0; row < a->n_rows; row++) {
         const char *sha256 = inputs_text(a, row, INPUTS_SHA256);
         if (strcmp(inputs_text(a, row, INPUTS_ROLE), role) != 0)
             continue;
-        ++*n;
-        *common += sha256[0] != '\0' && has_input(b, role, sha256);
+        to->all++;
+        to->unknown += sha256[0] == '\0';
+        to->common += sha256[0] != '\0' && has_input(b, role, sha256);
     }
 }
 
@@ -199,33 +232,37 @@ static bool inputs_of(const collected_case *c, table_view *inputs)
     return table_bind_of(c->result, &inputs_schema, "", inputs, NULL) == WT_OK;
 }
 
-/* Is every file of these roles of both cases one file, or (any) some? */
-static bool in_common(const collected_case *a, const collected_case *b, const char *const *roles,
-                      size_t n_roles, bool any)
+static input_count in_common(const collected_case *a, const collected_case *b,
+                             const char *const *roles, size_t n_roles)
 {
     table_view of_a, of_b;
-    size_t n = 0, common = 0;
+    input_count count = {0, 0, 0};
     if (!inputs_of(a, &of_a) || !inputs_of(b, &of_b))
-        return false;
+        return count;
     for (size_t i = 0; i < n_roles; i++) {
-        count_inputs(&of_a, &of_b, roles[i], &n, &common);
-        count_inputs(&of_b, &of_a, roles[i], &n, &common);
+        count_inputs(&of_a, &of_b, roles[i], &count);
+        count_inputs(&of_b, &of_a, roles[i], &count);
     }
-    return any ? common > 0 : n > 0 && common == n;
+    return count;
 }
 
 double shared_covariance(const case_value *a, const case_value *b, bool sure)
 {
     static const char *const roles[] = {"dma", "material", "topography", "roughness"};
     const double most = sqrt(a->material * b->material);
-    return most > 0 && in_common(a->of, b->of, roles, COUNT_OF(roles), !sure) ? most : 0;
+    if (!(most > 0))
+        return 0;
+    const input_count files = in_common(a->of, b->of, roles, COUNT_OF(roles));
+    const bool common =
+        sure ? files.all > 0 && files.common == files.all : files.common > 0 || files.unknown > 0;
+    return common ? most : 0;
 }
 
 /* Curves that an earlier case has, too, count once. */
 static bool counts_already(const collected_case *cases, size_t i, const char *group)
 {
     for (size_t k = 0; k < i; k++)
-        if (in_common(&cases[k], &cases[i], &group, 1, true))
+        if (in_common(&cases[k], &cases[i], &group, 1).common > 0)
             return true;
     return false;
 }
@@ -234,7 +271,7 @@ wt_status shared_values_of(const collected_case *cases, size_t n, case_values *t
 {
     static const char *const groups[] = {"bulk", "track"};
     wt_status status = WT_OK;
-    *to = (case_values){NULL, 0};
+    *to = (case_values){.n = 0};
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = add_wear(&cases[i], to, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)

@@ -66,20 +66,14 @@ static source *find_source(source_list *list, const char *words, const char *rem
 
 /* ---- the variance by sources ----------------------------------------------------------------- */
 
-static const char of_material[] = "material";
-
-bool validation_source_is_material(const char *words)
-{
-    return strncmp(words, of_material, strlen(of_material)) == 0;
-}
-
 static void add_rest(source_list *list, bool with_surface, const trial_parts *parts,
                      const trial_parts *needed)
 {
     const struct {
         const char *words, *remedy;
         double variance, needed;
-    } rest[] = {{with_surface ? "material, and scatter of the measured spectrum" : of_material,
+    } rest[] = {{with_surface ? VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum"
+                              : VALIDATION_OF_MATERIAL,
                  with_surface ? "a second DMA run; more scans of the counter surface"
                               : "a second DMA run; temperatures known better",
                  parts->material, needed->material},

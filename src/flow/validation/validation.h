@@ -50,8 +50,6 @@ void needed_set_keys(const validation *v, table_writer *t);
 /* The largest wavenumber that it asks for, all else as used. */
 wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err) WT_NODISCARD;
 
-/* Is a row of the table validation_sources what the DMA and the scans of the surface are off by? */
-bool validation_source_is_material(const char *words);
 /* Table "validation_sources"; `advice`: what would narrow the answer most, and what would settle it
  * where it is open. */
 typedef struct source_advice {

@@ -1,7 +1,7 @@
 /* One value behind several that were measured apart.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WEARTRACK_FIT_COMPARISON_SHARED_VALUE_H
-#define WEARTRACK_FIT_COMPARISON_SHARED_VALUE_H
+#ifndef WEARTRACK_FIT_SHARED_VALUE_H
+#define WEARTRACK_FIT_SHARED_VALUE_H
 
 #include "weartrack/fit.h"
 

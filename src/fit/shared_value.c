@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "fit/comparison/shared_value.h"
+#include "fit/shared_value.h"
 
 #include "base/gsl_quiet.h"
 #include "fit/students_t.h"
