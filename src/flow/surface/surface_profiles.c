@@ -43,6 +43,12 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
     return NULL;
 }
 
+double surface_place_error(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
+                              : s->place_error;
+}
+
 /* What places give ln C of scans of one kind; where those do not tell, what one place of the others
  * has. That the kinds differ is what is asked, and no scatter. */
 static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)

@@ -48,12 +48,6 @@ static wt_estimate of_interval(wt_interval i, bool known)
     return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
 }
 
-double surface_place_error(const wt_surface_spectrum *s)
-{
-    return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
-                              : s->place_error;
-}
-
 static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
 {
     return knot < s->n ? knot : s->n - 1;
