@@ -1,0 +1,41 @@
+/* A table of the layer by the values themselves and by replicates. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_LAYER_LAYER_DRAWS_H
+#define WEARTRACK_FLOW_LAYER_LAYER_DRAWS_H
+
+#include "flow/layer/layer_energy.h"
+#include "flow/sliding/replicates.h"
+
+/* What is drawn of a layer: wear, and critical energy, observed thickness or barrier; the shear
+ * stress where it modifies the rubber. Returns the standard error of the second. */
+double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job);
+
+/* Points into itself: not to be copied. */
+typedef struct layer_draws {
+    layer_scene values;
+    wt_layer_job stated, calibrated;
+    const wt_layer_known *known; /* of the layer; NULL: none */
+    replicates replicates;
+} layer_draws;
+
+/* With the shear stress of the layer as `known` has it (NULL: nothing is known of its modulus).
+ * friction: shear stress and modulus of the layer are drawn, too. */
+wt_status layer_draws_open(layer_draws *draws, const wt_sliding *sliding, const wt_layer_job *job,
+                           const wt_layer_known *known, const wt_job *work, const char *what,
+                           bool friction, wt_error *err) WT_NODISCARD;
+/* The scene of a replicate, whose job the caller keeps. */
+wt_status layer_draws_scene(const layer_draws *draws, size_t replicate, wt_layer_job *job,
+                            layer_scene *scene, wt_error *err) WT_NODISCARD;
+/* "pressure, roughness; no error is known of: temperature". */
+void layer_draws_say(const layer_draws *draws, char *text, size_t size);
+void layer_draws_clear(layer_draws *draws);
+
+/* Rows of tables that are hundreds of contacts or sections are looked at by so many replicates,
+ * enough for slopes of the ten numbers that are drawn at most; their keys by all. */
+enum { LAYER_ROW_REPLICATES = 64 };
+
+/* exp of a logarithm and of the ends of its interval of 95 %, of which the error is known or NaN.
+ * Times and velocities are positive and scatter by factors. */
+wt_interval layer_interval(double value, double log_error);
+
+#endif
