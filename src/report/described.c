@@ -77,7 +77,7 @@ static void span_curve(figure_drawing *d, size_t group, const figure_curve *curv
     if (curve->with_errors && column->high != 0) {
         span_described(&d->y[curve->panel], d, group, column->low, axis);
         span_described(&d->y[curve->panel], d, group, column->high, axis);
-    } else if (curve->with_errors)
+    } else if (curve->with_errors || (curve->band != 0 && axis->scale != AXIS_LOG))
         span_errors(&d->y[curve->panel], d, group, curve->column, axis);
 }
 

@@ -104,9 +104,9 @@ static void draw_bands(figure_drawing *d)
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     plot_item(d, d->data[0],
-              "($1*x_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 21 pt -1 notitle");
+              "($1*x_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 21 lw 0.5 pt -1 notitle");
     plot_item(d, d->data[0],
-              "($1*x_unit):($4*y_unit):($5*y_unit) with yerrorbars ls 22 pt -1 notitle");
+              "($1*x_unit):($4*y_unit):($5*y_unit) with yerrorbars ls 22 lw 0.5 pt -1 notitle");
     drawing_curves(d, 0);
     plot_end(d);
 }

@@ -54,10 +54,16 @@ static void say_existence(const answer_story *story)
                existence_words(v, EXISTENCE_KEY_WORDS));
     const wt_estimate from = existence_value(v, EXISTENCE_KEY_FROM_VELOCITY),
                       to = existence_value(v, EXISTENCE_KEY_TO_VELOCITY);
-    if (isfinite(existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_LOW).value))
-        answer_say(story, how_thick, "thickness", "It begins at %s.", words_of_positive(from).text);
-    if (isfinite(existence_value(v, EXISTENCE_KEY_TO_VELOCITY_LOW).value))
-        answer_say(story, how_thick, "thickness", "It ends at %s.", words_of_positive(to).text);
+    const double begins[] = {existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_LOW).value,
+                             existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_HIGH).value},
+                 ends[] = {existence_value(v, EXISTENCE_KEY_TO_VELOCITY_LOW).value,
+                           existence_value(v, EXISTENCE_KEY_TO_VELOCITY_HIGH).value};
+    if (isfinite(begins[0]))
+        answer_say(story, how_thick, "thickness", "It begins at %s.",
+                   words_between(from, begins[0], begins[1]).text);
+    if (isfinite(ends[0]))
+        answer_say(story, how_thick, "thickness", "It ends at %s.",
+                   words_between(to, ends[0], ends[1]).text);
     if (cannot_say(known))
         answer_say(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
 }
@@ -71,9 +77,12 @@ static void say_bands(const answer_story *story)
         return;
     const wt_estimate first = layer_bands_value(v, LAYER_BANDS_KEY_FIRST);
     answer_say(story, how_thick, "thickness", "By the transport of damage: %s.", events);
-    if (first.standard_error > 0)
+    if (first.standard_error > 0 &&
+        isfinite(layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value))
         answer_say(story, how_thick, "thickness", "Rubber is first modified after %s.",
-                   words_of_positive(first).text);
+                   words_between(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
+                                 layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
+                       .text);
 }
 
 void answer_layer_models(const answer_story *story)
@@ -98,9 +107,13 @@ void answer_running_in(const answer_story *story)
                       settled = running_in_value(v, RUNNING_IN_KEY_SETTLED);
     char text[192] = "";
     telling t = {text, sizeof text, 0};
-    if (!isnan(settled.value))
+    const double low = running_in_value(v, RUNNING_IN_KEY_SETTLED_LOW).value,
+                 high = running_in_value(v, RUNNING_IN_KEY_SETTLED_HIGH).value;
+    if (!isnan(settled.value) && isnan(high)) /* no replicates, or some settle beyond the times */
+        tell(&t, "; 5 %% of the change are left after %s in contact", words_of_value(settled).text);
+    else if (!isnan(settled.value))
         tell(&t, "; 5 %% of the change are left after %s in contact",
-             words_of_positive(settled).text);
+             words_between(settled, low, high).text);
     if (!isnan(end.value))
         answer_say(story, what_friction, "friction",
                    "While the layer grows, friction goes from %s to %s%s.", words_of_end(bare).text,

@@ -344,7 +344,7 @@ static void add_section(const bands_task *task, size_t at, table_writer *t)
 static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
 {
     const double *const e = task->draws.replicates.error;
-    const wt_interval first = layer_interval(task->first, e[LN_FIRST]);
+    const wt_interval first = layer_interval(&task->draws, LN_FIRST, task->first);
     wt_estimate thickness = last_depth(task->section, task->n_times);
     thickness.standard_error = e[THICKNESS];
     layer_draws_say(&task->draws, task->errors, sizeof task->errors);

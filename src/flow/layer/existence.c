@@ -283,16 +283,22 @@ static void add_rows(const existence_task *task, table_writer *t)
     }
 }
 
+static wt_interval no_interval(double value)
+{
+    return (wt_interval){value, (double)NAN, (double)NAN, (double)NAN};
+}
+
 static wt_status make_table(existence_task *task, wt_table **table, wt_error *err)
 {
     const replicates *r = &task->draws.replicates;
     wt_interval velocity[ENDS], power[ENDS];
     for (size_t k = 0; k < ENDS; k++) {
-        const bool known = edge_known(task, k);
-        const double unknown = (double)NAN;
-        velocity[k] =
-            layer_interval(task->edges.velocity[k], known ? r->error[LN_VELOCITY + k] : unknown);
-        power[k] = layer_interval(task->edges.power[k], known ? r->error[LN_POWER + k] : unknown);
+        velocity[k] = layer_interval(&task->draws, LN_VELOCITY + k, task->edges.velocity[k]);
+        power[k] = layer_interval(&task->draws, LN_POWER + k, task->edges.power[k]);
+        if (!edge_known(task, k)) {
+            velocity[k] = no_interval(task->edges.velocity[k]);
+            power[k] = no_interval(task->edges.power[k]);
+        }
     }
     if (task->known[0] == '\0')
         snprintf(task->known, sizeof task->known, "%s",

@@ -7,7 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job)
 {
@@ -99,8 +99,44 @@ void layer_draws_clear(layer_draws *d)
     replicates_clear(&d->replicates);
 }
 
-wt_interval layer_interval(double value, double log_error)
+/* So many that two lie beyond either end. */
+enum { LEAST_FOR_ENDS = 80 };
+static const double beyond = 0.025;
+
+static int by_value(const void *left, const void *right)
 {
-    const double wide = exp(NORMAL_95 * log_error);
-    return (wt_interval){value, value * log_error, value / wide, value * wide};
+    const double *const a = left, *const b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+/* Of n in order, the value below which so large a part of them is; NaN beyond the last of m that
+ * are known. */
+static double quantile(const double *sorted, size_t m, size_t n, double part)
+{
+    const double at = fmax(part * (double)n - 0.5, 0);
+    const size_t i = (size_t)at;
+    if (i + 1 >= m)
+        return (double)NAN;
+    return sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]);
+}
+
+wt_interval layer_interval(const layer_draws *d, size_t k, double value)
+{
+    const replicates *r = &d->replicates;
+    const double error = r->error[k], wide = exp(NORMAL_95 * error);
+    wt_interval interval = {value, value * error, value / wide, value * wide};
+    double *sorted = r->n >= LEAST_FOR_ENDS ? malloc(r->n * sizeof *sorted) : NULL;
+    if (sorted == NULL || !isfinite(value)) {
+        free(sorted);
+        return interval;
+    }
+    size_t known = 0;
+    for (size_t i = 0; i < r->n; i++)
+        if (isfinite(r->value[i * r->stride + k]))
+            sorted[known++] = r->value[i * r->stride + k];
+    qsort(sorted, known, sizeof *sorted, by_value);
+    interval.low = exp(quantile(sorted, known, r->n, beyond));
+    interval.high = exp(quantile(sorted, known, r->n, 1 - beyond));
+    free(sorted);
+    return interval;
 }

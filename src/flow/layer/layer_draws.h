@@ -34,8 +34,10 @@ void layer_draws_clear(layer_draws *draws);
  * enough for slopes of the ten numbers that are drawn at most; their keys by all. */
 enum { LAYER_ROW_REPLICATES = 64 };
 
-/* exp of a logarithm and of the ends of its interval of 95 %, of which the error is known or NaN.
- * Times and velocities are positive and scatter by factors. */
-wt_interval layer_interval(double value, double log_error);
+/* A number above 0 with its interval of 95 %, of which the replicates have the logarithm as their
+ * number k: the ends are those of the replicates themselves, for what is asked for need not be
+ * straight in what is drawn; of a few, as if the logarithm were normal. Those without a number are
+ * beyond the upper end, which is then not known. */
+wt_interval layer_interval(const layer_draws *draws, size_t k, double value);
 
 #endif

@@ -240,7 +240,7 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
     const running *r = &task->centre;
     const layer_scene *values = &task->draws.values;
     const double *const e = task->draws.replicates.error;
-    const wt_interval settled = layer_interval(r->settled, e[LN_SETTLED]);
+    const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
     table_writer t = table_begin(&running_in_schema, err);
     add_rows(task, &t);
     say_shear(task);
