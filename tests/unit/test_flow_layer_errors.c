@@ -272,6 +272,30 @@ static void edges_that_may_not_be_there(void **state)
     wt_table_free(cut);
 }
 
+/* Where the layer may be there or not, its first appearance has no interval. */
+static void a_layer_that_may_not_come(void **state)
+{
+    (void)state;
+    set_up(48);
+    wt_layer_job job = job_of(0.2, 0.2);
+    wt_table *layer = layer_of(&job);
+    job.specific_wear_rate.value *= key_number(layer, "formation_wear_ratio") / 1.1;
+    job.specific_wear_rate.standard_error = 0.2 * job.specific_wear_rate.value;
+    wt_table_free(layer);
+    for (int given = 0; given < 2; given++) {
+        if (given) /* none by the values themselves */
+            job.specific_wear_rate.value *= 1.2;
+        wt_table *bands = bands_of(&job);
+        const char *const known = wt_table_key(bands, "first_appearance_known");
+        assert_int_equal(wt_table_key(bands, "first_appearance") == NULL, given);
+        assert_int_equal(strncmp(known, "cannot say", 10), 0);
+        assert_non_null(strstr(known, given ? "something is modified" : "nothing is ever"));
+        assert_null(wt_table_key(bands, "first_appearance_high"));
+        assert_true(given || isnan(key_error(bands, "first_appearance")));
+        wt_table_free(bands);
+    }
+}
+
 /* Nothing is drawn where no error is stated, and the number of threads does not matter. */
 static void nothing_to_draw(void **state)
 {
@@ -303,6 +327,7 @@ int main(void)
         cmocka_unit_test(errors_are_slopes),
         cmocka_unit_test(balances_that_may_be_others),
         cmocka_unit_test(edges_that_may_not_be_there),
+        cmocka_unit_test(a_layer_that_may_not_come),
         cmocka_unit_test(nothing_to_draw),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

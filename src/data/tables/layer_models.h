@@ -27,6 +27,8 @@
       LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
     X(LAYER_BANDS_KEY_FIRST_HIGH, "first_appearance_high", SI(TIME), SHOWS(first_high),            \
       LABEL("to"), OPTIONAL)                                                                       \
+    X(LAYER_BANDS_KEY_KNOWN, "first_appearance_known", TEXT, SHOWS(known),                         \
+      LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
     X(LAYER_BANDS_KEY_THICKNESS, "last_thickness", SI(LENGTH), SHOWS(thickness),                   \
       LABEL("Depth of the modified rubber at the last time"), OPTIONAL)                            \
     X(LAYER_BANDS_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)
@@ -60,6 +62,8 @@
     X(RUNNING_IN_KEY_SETTLED_LOW, AS(settled_low), SI(TIME), LABEL("Its 95 % interval from"),      \
       OPTIONAL)                                                                                    \
     X(RUNNING_IN_KEY_SETTLED_HIGH, AS(settled_high), SI(TIME), LABEL("to"), OPTIONAL)              \
+    X(RUNNING_IN_KEY_KNOWN, "settled_known", TEXT, SHOWS(known),                                   \
+      LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
     X(RUNNING_IN_KEY_SHEAR, AS(shear), TEXT, LABEL("Shear stress of the layer"))                   \
     X(RUNNING_IN_KEY_BACK, AS(back), TEXT, LABEL("Layer and energy"))                              \
     X(RUNNING_IN_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"))

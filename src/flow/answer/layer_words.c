@@ -83,6 +83,9 @@ static void say_bands(const answer_story *story)
                    words_between(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
                                  layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
                        .text);
+    const char *const known = layer_bands_words(v, LAYER_BANDS_KEY_KNOWN);
+    if (cannot_say(known))
+        answer_say(story, how_thick, "thickness", "Of that the inputs %s.", known);
 }
 
 void answer_layer_models(const answer_story *story)
@@ -118,4 +121,7 @@ void answer_running_in(const answer_story *story)
         answer_say(story, what_friction, "friction",
                    "While the layer grows, friction goes from %s to %s%s.", words_of_end(bare).text,
                    words_of_end(end).text, text);
+    const char *const known = running_in_words(v, RUNNING_IN_KEY_KNOWN);
+    if (cannot_say(known))
+        answer_say(story, what_friction, "friction", "Of when that is the inputs %s.", known);
 }

@@ -41,13 +41,13 @@ typedef struct bands_task {
     double latest;             /* of the times */
     double first;              /* time at which rubber is first modified; NaN: never */
     char *words;               /* [(n + 1) LOAD_WORDS] */
-    char events[(MOST_EVENTS + 1) * EVENT_WORDS], errors[560];
+    char events[(MOST_EVENTS + 1) * EVENT_WORDS], known[200], errors[560];
 } bands_task;
 
 TABLE_ROW(layer_bands, LAYER_BANDS, double time, load, worn, band; wt_estimate upper, lower;
           double share;)
 TABLE_KEYS(layer_bands, LAYER_BANDS, const char *loads, *events, *method;
-           wt_estimate first, thickness; double first_low, first_high; const char *errors;)
+           wt_estimate first, thickness; double first_low, first_high; const char *known, *errors;)
 
 /* ---- loads ----------------------------------------------------------------------------------- */
 
@@ -348,14 +348,17 @@ static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
     wt_estimate thickness = last_depth(task->section, task->n_times);
     thickness.standard_error = e[THICKNESS];
     layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_say_known(&task->draws, LN_FIRST, task->first, "nothing is ever modified",
+                    "something is modified", task->known, sizeof task->known);
     table_writer t = table_begin(&layer_bands_schema, err);
     for (size_t i = 0; i < task->n_times; i++)
         add_section(task, i, &t);
-    TABLE_SET(layer_bands, &t, task->words, task->events,
-              "exact transport of damage (derived); an observed layer at the start is worn from "
-              "the top",
-              (wt_estimate){task->first, e[FIRST], (double)NAN, NULL}, thickness, first.low,
-              first.high, task->errors);
+    TABLE_SET(
+        layer_bands, &t, task->words, task->events,
+        "exact transport of damage (derived); an observed layer at the start is worn from "
+        "the top",
+        (wt_estimate){task->first, isnan(first.low) ? (double)NAN : e[FIRST], (double)NAN, NULL},
+        thickness, first.low, first.high, task->known, task->errors);
     return table_end(&t, table);
 }
 

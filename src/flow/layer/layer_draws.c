@@ -3,6 +3,7 @@
 #include "flow/layer/layer_draws.h"
 #include "flow/work/draws.h"
 
+#include "base/clocale.h"
 #include "base/normal.h"
 
 #include <math.h>
@@ -120,23 +121,58 @@ static double quantile(const double *sorted, size_t m, size_t n, double part)
     return sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]);
 }
 
+static size_t count_known(const replicates *r, size_t k)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < r->n; i++)
+        known += isfinite(r->value[i * r->stride + k]) ? 1 : 0;
+    return known;
+}
+
+/* The ends by the replicates themselves. */
+static wt_status find_ends(const replicates *r, size_t k, size_t known, wt_interval *interval)
+{
+    double *sorted = malloc((known + 1) * sizeof *sorted);
+    size_t n = 0;
+    if (sorted == NULL)
+        return WT_E_MEMORY;
+    for (size_t i = 0; i < r->n; i++)
+        if (isfinite(r->value[i * r->stride + k]))
+            sorted[n++] = r->value[i * r->stride + k];
+    qsort(sorted, n, sizeof *sorted, by_value);
+    interval->low = exp(quantile(sorted, n, r->n, beyond));
+    interval->high = exp(quantile(sorted, n, r->n, 1 - beyond));
+    free(sorted);
+    return WT_OK;
+}
+
 wt_interval layer_interval(const layer_draws *d, size_t k, double value)
 {
     const replicates *r = &d->replicates;
     const double error = r->error[k], wide = exp(NORMAL_95 * error);
+    const size_t known = count_known(r, k);
     wt_interval interval = {value, value * error, value / wide, value * wide};
-    double *sorted = r->n >= LEAST_FOR_ENDS ? malloc(r->n * sizeof *sorted) : NULL;
-    if (sorted == NULL || !isfinite(value)) {
-        free(sorted);
-        return interval;
-    }
-    size_t known = 0;
-    for (size_t i = 0; i < r->n; i++)
-        if (isfinite(r->value[i * r->stride + k]))
-            sorted[known++] = r->value[i * r->stride + k];
-    qsort(sorted, known, sizeof *sorted, by_value);
-    interval.low = exp(quantile(sorted, known, r->n, beyond));
-    interval.high = exp(quantile(sorted, known, r->n, 1 - beyond));
-    free(sorted);
+    const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
+    /* without memory for the ends there is no interval: what is left would be another one */
+    if (!whole ||
+        (isfinite(value) && r->n >= LEAST_FOR_ENDS && find_ends(r, k, known, &interval) != WT_OK))
+        interval.low = interval.high = interval.standard_error = (double)NAN;
     return interval;
+}
+
+void layer_say_known(const layer_draws *d, size_t k, double value, const char *without,
+                     const char *with, char *text, size_t size)
+{
+    const replicates *r = &d->replicates;
+    const size_t known = count_known(r, k), other = isfinite(value) ? r->n - known : known;
+    if (r->n == 0)
+        snprintf(text, size, "not tested: no replicates are drawn");
+    else if ((double)other <= beyond * (double)r->n)
+        snprintf(text, size, "yes: nearly all replicates agree");
+    else
+        clocale_print(
+            text, size,
+            "cannot say: in %.3g %% of the replicates %s; smaller errors of what is drawn "
+            "would settle it",
+            100 * (double)other / (double)r->n, isfinite(value) ? without : with);
 }

@@ -36,8 +36,12 @@ enum { LAYER_ROW_REPLICATES = 64 };
 
 /* A number above 0 with its interval of 95 %, of which the replicates have the logarithm as their
  * number k: the ends are those of the replicates themselves, for what is asked for need not be
- * straight in what is drawn; of a few, as if the logarithm were normal. Those without a number are
- * beyond the upper end, which is then not known. */
+ * straight in what is drawn; of a few, as if the logarithm were normal. Where too many replicates
+ * are without a number there is none. */
 wt_interval layer_interval(const layer_draws *draws, size_t k, double value);
+/* "yes: ...", or "cannot say: in 12 % of the replicates OTHER": `without` where the value is a
+ * number and they have none, `with` where it is none. */
+void layer_say_known(const layer_draws *draws, size_t k, double value, const char *without,
+                     const char *with, char *text, size_t size);
 
 #endif

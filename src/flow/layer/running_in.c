@@ -21,6 +21,8 @@ typedef struct running {
     const double *time; /* [n] borrowed */
     size_t n;
     friction_of_layer friction_of;
+    wt_energy_source source; /* of bare rubber, and its parameters; none with acting back */
+    wt_layer_parameters parameters;
     wt_layer_point *points;   /* [n] */
     layer_friction *friction; /* [n] */
     wt_estimate thickness;    /* at balance; NaN or infinite: there is none */
@@ -33,14 +35,14 @@ typedef struct running_task {
     double *time;
     size_t n;
     running centre;
-    char shear[256], errors[560];
+    char shear[256], known[200], errors[560];
 } running_task;
 
 TABLE_ROW(running_in, RUNNING_IN, double time;
           wt_estimate thickness, hysteresis, area_ratio, shear_stress, friction;)
 TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
            wt_estimate bare, balance, thickness, settled; double settled_low, settled_high;
-           const char *shear, *back, *errors;)
+           const char *known, *shear, *back, *errors;)
 
 /* ---- thickness ------------------------------------------------------------------------------- */
 
@@ -60,8 +62,6 @@ static wt_status grow_back(running *r, wt_error *err)
 
 static wt_status grow(running *r, wt_error *err)
 {
-    wt_energy_source source = {0};
-    wt_layer_parameters p;
     wt_layer_balance balance;
     wt_status status = WT_OK;
     r->points = calloc(r->n + 1, sizeof *r->points);
@@ -70,30 +70,46 @@ static wt_status grow(running *r, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (r->scene->job->acts_back)
         return grow_back(r, err);
-    status = acts_back_energy(0, r->scene, &source, &p, err);
+    status = acts_back_energy(0, r->scene, &r->source, &r->parameters, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &balance, err);
+        status = wt_layer_balance_compute(&r->source, &r->parameters, &balance, err);
     if (status == WT_OK) {
         r->thickness = balance.thickness;
-        status = wt_layer_history(&source, &p, r->time, r->n, r->points, err);
+        status = wt_layer_history(&r->source, &r->parameters, r->time, r->n, r->points, err);
     }
-    wt_energy_source_clear(&source);
     return status;
 }
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
-/* Between two times the thickness is linear in the logarithm of the time. */
+/* The thickness at a time between two of the list; with acting back linear in the logarithm of the
+ * time. */
+static wt_status thickness_at(const running *r, size_t i, double time, double *thickness,
+                              wt_error *err)
+{
+    const double from = r->points[i].thickness.value, to = r->points[i + 1].thickness.value;
+    wt_layer_point point;
+    if (r->source.n == 0) {
+        const double part = log(time / r->time[i]) / log(r->time[i + 1] / r->time[i]);
+        *thickness = from + part * (to - from);
+        return WT_OK;
+    }
+    const wt_status status = wt_layer_history(&r->source, &r->parameters, &time, 1, &point, err);
+    *thickness = status == WT_OK ? point.thickness.value : (double)NAN;
+    return status;
+}
+
 static wt_status settle_between(running *r, size_t i, double limit, wt_error *err)
 {
-    double low = 0, high = 1;
+    double low = r->time[i], high = r->time[i + 1];
     const double end = layer_friction_known(&r->balance);
-    const double from = r->points[i].thickness.value, to = r->points[i + 1].thickness.value;
     for (int k = 0; k < HALVES; k++) {
-        const double middle = 0.5 * (low + high);
+        const double middle = sqrt(low * high);
+        double thickness;
         layer_friction f;
-        const wt_status status =
-            friction_of_layer_at(&r->friction_of, from + middle * (to - from), &f, err);
+        wt_status status = thickness_at(r, i, middle, &thickness, err);
+        if (status == WT_OK)
+            status = friction_of_layer_at(&r->friction_of, thickness, &f, err);
         if (status != WT_OK)
             return status;
         if (fabs(layer_friction_known(&f) - end) > limit)
@@ -101,7 +117,7 @@ static wt_status settle_between(running *r, size_t i, double limit, wt_error *er
         else
             high = middle;
     }
-    r->settled = r->time[i] * pow(r->time[i + 1] / r->time[i], high);
+    r->settled = high;
     return WT_OK;
 }
 
@@ -144,6 +160,7 @@ static wt_status run_through(running *r, size_t nodes, wt_error *err)
 static void running_clear(running *r)
 {
     friction_of_layer_clear(&r->friction_of);
+    wt_energy_source_clear(&r->source);
     free(r->points);
     free(r->friction);
 }
@@ -241,6 +258,8 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
     const layer_scene *values = &task->draws.values;
     const double *const e = task->draws.replicates.error;
     const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
+    layer_say_known(&task->draws, LN_SETTLED, r->settled, "friction does not settle at these times",
+                    "friction settles at these times", task->known, sizeof task->known);
     table_writer t = table_begin(&running_in_schema, err);
     add_rows(task, &t);
     say_shear(task);
@@ -250,8 +269,9 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
               with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
               with_errors(layer_friction_known(&r->balance), e[BALANCE], known_error(&r->balance)),
               with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
-              with_errors(r->settled, e[SETTLED], (double)NAN), settled.low, settled.high,
-              task->shear, say_back(values->job), task->errors);
+              with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED], (double)NAN),
+              settled.low, settled.high, task->known, task->shear, say_back(values->job),
+              task->errors);
     return table_end(&t, table);
 }
 
