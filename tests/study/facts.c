@@ -40,4 +40,9 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_CRITICAL_ENERGY] = {"critical_energy", true},
     [Q_FRICTION_RATIO] = {"friction_ratio", true},
     [Q_NEEDED_SHEAR] = {"needed_shear", true},
+    [Q_HISTORY_THICKNESS] = {"history_thickness", true},
+    [Q_FIRST_APPEARANCE] = {"first_appearance", true},
+    [Q_EDGE_VELOCITY] = {"edge_velocity", true},
+    [Q_SETTLED] = {"settled", true},
+    [Q_END_FRICTION] = {"end_friction", true},
 };

@@ -44,9 +44,14 @@ typedef enum quantity {
     Q_RUNNING_IN, /* cycles before it */
     Q_DRIFT,
     Q_WEAR_RATE,
-    Q_CRITICAL_ENERGY, /* of a layer */
-    Q_FRICTION_RATIO,  /* measured over predicted */
-    Q_NEEDED_SHEAR,    /* stress that a record asks for */
+    Q_CRITICAL_ENERGY,   /* of a layer */
+    Q_FRICTION_RATIO,    /* measured over predicted */
+    Q_NEEDED_SHEAR,      /* stress that a record asks for */
+    Q_HISTORY_THICKNESS, /* of a layer after loads in turn */
+    Q_FIRST_APPEARANCE,  /* time of it */
+    Q_EDGE_VELOCITY,     /* up to which there is one */
+    Q_SETTLED,           /* time after which friction stands */
+    Q_END_FRICTION,      /* with the layer at its balance */
     Q_COUNT
 } quantity;
 

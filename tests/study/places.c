@@ -61,6 +61,15 @@ const place place_friction_ratio = {PLACE_VALIDATION, "ratio", NULL, "ratio_low"
 const place place_needed_shear = {PLACE_VALIDATION, "shear_stress_needed", NULL,
                                   "shear_stress_needed_low", "shear_stress_needed_high"};
 
+static const char bands[] = "layer_bands", grown[] = "running_in";
+const place place_last_thickness = {bands, "last_thickness", "standard_error", NULL, NULL};
+const place place_first_appearance = {bands, "first_appearance", NULL, "first_appearance_low",
+                                      "first_appearance_high"};
+const place place_edge_velocity = {"existence", "to_velocity", NULL, "to_velocity_low",
+                                   "to_velocity_high"};
+const place place_settled = {grown, "settled", NULL, "settled_low", "settled_high"};
+const place place_end_friction = {grown, "balance_friction", "standard_error", NULL, NULL};
+
 static const double normal95 = 1.959963984540054;
 
 /* Low and high where they stand, else the standard error to both sides. */

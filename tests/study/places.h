@@ -32,6 +32,9 @@ extern const place place_wear_rate;                             /* a row for eac
 
 extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
+extern const place place_last_thickness, place_first_appearance,
+    place_edge_velocity; /* of a layer */
+extern const place place_settled, place_end_friction;
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
