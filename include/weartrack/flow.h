@@ -884,9 +884,11 @@ WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_
                                       const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 /* Table "friction_decades": what the roughness of each decade of the wavenumber makes of the
- * hysteresis friction, at the slowest, the reference and the fastest velocity. */
-WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_job *work,
-                                          wt_table **table, wt_error *err) WT_NODISCARD;
+ * hysteresis friction, and of the shearing and crack opening of bare rubber (`known` as in the
+ * map), at the slowest, the reference and the fastest velocity. */
+WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_known *known,
+                                          const wt_job *work, wt_table **table,
+                                          wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 

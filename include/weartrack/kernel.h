@@ -313,12 +313,13 @@ WT_API wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages
 WT_API wt_status wt_layer_damage(const wt_layer_stage *stages, size_t n_stages, double time,
                                  double depth, double *damage, wt_error *err) WT_NODISCARD;
 
-/* How the bands of a constant load come about. */
+/* How the bands come about and go. */
 typedef enum wt_layer_event_kind {
     WT_LAYER_BAND_ONSET,      /* below the surface */
     WT_LAYER_SURFACE_ONSET,   /* at the surface */
     WT_LAYER_SURFACE_REACHED, /* by a band from below */
-    WT_LAYER_BANDS_MERGE
+    WT_LAYER_BANDS_MERGE,
+    WT_LAYER_WORN_OFF /* a band, down to its lower edge */
 } wt_layer_event_kind;
 typedef struct wt_layer_event {
     wt_layer_event_kind kind;
@@ -329,6 +330,14 @@ typedef struct wt_layer_event {
 WT_API wt_status wt_layer_events(const wt_energy_source *source,
                                  const wt_layer_parameters *parameters, wt_layer_event *events,
                                  size_t most, size_t *n, wt_error *err) WT_NODISCARD;
+/* The same of loads in turn, of which the last one lasts for ever, on rubber that is bare at first:
+ * events within 4 % of the time since a load began may undo each other unseen. And the first of
+ * them alone, whose time is NaN if nothing is ever modified. */
+WT_API wt_status wt_layer_stage_events(const wt_layer_stage *stages, size_t n_stages,
+                                       wt_layer_event *events, size_t most, size_t *n,
+                                       wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_first_event(const wt_layer_stage *stages, size_t n_stages,
+                                      wt_layer_event *event, wt_error *err) WT_NODISCARD;
 
 /* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
  * reached at once or over a thickness, and what it takes to open the cracks at the rims of the

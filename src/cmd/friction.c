@@ -25,11 +25,18 @@ static bool is_wanted(const wt_sliding *s, size_t k)
     }
 }
 
-/* What else a layer of this subcommand has does not reach the bare surface, of which a map is. */
+/* What else a layer of this subcommand has does not reach the bare surface, of which map and
+ * decades are. */
 static wt_status make_map(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                           wt_error *err)
 {
     return wt_friction_map_make(sliding, NULL, work, table, err);
+}
+
+static wt_status make_decades(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                              wt_error *err)
+{
+    return wt_friction_decades_make(sliding, NULL, work, table, err);
 }
 
 static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
@@ -43,7 +50,7 @@ static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
                          [FLASH] = {"flash_temperature", wt_flash_make},
                          [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
                          [MAP] = {"friction_map", make_map},
-                         [DECADES] = {"friction_decades", wt_friction_decades_make}};
+                         [DECADES] = {"friction_decades", make_decades}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
         if (!is_wanted(&s->conditions, k))

@@ -185,8 +185,19 @@ static void add_old_layer(wt_layer_section *s, double depth)
     section_add(s, old);
 }
 
-wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
-                           wt_error *err)
+/* Where the damage falls with depth, one value says whether there is a band. */
+static wt_status falling(const layer_loads *loads, damage *d, bool edges, wt_layer_section *section,
+                         wt_error *err)
+{
+    if (edges)
+        return falling_band(loads, d, section, err);
+    if (damage_at(0, d) >= 0)
+        section_add(section, (wt_layer_band){{.unit = "m"}, {.unit = "m"}});
+    return WT_OK;
+}
+
+static wt_status section_at(layer_loads *loads, double time, bool edges, wt_layer_section *section,
+                            wt_error *err)
 {
     wt_layer_section s = {.time = time};
     damage d = layer_loads_at(loads, time, &s.worn);
@@ -197,10 +208,21 @@ wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *se
         section_add(&s, (wt_layer_band){{.unit = "m"}, {.value = HUGE_VAL, .unit = "m"}});
     else if (any)
         status =
-            loads->falls ? falling_band(loads, &d, &s, err) : several_bands(loads, &d, &s, err);
+            loads->falls ? falling(loads, &d, edges, &s, err) : several_bands(loads, &d, &s, err);
     add_old_layer(&s, loads->start - s.worn);
     *section = s;
     return status;
+}
+
+wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
+                           wt_error *err)
+{
+    return section_at(loads, time, true, section, err);
+}
+
+wt_status layer_bands_at(layer_loads *loads, double time, wt_layer_section *section, wt_error *err)
+{
+    return section_at(loads, time, false, section, err);
 }
 
 wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages, const double *time,

@@ -25,5 +25,9 @@ void layer_loads_clear(layer_loads *loads);
 damage layer_loads_at(layer_loads *loads, double time, double *worn);
 wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
                            wt_error *err) WT_NODISCARD;
+/* The same bands, but of a damage that falls with depth without their lower edge, which costs most.
+ */
+wt_status layer_bands_at(layer_loads *loads, double time, wt_layer_section *section,
+                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -77,7 +77,7 @@ static void span_curve(figure_drawing *d, size_t group, const figure_curve *curv
     if (curve->with_errors && column->high != 0) {
         span_described(&d->y[curve->panel], d, group, column->low, axis);
         span_described(&d->y[curve->panel], d, group, column->high, axis);
-    } else if (curve->with_errors)
+    } else if (curve->with_errors || (curve->band != 0 && axis->scale != AXIS_LOG))
         span_errors(&d->y[curve->panel], d, group, curve->column, axis);
 }
 
@@ -282,11 +282,21 @@ static bool has_number(const figure_drawing *d, size_t group, const figure_curve
     return !span_empty(&span);
 }
 
+/* Without replicates there are no standard errors, and no band to name in the key. */
+static bool has_error(const figure_drawing *d, size_t group, const figure_curve *curve)
+{
+    const figure_axis any = {.scale = AXIS_LINEAR};
+    value_span span = SPAN_EMPTY;
+    span_described(&span, d, group, d->figure->table->columns[curve->column].standard_error, &any);
+    return !span_empty(&span);
+}
+
 void drawing_bands(figure_drawing *d, size_t panel)
 {
     for (const figure_curve *curve = d->figure->curves; curve->form != CURVE_NONE; curve++)
         for (size_t i = 0; i < d->n_groups; i++)
-            if (curve->panel == panel && curve->band != 0 && has_number(d, i, curve))
+            if (curve->panel == panel && curve->band != 0 && has_number(d, i, curve) &&
+                has_error(d, i, curve))
                 plot_band(d, i, curve);
 }
 

@@ -6,35 +6,54 @@
 #include "report/drawing.h"
 
 #include "base/array.h"
+#include "base/normal.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Room for the scale of colour beside the picture, as described figures have it. */
 static const double with_scale = 1.15;
 
 static void caption_existence(figure_drawing *d)
 {
+    const wt_estimate from = existence_value(d->table, EXISTENCE_KEY_FROM_VELOCITY),
+                      to = existence_value(d->table, EXISTENCE_KEY_TO_VELOCITY);
+    const char *const known = existence_words(d->table, EXISTENCE_KEY_KNOWN);
     text_format(&d->caption, " At %s there is a layer %s.",
                 VALUE(WT_Q_PRESSURE, NULL, existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
                 existence_words(d->table, EXISTENCE_KEY_WORDS));
+    if (isfinite(from.value))
+        text_format(&d->caption, " It begins at %s.", ESTIMATE(&from));
+    if (isfinite(to.value))
+        text_format(&d->caption, " It ends at %s.", ESTIMATE(&to));
+    if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
+        text_format(&d->caption, " Of the edges one %s.", known);
+}
+
+/* ln R, by so many standard errors of it more. */
+static double log_ratio(const table_view *t, size_t row, double errors)
+{
+    const double ratio = existence_get(t, row, EXISTENCE_RATIO),
+                 error = existence_get(t, row, EXISTENCE_RATIO_STANDARD_ERROR);
+    return log(ratio) + (errors == 0 ? 0 : errors * error / ratio);
 }
 
 /* Where R = 1 between two velocities, straight in the logarithms; NaN if not between them. */
-static double edge_between(const table_view *t, size_t row)
+static double edge_between(const table_view *t, size_t row, double errors)
 {
-    const double from = log(existence_get(t, row, EXISTENCE_RATIO)),
-                 to = log(existence_get(t, row + 1, EXISTENCE_RATIO));
+    const double from = log_ratio(t, row, errors), to = log_ratio(t, row + 1, errors);
     const double a = log(existence_get(t, row, EXISTENCE_VELOCITY)),
                  b = log(existence_get(t, row + 1, EXISTENCE_VELOCITY));
-    if ((from > 0) == (to > 0) ||
+    if (isnan(from) || isnan(to) || (from > 0) == (to > 0) ||
         wt_table_block(t->table, row) != wt_table_block(t->table, row + 1))
         return (double)NAN;
     return isfinite(from) && isfinite(to) ? exp(a + (b - a) * from / (from - to)) : exp(a);
 }
 
-/* Velocity and pressure of the line; no section without any. */
-static int edge_section(figure_drawing *d)
+/* Velocity and pressure of the line, of an R higher or lower by so many standard errors; no section
+ * without any. */
+static int edge_section(figure_drawing *d, const char *title, double errors)
 {
     static const char *const names[] = {"velocity", "pressure", NULL};
     static const char *const units[] = {"m/s", "Pa"};
@@ -46,14 +65,13 @@ static int edge_section(figure_drawing *d)
         return NO_SECTION;
     }
     for (size_t row = 0; row + 1 < t->n_rows; row++) {
-        const double velocity = edge_between(t, row);
+        const double velocity = edge_between(t, row, errors);
         if (isnan(velocity))
             continue;
         values[2 * n] = velocity;
         values[2 * n++ + 1] = existence_get(t, row, EXISTENCE_PRESSURE);
     }
-    const int section =
-        n > 0 ? drawing_numbers(d, "no layer", names, units, values, n) : NO_SECTION;
+    const int section = n > 0 ? drawing_numbers(d, title, names, units, values, n) : NO_SECTION;
     free(values);
     return section;
 }
@@ -111,7 +129,9 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
     axis_log(d, "y", "Nominal pressure", &field[EXISTENCE_PRESSURE], y);
     axis_linear(d, "cb", label, &field[shown], colour);
     d->width = with_scale;
-    const int edge = edge_section(d);
+    const int edge = edge_section(d, "no layer", 0),
+              low = edge_section(d, "no layer, R lower", -NORMAL_95),
+              high = edge_section(d, "no layer, R higher", NORMAL_95);
     text_format(&d->script,
                 "half_x = %s; half_y = %s  # of a box, as factors\nset cblabel offset 1.5,0\n"
                 "set border 15\nset key above\n",
@@ -125,6 +145,14 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
               "'no layer'");
     if (edge >= 0)
         plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
+    const int ends[] = {low, high};
+    const char *title = "title '95 % interval'";
+    for (size_t i = 0; i < COUNT_OF(ends); i++) {
+        if (ends[i] < 0)
+            continue;
+        plot_item(d, ends[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black' %s", title);
+        title = "notitle";
+    }
     plot_end(d);
 }
 

@@ -96,23 +96,40 @@ static void caption_layer(figure_drawing *d)
         text_format(&d->caption, " Relaxation time %s.", ESTIMATE(&relaxation));
 }
 
+/* Edges with their errors, where replicates have as many bands; those without are points alone. */
+static void draw_bands(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    plot_item(d, d->data[0],
+              "($1*x_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 21 lw 0.5 pt -1 notitle");
+    plot_item(d, d->data[0],
+              "($1*x_unit):($4*y_unit):($5*y_unit) with yerrorbars ls 22 lw 0.5 pt -1 notitle");
+    drawing_curves(d, 0);
+    plot_end(d);
+}
+
 static void caption_bands(figure_drawing *d)
 {
     const char *events = layer_bands_words(d->table, LAYER_BANDS_KEY_EVENTS);
     text_format(&d->caption, " Loads: %s.", layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
     if (events != NULL)
         text_format(&d->caption, " What happens: %s.", events);
+    const wt_estimate first = layer_bands_value(d->table, LAYER_BANDS_KEY_FIRST);
+    if (isfinite(first.value))
+        text_format(&d->caption, " Rubber is first modified after %s.", ESTIMATE(&first));
 }
 
 static void caption_running_in(figure_drawing *d)
 {
-    const double settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED).value;
+    const wt_estimate settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED);
     text_format(&d->caption, " Shear stress of the layer: %s; %s.",
                 running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
                 running_in_words(d->table, RUNNING_IN_KEY_BACK));
-    if (isfinite(settled))
-        text_format(&d->caption, " After %s 5 %% of the change are left.",
-                    VALUE(WT_Q_TIME, NULL, settled));
+    if (isfinite(settled.value))
+        text_format(&d->caption, " After %s 5 %% of the change are left.", ESTIMATE(&settled));
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
@@ -152,11 +169,13 @@ const figure_description figures_layer[] = {
      .data_title = "bands",
      .x = {LAYER_BANDS_TIME, AXIS_LOG, "Sliding time in contact"},
      .y = {{LAYER_BANDS_LOWER, AXIS_FROM_ZERO, "Depth below the surface"}},
-     .curves = {CURVE(LAYER_BANDS_LOWER, POINTS, .style = 21, .title = "lower edge"),
-                CURVE(LAYER_BANDS_UPPER, POINTS, .style = 22, .title = "upper edge")},
+     .curves = {CURVE(LAYER_BANDS_LOWER, POINTS, .style = 21, .title = "lower edge", .band = 71),
+                CURVE(LAYER_BANDS_UPPER, POINTS, .style = 22, .title = "upper edge", .band = 71)},
      .nothing = "nothing is modified",
      .words = "Edges of the modified rubber below the surface of the time, which wear takes down: "
-              "between an upper and the lower edge under it the rubber is modified.",
+              "between an upper and the lower edge under it the rubber is modified. Bars: one "
+              "standard error, of the replicates with as many bands.",
+     .draw = draw_bands,
      .caption = caption_bands},
     {.name = "running_in",
      .title = "Friction in running-in",
@@ -164,10 +183,11 @@ const figure_description figures_layer[] = {
      .data_title = "running-in",
      .x = {RUNNING_IN_TIME, AXIS_LOG, "Sliding time in contact"},
      .y = {{RUNNING_IN_FRICTION, AXIS_LINEAR, "Friction coefficient μ"}},
-     .curves = {CURVE(RUNNING_IN_FRICTION, LINE, .style = 21, .title = "hysteresis and shearing"),
-                CURVE(RUNNING_IN_HYSTERESIS, LINE, .style = 22, .title = "hysteresis")},
+     .curves = {CURVE(RUNNING_IN_FRICTION, LINE, .style = 21, .title = "hysteresis and shearing",
+                      .band = 71),
+                CURVE(RUNNING_IN_HYSTERESIS, LINE, .style = 22, .title = "hysteresis", .band = 72)},
      .nothing = "no shear stress is known, and so no friction",
-     .words = "Friction with the layer that has grown until then.",
+     .words = "Friction with the layer that has grown until then (bands: one standard error).",
      .caption = caption_running_in},
     {.name = NULL},
 };

@@ -51,4 +51,9 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_SAID_PAIR] = {"said_pair", false},
     [Q_SAID_RECORD] = {"said_record", false},
     [Q_SAID_SHARED] = {"said_shared", false},
+    [Q_HISTORY_THICKNESS] = {"history_thickness", true},
+    [Q_FIRST_APPEARANCE] = {"first_appearance", true},
+    [Q_EDGE_VELOCITY] = {"edge_velocity", true},
+    [Q_SETTLED] = {"settled", true},
+    [Q_END_FRICTION] = {"end_friction", true},
 };

@@ -25,27 +25,6 @@ static double drawn(double value, double error, random_source *random)
     return value * exp(error * random_normal(random));
 }
 
-/* Without errors, so that those of the layer are all there are. */
-static bool write_material(const char *path)
-{
-    const rubber lines = rubber_make(RUBBER_LINES);
-    FILE *out = fopen(path, "w");
-    if (out == NULL)
-        return false;
-    fprintf(out,
-            "## table: prony\n## title: Prony series\n"
-            "## equilibrium_modulus: %.12g standard_error=0 numerical_error=0 unit=Pa\n"
-            "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
-            "## frequency_min: 1e-6 standard_error=0 numerical_error=0 unit=rad/s\n"
-            "## frequency_max: 1e13 standard_error=0 numerical_error=0 unit=rad/s\n"
-            "## deformation: tension\n# relaxation_time[s]\tmodulus[Pa]\n",
-            lines.equilibrium);
-    for (size_t i = lines.n; i-- > 0;) /* rising times */
-        fprintf(out, "%.12g\t%.12g\n", lines.tau[i], lines.strength[i]);
-    fprintf(out, "##\n");
-    return ferror(out) == 0 && fclose(out) == 0;
-}
-
 static const facts *scene_facts(int scene)
 {
     return &identify_scenes[scene].facts;
@@ -105,7 +84,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
                                      NULL};
     if (!(layer.thickness > 0))
         trial_broke(t, "there is no layer");
-    else if (!write_material(material))
+    else if (!rubber_write(&lines, material))
         trial_broke(t, "the material cannot be written");
     else if (trial_run(t, arguments))
         read_found(&truth, made, t);

@@ -2,6 +2,7 @@
 #include "material.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static double vogel(double b, double t_inf, double reference, double temperature)
 {
@@ -127,4 +128,23 @@ void state_moduli(const rubber_state *state, double omega, double *storage, doub
     rubber_moduli(state->rubber, reduced, storage, loss);
     *storage *= state->factor;
     *loss *= state->factor;
+}
+
+bool rubber_write(const rubber *r, const char *path)
+{
+    FILE *out = fopen(path, "w");
+    if (out == NULL)
+        return false;
+    fprintf(out,
+            "## table: prony\n## title: Prony series\n"
+            "## equilibrium_modulus: %.12g standard_error=0 numerical_error=0 unit=Pa\n"
+            "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
+            "## frequency_min: 1e-6 standard_error=0 numerical_error=0 unit=rad/s\n"
+            "## frequency_max: 1e13 standard_error=0 numerical_error=0 unit=rad/s\n"
+            "## deformation: tension\n# relaxation_time[s]\tmodulus[Pa]\n",
+            r->equilibrium);
+    for (size_t i = r->n; i-- > 0;) /* rising times */
+        fprintf(out, "%.12g\t%.12g\n", r->tau[i], r->strength[i]);
+    fprintf(out, "##\n");
+    return ferror(out) == 0 && fclose(out) == 0;
 }

@@ -3,6 +3,7 @@
 #ifndef STUDY_MATERIAL_H
 #define STUDY_MATERIAL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef enum rubber_kind {
@@ -41,6 +42,9 @@ typedef struct rubber {
 } rubber;
 
 rubber rubber_make(rubber_kind kind);
+/* A Prony series of its terms, all of Debye, as a table without errors, so that those of what it is
+ * used for are all there are. */
+bool rubber_write(const rubber *r, const char *path);
 /* Each process at its own reduced frequency [rad/s]. */
 void rubber_moduli(const rubber *r, const double omega[2], double *storage, double *loss);
 

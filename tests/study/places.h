@@ -54,6 +54,9 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_SHARED_DIFFERS "differs"
 #define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
 
+extern const place place_last_thickness, place_first_appearance,
+    place_edge_velocity; /* of a layer */
+extern const place place_settled, place_end_friction;
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */

@@ -8,6 +8,7 @@
 #include "dma_observe.h"
 #include "dwell_observe.h"
 #include "identify_observe.h"
+#include "layer_observe.h"
 #include "lever_observe.h"
 #include "record_observe.h"
 #include "surface_observe.h"
@@ -228,10 +229,10 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    const family families[] = {dma_family(),       track_family(),      afm_family(),
-                               dwell_family(),     lever_family(),      surface_family(),
-                               record_family(),    validation_family(), identify_family(),
-                               collection_family()};
+    const family families[] = {dma_family(),        track_family(),      afm_family(),
+                               dwell_family(),      lever_family(),      surface_family(),
+                               record_family(),     validation_family(), identify_family(),
+                               collection_family(), layer_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

@@ -168,7 +168,7 @@ static void decades_add_up(void **state)
     enum { DECADES = 4 };
     set_up();
     wt_table *table = NULL, *friction = make_friction((double)NAN, 0.4e6);
-    assert_int_equal(wt_friction_decades_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3 * DECADES);
     static const size_t shown[] = {0, VELOCITIES / 2, VELOCITIES - 1};
     for (size_t v = 0; v < 3; v++) {
@@ -195,6 +195,36 @@ static void decades_add_up(void **state)
     wt_table_free(friction);
 }
 
+/* Where the roughness ends at the last decade, shearing, cracks and all of it are those of the
+ * contact; cracks are opened on the bare surface, too, and without their energy there are none. */
+static void decades_have_the_cracks(void **state)
+{
+    (void)state;
+    set_up();
+    const wt_layer_shear shear = {1, 0, 1, 1e-5};
+    const wt_layer_known cracked = {
+        .thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}, .shear = &shear};
+    sliding.shear_stress.value = 5e6;
+    wt_table *table = NULL, *plain = NULL, *friction = make_friction((double)NAN, 0.4e6);
+    assert_int_equal(wt_friction_decades_make(&sliding, &cracked, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    const size_t last = wt_table_n_rows(table) - 1;
+    const double area = number_cell(table, last, "area_ratio"), pressure = sliding.pressure.value;
+    const double cracks = 2 / (1e-5 * sqrt(M_PI * area)) * area / pressure;
+    assert_near(number_cell(table, last, "crack_opening"), cracks, 1e-12);
+    assert_near(number_cell(table, last, "shearing"), cracks + 5e6 * area / pressure, 1e-12);
+    assert_near(number_cell(plain, last, "crack_opening"), 0, 0);
+    assert_near_abs(number_cell(plain, last, "friction"),
+                    number_cell(friction, VELOCITIES - 1, "hysteresis") + 5e6 * area / pressure,
+                    1e-9);
+    for (size_t row = 0; row <= last; row++) /* the area falls, and the cracks with its root */
+        assert_true(row % 4 == 0 || number_cell(table, row, "crack_opening") <
+                                        number_cell(table, row - 1, "crack_opening"));
+    wt_table_free(table);
+    wt_table_free(plain);
+    wt_table_free(friction);
+}
+
 /* A spectrum that ends at whole decades has no empty ones there. */
 static void decades_end_at_decades(void **state)
 {
@@ -204,12 +234,12 @@ static void decades_end_at_decades(void **state)
     surface.q0 = surface.qr = 1e3;
     surface.q1 = 1e6;
     sliding.n_velocity = 1;
-    assert_int_equal(wt_friction_decades_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3);
     wt_table_free(table);
     table = NULL;
     surface.q1 = 3e3;
-    assert_int_equal(wt_friction_decades_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 1);
     assert_near(number_cell(table, 0, "share"), 1, 1e-14);
     wt_table_free(table);
@@ -256,9 +286,13 @@ static void sides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(map_is_friction),        cmocka_unit_test(map_says_what_it_is),
-        cmocka_unit_test(map_that_cannot_be),     cmocka_unit_test(decades_add_up),
-        cmocka_unit_test(decades_end_at_decades), cmocka_unit_test(sides),
+        cmocka_unit_test(map_is_friction),
+        cmocka_unit_test(map_says_what_it_is),
+        cmocka_unit_test(map_that_cannot_be),
+        cmocka_unit_test(decades_add_up),
+        cmocka_unit_test(decades_have_the_cracks),
+        cmocka_unit_test(decades_end_at_decades),
+        cmocka_unit_test(sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

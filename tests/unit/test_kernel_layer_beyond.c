@@ -661,6 +661,74 @@ static void errors_of_the_power(void **state)
     }
 }
 
+/* A load in parts has the events of that load. */
+static void events_in_parts(void **state)
+{
+    (void)state;
+    enum { MOST = 8 };
+    wt_energy_source source = {.profile = WT_PROFILE_INCOMPRESSIBLE,
+                               .n = 2,
+                               .wavenumber = (double[]){1e5, 6e5},
+                               .power = (double[]){120, 200}};
+    wt_layer_parameters p = wt_layer_defaults();
+    wt_layer_event whole[MOST], parts[MOST], first;
+    size_t n_whole = 0, n_parts = 0;
+    wt_error err = WT_ERROR_INIT;
+    p.pressure = 4e5;
+    p.velocity = 5e-3;
+    p.critical_energy = 2e10;
+    p.specific_wear_rate = 2e-14;
+    assert_int_equal(wt_layer_events(&source, &p, whole, MOST, &n_whole, &err), WT_OK);
+    assert_true(n_whole >= 2 && n_whole <= MOST);
+    const wt_layer_stage stages[] = {{&source, p, 0.4 * whole[0].time},
+                                     {&source, p, whole[1].time - 0.7 * whole[0].time},
+                                     {&source, p, 0}};
+    assert_int_equal(wt_layer_stage_events(stages, 3, parts, MOST, &n_parts, &err), WT_OK);
+    assert_int_equal(n_parts, n_whole);
+    for (size_t i = 0; i < n_whole; i++) {
+        assert_int_equal(parts[i].kind, whole[i].kind);
+        assert_near(parts[i].time, whole[i].time, 1e-11);
+    }
+    assert_int_equal(wt_layer_first_event(stages, 3, &first, &err), WT_OK);
+    assert_near(first.time, whole[0].time, 2e-7);
+}
+
+/* A load that wears faster than it forms takes the layer away, and a later one gives it back. */
+static void worn_off_and_back(void **state)
+{
+    (void)state;
+    enum { MOST = 8 };
+    wt_energy_source source = {.n = 1, .wavenumber = (double[]){1e6}, .power = (double[]){400}};
+    wt_layer_parameters mild = wt_layer_defaults(), severe;
+    wt_layer_event event[MOST], none;
+    size_t n = 0;
+    wt_error err = WT_ERROR_INIT;
+    mild.pressure = 4e5;
+    mild.velocity = 5e-3;
+    mild.critical_energy = 2e10;
+    mild.specific_wear_rate = 1e-12;
+    severe = mild;
+    severe.specific_wear_rate = 1e-10;
+    const wt_layer_stage stages[] = {
+        {&source, mild, 1000}, {&source, severe, 100}, {&source, mild, 0}};
+    assert_int_equal(wt_layer_stage_events(stages, 3, event, MOST, &n, &err), WT_OK);
+    assert_int_equal(n, 3);
+    assert_int_equal(event[0].kind, WT_LAYER_SURFACE_ONSET);
+    assert_int_equal(event[1].kind, WT_LAYER_WORN_OFF);
+    assert_int_equal(event[2].kind, WT_LAYER_SURFACE_ONSET);
+    assert_true(event[1].time > 1000 && event[1].time < 1100 && event[2].time > 1100);
+    for (size_t i = 0; i < n; i++) {
+        const wt_layer_section before = section_of(stages, 3, event[i].time * (1 - 1e-9)),
+                               after = section_of(stages, 3, event[i].time * (1 + 1e-9));
+        assert_int_equal(before.n, i % 2);
+        assert_int_equal(after.n, 1 - i % 2);
+    }
+    const wt_layer_stage always = {&source, severe, 0};
+    assert_int_equal(wt_layer_first_event(&always, 1, &none, &err), WT_OK);
+    assert_true(isnan(none.time));
+    assert_int_equal(wt_layer_first_event(NULL, 0, &none, &err), WT_E_ARG);
+}
+
 static void refuses(void **state)
 {
     (void)state;
@@ -694,6 +762,7 @@ static void refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(events_in_parts),     cmocka_unit_test(worn_off_and_back),
         cmocka_unit_test(numeric_cases),       cmocka_unit_test(restart_changes_nothing),
         cmocka_unit_test(rest_ages_only),      cmocka_unit_test(severity_off_changes_nothing),
         cmocka_unit_test(errors_of_the_power), cmocka_unit_test(refuses),

@@ -660,6 +660,37 @@ static void test_ramps(void **state)
     }
 }
 
+/* A layer between two velocities, with stated errors. */
+static void see_both_edges(void)
+{
+    enum { LIST = 9 };
+    double velocity[LIST], tau[] = {1e-3}, term[] = {3e8};
+    wt_layer_job job = wt_layer_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    for (size_t i = 0; i < LIST; i++)
+        velocity[i] = pow(10, (double)i - 5);
+    sliding_set_up(velocity, LIST);
+    rubber.prony.n = 1;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    surface.q1 = 2e4;
+    work.replicates = 8;
+    job.critical_energy.value = 2e10;
+    job.specific_wear_rate = (wt_estimate){1e-12, 1e-14, 0, "m^2/N"};
+    for (int with_edges = 0; with_edges < 2; with_edges++) {
+        assert_int_equal(wt_existence_make(&sliding, &job, NULL, &work, &table, &err), WT_OK);
+        if (with_edges)
+            see(table);
+        double most = 0;
+        for (size_t i = 0; i < LIST; i++)
+            most = fmax(most, wt_table_number(table, i, (size_t)wt_table_find(table, "ratio")));
+        job.specific_wear_rate.value *= 0.5 * most; /* R goes with 1/k, to 2 at most */
+        job.specific_wear_rate.standard_error *= 0.5 * most;
+        wt_table_free(table);
+    }
+}
+
 /* A layer with everything that it can say. */
 static void test_layer_models(void **state)
 {
@@ -683,7 +714,8 @@ static void test_layer_models(void **state)
     see(tables.layer);
     wt_layer_tables_clear(&tables);
     job.closure = WT_CLOSURE_ENERGY;
-    job.critical_energy.value = 2e10;
+    job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
+    work.replicates = 8;
     assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
     assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
@@ -692,6 +724,8 @@ static void test_layer_models(void **state)
         see(table[i]);
         wt_table_free(table[i]);
     }
+    see_both_edges();
+    sliding_set_up(velocity, 3);
     const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
     const wt_layer_known sheared = {
         .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &shear};

@@ -44,6 +44,17 @@
     X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID), __VA_ARGS__)                         \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
     X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
+/* The same of tables that earlier versions wrote without them. */
+#define COLUMN_AND_NEW_ERROR(X, ID, name, words, unit, ...)                                        \
+    X(ID, name, words, unit, STANDARD_ERROR(ID), __VA_ARGS__)                                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      OPTIONAL)
+#define COLUMN_AND_NEW_ERRORS(X, ID, name, words, unit, ...)                                       \
+    X(ID, name, words, unit, BOTH_ERRORS(ID), __VA_ARGS__)                                         \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      OPTIONAL)                                                                                    \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."), \
+      OPTIONAL)
 #define INTERVAL_COLUMNS(X, ID, prefix, ...)                                                       \
     X(ID##_LOW, prefix "low", "lower end of its 95 % interval", LABEL("95 % interval from"),       \
       __VA_ARGS__)                                                                                 \

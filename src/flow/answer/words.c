@@ -83,7 +83,7 @@ number_words words_of_estimate(wt_estimate e)
     return words;
 }
 
-static number_words known_between(wt_estimate e, double low, double high)
+number_words words_between(wt_estimate e, double low, double high)
 {
     const int digits = finding_digits(e.value, low, high);
     number_words words = words_with(e.value, e.unit, digits);
@@ -99,13 +99,13 @@ static number_words known_between(wt_estimate e, double low, double high)
 number_words words_of_known(wt_estimate e)
 {
     const double half = NORMAL_95 * e.standard_error;
-    return known_between(e, e.value - half, e.value + half);
+    return words_between(e, e.value - half, e.value + half);
 }
 
 number_words words_of_positive(wt_estimate e)
 {
     const double factor = exp(NORMAL_95 * e.standard_error / e.value);
-    return known_between(e, e.value / factor, e.value * factor);
+    return words_between(e, e.value / factor, e.value * factor);
 }
 
 number_words words_of_celsius(double kelvin)

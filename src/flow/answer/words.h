@@ -34,6 +34,8 @@ number_words words_of_estimate(wt_estimate estimate); /* +- the standard error w
 number_words words_of_known(wt_estimate estimate);
 /* The same, of a number above 0 whose error is a factor: the logarithm is normal. */
 number_words words_of_positive(wt_estimate estimate);
+/* The same, of ends that are known; NaN: they are not. */
+number_words words_between(wt_estimate estimate, double low, double high);
 number_words words_of_celsius(double kelvin);
 
 /* ---- findings -------------------------------------------------------------------------------- */

@@ -1,121 +1,290 @@
-/* The table of the balances of a layer that acts back on the energy that makes it.
+/* The table of the balances of a layer that acts back on the energy that makes it, with what its
+ * inputs leave open by replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/layer/acts_back.h"
 #include "flow/work/cost.h"
+#include "flow/work/draws.h"
 
-#include "base/clocale.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Thicknesses at which balances are looked for: a step is 9 % of the thickness over six decades. */
 enum { GRID = 160 };
+/* The same for a replicate: 35 %, far closer than balances that are not about to meet. */
+enum { REPLICATE_GRID = 48 };
 /* From a layer that the shortest wave hardly feels to one that holds the longest. */
 static const double thinnest = 1e-2; /* 1/q1 */
 static const double thickest = 4;    /* 1/q0 */
 
 TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
-          double thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio, friction;)
-TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio;
-           double modulus_ratio, low, high; const char *words;)
-
-wt_status layer_job_known(const wt_sliding *sliding, const wt_layer_job *job,
-                          const wt_layer_known *known, const wt_job *work, wt_layer_job *out,
-                          wt_error *err)
-{
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK)
-        status = wt_layer_job_check(job, err);
-    if (status == WT_OK && known != NULL && !(known->modulus_ratio.value > 0)) {
-        status = wt_fail(err, WT_E_MISSING, "the modulus of the layer is not known");
-        wt_error_expected(err, "modulus-ratio above 0");
-    }
-    if (status == WT_OK)
-        status = layer_job_calibrated(sliding, job, work, out, err);
-    if (status == WT_OK && known != NULL && known->bulk_shear)
-        out->shear.exponent = 0;
-    return status;
-}
+          wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
+          friction;)
+TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio, modulus_ratio;
+           double low, high; const char *words, *agreement, *errors;)
 
 wt_status acts_back_energy(double thickness, void *user, wt_energy_source *source,
                            wt_layer_parameters *parameters, wt_error *err)
 {
-    const acts_back *back = user;
+    const layer_scene *scene = user;
     layer_energy energy = {.source = {.n = 0}};
-    layer_spot spot = layer_here();
-    spot.layer = (wt_layer_state){thickness, thickness > 0 ? back->modulus_ratio : 1};
     const wt_status status =
-        layer_at(back->sliding, back->job, back->work, spot, &energy, parameters, err);
+        layer_at(scene, layer_under(scene, thickness), &energy, parameters, err);
     *source = energy.source;
     return status;
 }
 
-wt_status acts_back_find(acts_back *back, wt_layer_loop *loop, wt_error *err)
+wt_status acts_back_find(layer_scene *scene, wt_layer_loop *loop, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
     double low = 0, high = 0;
-    wt_status status = acts_back_energy(0, back, &source, &p, err);
+    wt_status status = acts_back_energy(0, scene, &source, &p, err);
     for (size_t i = 0; status == WT_OK && i < source.n; i++) {
         low = i == 0 ? source.wavenumber[0] : fmin(low, source.wavenumber[i]);
         high = fmax(high, source.wavenumber[i]);
     }
     if (status == WT_OK)
-        status = wt_layer_loop_find(acts_back_energy, back, thinnest / high, thickest / low, GRID,
+        status = wt_layer_loop_find(acts_back_energy, scene, thinnest / high, thickest / low,
+                                    scene->replicate == WT_NO_REPLICATE ? GRID : REPLICATE_GRID,
                                     loop, err);
     wt_energy_source_clear(&source);
     return status;
 }
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- by one set of values ------------------------------------------------------------------- */
 
-static wt_status add_row(const acts_back *back, layer_balances_row row, table_writer *t,
-                         wt_error *err)
+/* A balance, or a fold, with the friction there. */
+enum { AT_THICKNESS, AT_SLOPE, AT_EIGENVALUE, AT_WEAR, AT_HYSTERESIS, AT_AREA, AT_FRICTION, N_AT };
+typedef struct place {
+    double value[N_AT], numerical[N_AT];
+} place;
+
+typedef struct balances {
+    layer_scene *scene;
+    wt_layer_loop loop;
+    wt_layer_balance one_way;
+    place root[WT_LAYER_ROOTS], fold[WT_LAYER_ROOTS];
+} balances;
+
+static wt_status add_friction(const balances *b, place *at, wt_error *err)
 {
     layer_friction f;
-    layer_spot spot = layer_here();
-    spot.layer = (wt_layer_state){row.thickness, row.thickness > 0 ? back->modulus_ratio : 1};
-    const wt_status status = layer_friction_at(back->sliding, back->job, back->work, spot, &f, err);
-    row.hysteresis = f.hysteresis;
-    row.area_ratio = f.area_ratio;
-    row.friction = f.total;
+    const wt_status status =
+        layer_friction_at(b->scene, layer_under(b->scene, at->value[AT_THICKNESS]), &f, err);
+    if (status != WT_OK)
+        return status;
+    at->value[AT_HYSTERESIS] = f.hysteresis;
+    at->value[AT_AREA] = f.area_ratio;
+    at->value[AT_FRICTION] = f.total;
+    at->numerical[AT_HYSTERESIS] = f.hysteresis_error;
+    at->numerical[AT_AREA] = f.area_error;
+    at->numerical[AT_FRICTION] = f.total_error;
+    return WT_OK;
+}
+
+/* An error of formation over wear moves a root by that over the slope of ln(Qf / Qw). */
+static wt_status add_root_error(const balances *b, place *at, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_layer_balance here;
+    wt_status status = acts_back_energy(at->value[AT_THICKNESS], b->scene, &source, &p, err);
     if (status == WT_OK)
-        layer_balances_add_row(t, &row);
+        status = wt_layer_balance_compute(&source, &p, &here, err);
+    if (status == WT_OK)
+        at->numerical[AT_THICKNESS] =
+            here.ratio_error * here.wear_rate / fabs(at->value[AT_EIGENVALUE]);
+    wt_energy_source_clear(&source);
     return status;
 }
 
-static wt_status add_rows(const acts_back *back, const wt_layer_loop *loop, table_writer *t,
-                          wt_error *err)
+static wt_status find_places(balances *b, wt_error *err)
 {
+    const double wear = b->scene->job->specific_wear_rate.value;
+    const bool with_errors = b->scene->replicate == WT_NO_REPLICATE;
+    const place unknown = {.numerical = {(double)NAN, (double)NAN, (double)NAN, (double)NAN,
+                                         (double)NAN, (double)NAN, (double)NAN}};
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < loop->n_roots; i++) {
-        const wt_layer_root *r = &loop->root[i];
-        const layer_balances_row row = {.kind = "balance",
-                                        .stable = r->stable ? "stable" : "unstable",
-                                        .thickness = r->thickness,
-                                        .map_slope = r->map_slope,
-                                        .eigenvalue = r->eigenvalue,
-                                        .wear_rate = back->job->specific_wear_rate.value};
-        status = add_row(back, row, t, err);
+    for (size_t i = 0; status == WT_OK && i < b->loop.n_roots; i++) {
+        const wt_layer_root *r = &b->loop.root[i];
+        b->root[i] = unknown;
+        b->root[i].value[AT_THICKNESS] = r->thickness;
+        b->root[i].value[AT_SLOPE] = r->map_slope;
+        b->root[i].value[AT_EIGENVALUE] = r->eigenvalue;
+        b->root[i].value[AT_WEAR] = wear;
+        status = add_friction(b, &b->root[i], err);
+        if (status == WT_OK && with_errors)
+            status = add_root_error(b, &b->root[i], err);
     }
-    for (size_t i = 0; status == WT_OK && i < loop->n_folds; i++) {
-        const wt_layer_fold *f = &loop->fold[i];
-        const layer_balances_row row = {.kind = "fold",
-                                        .stable = f->maximum ? "above" : "below",
-                                        .thickness = f->thickness,
-                                        .map_slope = (double)NAN,
-                                        .eigenvalue = (double)NAN,
-                                        .wear_rate = f->specific_wear_rate};
-        status = add_row(back, row, t, err);
+    for (size_t i = 0; status == WT_OK && i < b->loop.n_folds; i++) {
+        const wt_layer_fold *f = &b->loop.fold[i];
+        b->fold[i] = unknown;
+        b->fold[i].value[AT_THICKNESS] = f->thickness;
+        b->fold[i].value[AT_SLOPE] = b->fold[i].value[AT_EIGENVALUE] = (double)NAN;
+        b->fold[i].value[AT_WEAR] = f->specific_wear_rate;
+        status = add_friction(b, &b->fold[i], err);
     }
     return status;
+}
+
+static wt_status find_balances(balances *b, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_status status = acts_back_find(b->scene, &b->loop, err);
+    if (status == WT_OK)
+        status = acts_back_energy(0, b->scene, &source, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &p, &b->one_way, err);
+    wt_energy_source_clear(&source);
+    return status == WT_OK ? find_places(b, err) : status;
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of the balances and folds follow, NaN where it has others. */
+enum { RATIO, ONE_WAY, BALANCES, STABLE, SAME_BALANCES, N_NUMBERS };
+
+typedef struct balances_task {
+    layer_draws draws;
+    balances centre;
+    char agreement[320], errors[560];
+} balances_task;
+
+static size_t count_stable(const wt_layer_loop *loop)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < loop->n_roots; i++)
+        n += loop->root[i].stable;
+    return n;
+}
+
+static bool same_balances(const wt_layer_loop *a, const wt_layer_loop *b)
+{
+    if (a->n_roots != b->n_roots)
+        return false;
+    for (size_t i = 0; i < a->n_roots; i++)
+        if (a->root[i].stable != b->root[i].stable ||
+            (a->root[i].thickness > 0) != (b->root[i].thickness > 0))
+            return false;
+    return true;
+}
+
+static bool same_folds(const wt_layer_loop *a, const wt_layer_loop *b)
+{
+    if (a->n_folds != b->n_folds)
+        return false;
+    for (size_t i = 0; i < a->n_folds; i++)
+        if (a->fold[i].maximum != b->fold[i].maximum)
+            return false;
+    return true;
+}
+
+static void put_places(const place *places, size_t n, bool same, double *out)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < N_AT; k++)
+            out[N_AT * i + k] = same ? places[i].value[k] : (double)NAN;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const balances_task *task = user;
+    const wt_layer_loop *centre = &task->centre.loop;
+    wt_layer_job job;
+    layer_scene scene;
+    balances b = {.scene = &scene};
+    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    if (status == WT_OK) {
+        job.specific_wear_rate = (wt_estimate){
+            flow_draw_positive(job.specific_wear_rate, scene.work->seed, i, FLOW_DRAW_WEAR), 0, 0,
+            "m^2/N"};
+        status = find_balances(&b, err);
+    }
+    if (status != WT_OK)
+        return status;
+    const bool same = same_balances(&b.loop, centre);
+    out[RATIO] = b.loop.ratio;
+    out[ONE_WAY] = b.one_way.thickness.value;
+    out[BALANCES] = (double)b.loop.n_roots;
+    out[STABLE] = (double)count_stable(&b.loop);
+    out[SAME_BALANCES] = same;
+    put_places(b.root, centre->n_roots, same, out + N_NUMBERS);
+    put_places(b.fold, centre->n_folds, same_folds(&b.loop, centre),
+               out + N_NUMBERS + N_AT * centre->n_roots);
+    return WT_OK;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* Replicates that must have the same balances, that their number counts as known. */
+static const double sure = 0.95;
+
+/* Whether the replicates have as many balances, each as stable. */
+static void say_agreement(balances_task *task)
+{
+    const replicates *r = &task->draws.replicates;
+    size_t solved = 0, same = 0, fewest = WT_LAYER_ROOTS, most = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const double *const out = r->value + i * r->stride;
+        if (isnan(out[RATIO]))
+            continue;
+        const size_t n = (size_t)out[BALANCES];
+        solved++;
+        same += out[SAME_BALANCES] > 0;
+        fewest = n < fewest ? n : fewest;
+        most = n > most ? n : most;
+    }
+    const bool known = (double)same >= sure * (double)solved;
+    char *const text = task->agreement;
+    const size_t size = sizeof task->agreement;
+    if (solved == 0)
+        snprintf(text, size, "not tested: %s", replicates_include(r));
+    else if (known)
+        snprintf(text, size, "yes: %zu of %zu replicates have as many balances, equally stable",
+                 same, solved);
+    else
+        snprintf(text, size,
+                 "cannot say: %zu of %zu replicates have as many balances, equally stable, and all "
+                 "of them %zu to %zu; smaller errors of what is drawn would settle it",
+                 same, solved, fewest, most);
+    if (solved > 0 && !known)
+        wt_parselog_add(task->draws.values.work->log, WT_WARNING, NULL, NULL,
+                        "within the stated errors the number of balances of the layer, or their "
+                        "stability, may be another: so it is in %zu of %zu replicates",
+                        solved - same, solved);
+}
+
+static wt_estimate estimate_of(const place *at, const double *error, size_t k)
+{
+    return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
+}
+
+static void add_place(const place *at, const double *e, const char *kind, const char *stable,
+                      table_writer *t)
+{
+    TABLE_ADD(layer_balances, t, kind, stable, estimate_of(at, e, AT_THICKNESS),
+              estimate_of(at, e, AT_SLOPE), estimate_of(at, e, AT_EIGENVALUE),
+              estimate_of(at, e, AT_WEAR), estimate_of(at, e, AT_HYSTERESIS),
+              estimate_of(at, e, AT_AREA), estimate_of(at, e, AT_FRICTION));
+}
+
+static void add_rows(const balances_task *task, table_writer *t)
+{
+    const wt_layer_loop *loop = &task->centre.loop;
+    const double *e = task->draws.replicates.error + N_NUMBERS;
+    for (size_t i = 0; i < loop->n_roots; i++, e += N_AT)
+        add_place(&task->centre.root[i], e, "balance", loop->root[i].stable ? "stable" : "unstable",
+                  t);
+    for (size_t i = 0; i < loop->n_folds; i++, e += N_AT)
+        add_place(&task->centre.fold[i], e, "fold", loop->fold[i].maximum ? "above" : "below", t);
 }
 
 static const char *say_loop(const wt_layer_loop *loop)
 {
-    size_t stable = 0;
-    for (size_t i = 0; i < loop->n_roots; i++)
-        stable += loop->root[i].stable;
+    const size_t stable = count_stable(loop);
     if (loop->n_roots == 0)
         return "no balance between the thicknesses looked at (reconstructed)";
     if (stable > 1)
@@ -128,26 +297,20 @@ static const char *say_loop(const wt_layer_loop *loop)
                            : "a bare surface stays bare (reconstructed)";
 }
 
-static wt_status make_table(acts_back *back, wt_table **table, wt_error *err)
+static wt_status make_table(balances_task *task, wt_table **table, wt_error *err)
 {
-    wt_layer_loop loop;
-    wt_layer_balance balance = {.ratio = (double)NAN};
-    wt_energy_source source = {0};
-    wt_layer_parameters p;
-    wt_status status = acts_back_find(back, &loop, err);
-    if (status == WT_OK)
-        status = acts_back_energy(0, back, &source, &p, err);
-    if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &balance, err);
-    wt_energy_source_clear(&source);
-    if (status != WT_OK)
-        return status;
+    const balances *b = &task->centre;
+    const double *const e = task->draws.replicates.error;
+    wt_estimate one_way = b->one_way.thickness;
+    one_way.standard_error = e[ONE_WAY];
+    const wt_estimate ratio = {b->loop.ratio, e[RATIO], b->loop.ratio * b->one_way.ratio_error,
+                               NULL};
+    say_agreement(task);
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
     table_writer t = table_begin(&layer_balances_schema, err);
-    status = add_rows(back, &loop, &t, err);
-    if (t.status == WT_OK)
-        t.status = status;
-    TABLE_SET(layer_balances, &t, layer_alone(balance.thickness.value), layer_alone(loop.ratio),
-              back->modulus_ratio, loop.low, loop.high, say_loop(&loop));
+    add_rows(task, &t);
+    TABLE_SET(layer_balances, &t, one_way, ratio, flow_as_stated(task->draws.known->modulus_ratio),
+              b->loop.low, b->loop.high, say_loop(&b->loop), task->agreement, task->errors);
     return table_end(&t, table);
 }
 
@@ -157,12 +320,23 @@ wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no balances of a layer to make");
-    wt_layer_job own;
-    wt_status status = layer_job_known(sliding, job, known, work, &own, err);
-    if (status != WT_OK)
-        return status;
-    acts_back back = {sliding, &own, work, known->modulus_ratio.value};
-    status = make_table(&back, table, err);
-    cost_say(work, (cost_summary){.items = GRID, .tolerance_asked = work->tolerance});
+    balances_task task = {.centre = {.scene = &task.draws.values}};
+    wt_status status =
+        layer_draws_open(&task.draws, sliding, job, known, work, "layer that acts back", true, err);
+    if (status == WT_OK)
+        status = find_balances(&task.centre, err);
+    if (status == WT_OK) {
+        const wt_layer_loop *loop = &task.centre.loop;
+        task.draws.replicates.velocity = flow_layer_velocity(sliding, job);
+        status = replicates_draw(&task.draws.replicates,
+                                 N_NUMBERS + N_AT * (loop->n_roots + loop->n_folds), one_replicate,
+                                 &task, err);
+    }
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work,
+             (cost_summary){.items = GRID + (double)(REPLICATE_GRID * task.draws.replicates.n),
+                            .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
     return status;
 }

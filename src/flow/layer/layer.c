@@ -1,11 +1,9 @@
 /* The layer job: energy density with depth, formation against wear, thickness at balance and in
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/layer/layer_energy.h"
+#include "flow/layer/layer_draws.h"
 #include "flow/layer/layer_words.h"
 #include "flow/sliding/anisotropy.h"
-#include "flow/sliding/replicates.h"
-#include "flow/sliding/sliding_contact.h"
 #include "flow/strain/softness.h"
 #include "flow/work/cost.h"
 #include "flow/work/draws.h"
@@ -160,20 +158,8 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
 {
     const wt_layer_job *job = task->job;
     replicates *r = &task->replicates;
-    replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
     const bool calibrated = !isnan(job->observed_thickness.value);
-    const bool activated = job->closure == WT_CLOSURE_ACTIVATED;
-    const double given = (activated    ? job->barrier
-                          : calibrated ? job->observed_thickness
-                                       : job->critical_energy)
-                             .standard_error;
-    replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
-                   activated    ? "barrier"
-                   : calibrated ? "observed thickness"
-                                : "critical energy");
-    if (job->energy != WT_LAYER_HYSTERESIS)
-        replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+    const double given = layer_replicates_add(r, task->sliding, job);
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
     if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;

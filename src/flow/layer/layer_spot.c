@@ -1,6 +1,7 @@
-/* A layer at other loads than those of the sliding, and under a layer that is there already.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* A layer at other loads than those of the sliding, and under a layer that is there already, by the
+ * values themselves or those of a replicate. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/layer/layer_energy.h"
+#include "flow/work/draws.h"
 
 #include <math.h>
 
@@ -9,84 +10,125 @@ layer_spot layer_here(void)
     return (layer_spot){(double)NAN, (double)NAN, (double)NAN, {0, 1}};
 }
 
+layer_spot layer_under(const layer_scene *scene, double thickness)
+{
+    layer_spot spot = layer_here();
+    if (thickness > 0)
+        spot.layer = (wt_layer_state){thickness, scene->modulus_ratio};
+    return spot;
+}
+
 wt_estimate layer_alone(double value)
 {
     return (wt_estimate){value, (double)NAN, (double)NAN, NULL};
 }
 
 /* The sliding with the values of a spot; *velocity is kept by the caller. */
-static wt_sliding sliding_at(const wt_sliding *sliding, const wt_layer_job *job, layer_spot spot,
-                             double *velocity)
+static wt_sliding sliding_at(const layer_scene *scene, layer_spot spot, double *velocity)
 {
-    wt_sliding s = *sliding;
-    *velocity = isnan(spot.velocity) ? flow_layer_velocity(sliding, job) : spot.velocity;
+    wt_sliding s = *scene->sliding;
+    *velocity =
+        isnan(spot.velocity) ? flow_layer_velocity(scene->sliding, scene->job) : spot.velocity;
     s.velocity = velocity;
     s.n_velocity = 1;
     s.reference_velocity = *velocity;
-    if (!isnan(spot.pressure))
-        s.pressure = (wt_estimate){.value = spot.pressure, .unit = "Pa"};
+    if (!isnan(spot.pressure)) {
+        s.pressure.standard_error *= spot.pressure / s.pressure.value;
+        s.pressure.value = spot.pressure;
+    }
     if (!isnan(spot.temperature))
-        s.temperature = (wt_estimate){.value = spot.temperature, .unit = "K"};
+        s.temperature.value = spot.temperature;
     return s;
 }
 
-static wt_status contact_at(const wt_sliding *s, const wt_job *work, layer_spot spot,
+static wt_status contact_at(const layer_scene *scene, const wt_sliding *s, layer_spot spot,
                             sliding_contact *c, wt_error *err)
 {
-    wt_job own = *work;
+    wt_job own = *scene->work;
     own.left_out = WT_EXTRAS;
-    return sliding_contact_make(s, &own, WT_NO_REPLICATE, NULL, spot.layer, c, err);
+    /* what is kept of a replicate is of the temperature of the sliding */
+    return sliding_contact_make(s, &own, scene->replicate,
+                                isnan(spot.temperature) ? scene->drawn : NULL, spot.layer, c, err);
 }
 
-wt_status layer_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
-                   layer_spot spot, layer_energy *energy, wt_layer_parameters *parameters,
-                   wt_error *err)
+void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
 {
-    double velocity;
-    const wt_sliding s = sliding_at(sliding, job, spot, &velocity);
-    sliding_contact c = {0};
-    wt_status status = contact_at(&s, work, spot, &c, err);
-    if (status == WT_OK)
-        status = layer_energy_make(&s, job, &c, velocity, spot.layer, energy, err);
-    if (status == WT_OK)
-        *parameters = layer_parameters_of(job, &c, velocity, energy, 0, WT_NO_REPLICATE);
-    sliding_contact_clear(&c);
-    return status;
+    const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer, f->area_ratio);
+    f->shear_stress = stress;
+    f->total = f->hysteresis + stress * f->area_ratio / f->pressure;
+    f->total_error = f->hysteresis_error + stress * f->area_error / f->pressure;
 }
 
-wt_status layer_friction_at(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
-                            layer_spot spot, layer_friction *friction, wt_error *err)
+double layer_friction_known(const layer_friction *f)
 {
-    double velocity;
-    const wt_sliding s = sliding_at(sliding, job, spot, &velocity);
-    sliding_contact c = {0};
+    return isnan(f->total) ? f->hysteresis : f->total;
+}
+
+static wt_status find_friction(const layer_scene *scene, const wt_sliding *s,
+                               const sliding_contact *c, layer_spot spot, layer_friction *friction,
+                               wt_error *err)
+{
     wt_friction_point p;
-    wt_status status = contact_at(&s, work, spot, &c, err);
-    if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, &velocity, 1, &p, err);
-    if (status == WT_OK) {
-        const double stress = wt_layer_shear_stress(&job->shear, sliding_shear(&s, &c, &p),
-                                                    spot.layer, p.area_ratio.value);
-        *friction = (layer_friction){p.hysteresis.value, p.area_ratio.value, stress,
-                                     p.hysteresis.value + stress * p.area_ratio.value / c.pressure};
+    const wt_status status =
+        wt_friction_compute(c->workspace, c->pressure, s->velocity, 1, &p, err);
+    if (status != WT_OK)
+        return status;
+    *friction = (layer_friction){.hysteresis = p.hysteresis.value,
+                                 .area_ratio = p.area_ratio.value,
+                                 .hysteresis_error = p.hysteresis.numerical_error,
+                                 .area_error = p.area_ratio.numerical_error,
+                                 .bulk_stress = sliding_shear(s, c, &p),
+                                 .pressure = c->pressure};
+    layer_friction_join(scene->job, spot.layer, friction);
+    return WT_OK;
+}
+
+wt_status layer_look(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+                     wt_layer_parameters *parameters, layer_friction *friction, wt_error *err)
+{
+    double velocity;
+    const wt_sliding s = sliding_at(scene, spot, &velocity);
+    sliding_contact c = {0};
+    wt_status status = contact_at(scene, &s, spot, &c, err);
+    if (status == WT_OK && friction != NULL)
+        status = find_friction(scene, &s, &c, spot, friction, err);
+    if (status == WT_OK && energy != NULL) {
+        status = layer_energy_make(&s, scene->job, &c, velocity, spot.layer, energy, err);
+        if (status == WT_OK)
+            *parameters = layer_parameters_of(scene->job, &c, velocity, energy, scene->work->seed,
+                                              scene->replicate);
     }
     sliding_contact_clear(&c);
     return status;
 }
 
-wt_status layer_job_calibrated(const wt_sliding *sliding, const wt_layer_job *job,
-                               const wt_job *work, wt_layer_job *calibrated, wt_error *err)
+wt_status layer_at(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+                   wt_layer_parameters *parameters, wt_error *err)
 {
-    *calibrated = *job;
-    if (isnan(job->observed_thickness.value))
+    return layer_look(scene, spot, energy, parameters, NULL, err);
+}
+
+wt_status layer_friction_at(const layer_scene *scene, layer_spot spot, layer_friction *friction,
+                            wt_error *err)
+{
+    return layer_look(scene, spot, NULL, NULL, friction, err);
+}
+
+wt_status layer_job_calibrated(const layer_scene *scene, wt_layer_job *calibrated, wt_error *err)
+{
+    *calibrated = *scene->job;
+    if (isnan(scene->job->observed_thickness.value))
         return WT_OK;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    const wt_status status = layer_at(sliding, job, work, layer_here(), &energy, &p, err);
+    const wt_status status = layer_at(scene, layer_here(), &energy, &p, err);
     if (status != WT_OK)
         return status;
-    calibrated->critical_energy.value =
-        wt_layer_calibrate(&energy.source, &p, job->observed_thickness.value);
+    calibrated->critical_energy = (wt_estimate){
+        wt_layer_calibrate(&energy.source, &p,
+                           flow_draw_positive(scene->job->observed_thickness, scene->work->seed,
+                                              scene->replicate, FLOW_DRAW_OBSERVED)),
+        0, 0, "J/m^3"};
     calibrated->observed_thickness.value = (double)NAN;
     layer_energy_clear(&energy);
     return WT_OK;

@@ -1,7 +1,8 @@
-/* The table of the friction in running-in: the layer grows, and friction with it.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of the friction in running-in: the layer grows, and friction with it, by the values
+ * themselves and, for the standard errors, by replicates. SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "flow/layer/acts_back.h"
-#include "flow/sliding/sliding_contact.h"
+#include "flow/layer/friction_of_layer.h"
 #include "flow/work/cost.h"
 
 #include "data/tables/rows.h"
@@ -14,137 +15,193 @@ static const double settled_share = 0.05;
 /* Halves of a step of the time, to 1e-12 of it. */
 enum { HALVES = 40 };
 
-typedef struct running_task {
-    acts_back back;
-    wt_layer_job job; /* calibrated */
-    double *time;
+/* One run through the times of the task. */
+typedef struct running {
+    layer_scene *scene;
+    const double *time; /* [n] borrowed */
     size_t n;
+    friction_of_layer friction_of;
+    wt_energy_source source; /* of bare rubber, and its parameters; none with acting back */
+    wt_layer_parameters parameters;
     wt_layer_point *points;   /* [n] */
     layer_friction *friction; /* [n] */
-    double thickness;         /* at balance; NaN or infinite: there is none */
+    wt_estimate thickness;    /* at balance; NaN or infinite: there is none */
     layer_friction bare, balance;
-    char shear[256];
+    double settled; /* NaN where the times do not hold it */
+} running;
+
+typedef struct running_task {
+    layer_draws draws;
+    double *time;
+    size_t n;
+    running centre;
+    char shear[256], known[200], errors[560];
 } running_task;
 
-TABLE_ROW(running_in, RUNNING_IN, double time, thickness, hysteresis, area_ratio, shear_stress,
-          friction;)
-TABLE_KEYS(running_in, RUNNING_IN, double velocity, modulus_ratio;
-           wt_estimate bare, balance, thickness, settled; const char *shear, *back, *errors;)
-
-/* Not known where there is no balance, and where age has modified all rubber. */
-static wt_status friction_of(const running_task *task, double thickness, layer_friction *friction,
-                             wt_error *err)
-{
-    const double unknown = (double)NAN;
-    *friction = (layer_friction){unknown, unknown, unknown, unknown};
-    if (!isfinite(thickness))
-        return WT_OK;
-    layer_spot spot = layer_here();
-    spot.layer = (wt_layer_state){thickness, thickness > 0 ? task->back.modulus_ratio : 1};
-    return layer_friction_at(task->back.sliding, &task->job, task->back.work, spot, friction, err);
-}
-
-/* Friction, or hysteresis where no shear stress is known. */
-static double known_friction(const layer_friction *f)
-{
-    return isnan(f->total) ? f->hysteresis : f->total;
-}
+TABLE_ROW(running_in, RUNNING_IN, double time;
+          wt_estimate thickness, hysteresis, area_ratio, shear_stress, friction;)
+TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
+           wt_estimate bare, balance, thickness, settled; double settled_low, settled_high;
+           const char *known, *shear, *back, *errors;)
 
 /* ---- thickness ------------------------------------------------------------------------------- */
 
 /* The balance that a bare surface comes to, and the thickness in time. */
-static wt_status grow_back(running_task *task, wt_error *err)
+static wt_status grow_back(running *r, wt_error *err)
 {
     wt_layer_loop loop;
-    wt_status status = acts_back_find(&task->back, &loop, err);
+    wt_status status = acts_back_find(r->scene, &loop, err);
     if (status != WT_OK)
         return status;
-    task->thickness = loop.ratio > 1 ? (double)NAN : 0;
+    r->thickness = layer_alone(loop.ratio > 1 ? (double)NAN : 0);
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
-            task->thickness = loop.root[i].thickness;
-    return wt_layer_loop_history(acts_back_energy, &task->back, &loop, task->time, task->n,
-                                 task->points, err);
+            r->thickness.value = loop.root[i].thickness;
+    return wt_layer_loop_history(acts_back_energy, r->scene, &loop, r->time, r->n, r->points, err);
 }
 
-static int by_time(const void *left, const void *right)
+static wt_status grow(running *r, wt_error *err)
 {
-    const double *const a = left, *const b = right;
-    return (*a > *b) - (*a < *b);
-}
-
-static wt_status grow(running_task *task, wt_error *err)
-{
-    wt_energy_source source = {0};
-    wt_layer_parameters p;
     wt_layer_balance balance;
-    wt_status status = acts_back_energy(0, &task->back, &source, &p, err);
+    wt_status status = WT_OK;
+    r->points = calloc(r->n + 1, sizeof *r->points);
+    r->friction = calloc(r->n + 1, sizeof *r->friction);
+    if (r->points == NULL || r->friction == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (r->scene->job->acts_back)
+        return grow_back(r, err);
+    status = acts_back_energy(0, r->scene, &r->source, &r->parameters, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &balance, err);
-    if (status == WT_OK)
-        status = layer_times_choose(&task->job, &balance, &task->time, &task->n, err);
-    if (status == WT_OK) { /* what is left is looked for from the last time on */
-        qsort(task->time, task->n, sizeof *task->time, by_time);
-        task->points = calloc(task->n + 1, sizeof *task->points);
-        task->friction = calloc(task->n + 1, sizeof *task->friction);
-        if (task->points == NULL || task->friction == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        status = wt_layer_balance_compute(&r->source, &r->parameters, &balance, err);
+    if (status == WT_OK) {
+        r->thickness = balance.thickness;
+        status = wt_layer_history(&r->source, &r->parameters, r->time, r->n, r->points, err);
     }
-    if (status == WT_OK && task->job.acts_back)
-        status = grow_back(task, err);
-    else if (status == WT_OK) {
-        task->thickness = balance.thickness.value;
-        status = wt_layer_history(&source, &p, task->time, task->n, task->points, err);
-    }
-    wt_energy_source_clear(&source);
     return status;
 }
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
-/* Between two times the thickness is linear in the logarithm of the time. */
-static wt_status settle_between(const running_task *task, size_t i, double limit, double *settled,
-                                wt_error *err)
+/* The thickness at a time between two of the list; with acting back linear in the logarithm of the
+ * time. */
+static wt_status thickness_at(const running *r, size_t i, double time, double *thickness,
+                              wt_error *err)
 {
-    double low = 0, high = 1;
-    const double end = known_friction(&task->balance);
-    const double from = task->points[i].thickness.value, to = task->points[i + 1].thickness.value;
+    const double from = r->points[i].thickness.value, to = r->points[i + 1].thickness.value;
+    wt_layer_point point;
+    if (r->source.n == 0) {
+        const double part = log(time / r->time[i]) / log(r->time[i + 1] / r->time[i]);
+        *thickness = from + part * (to - from);
+        return WT_OK;
+    }
+    const wt_status status = wt_layer_history(&r->source, &r->parameters, &time, 1, &point, err);
+    *thickness = status == WT_OK ? point.thickness.value : (double)NAN;
+    return status;
+}
+
+static wt_status settle_between(running *r, size_t i, double limit, wt_error *err)
+{
+    double low = r->time[i], high = r->time[i + 1];
+    const double end = layer_friction_known(&r->balance);
     for (int k = 0; k < HALVES; k++) {
-        const double middle = 0.5 * (low + high);
+        const double middle = sqrt(low * high);
+        double thickness;
         layer_friction f;
-        const wt_status status = friction_of(task, from + middle * (to - from), &f, err);
+        wt_status status = thickness_at(r, i, middle, &thickness, err);
+        if (status == WT_OK)
+            status = friction_of_layer_at(&r->friction_of, thickness, &f, err);
         if (status != WT_OK)
             return status;
-        if (fabs(known_friction(&f) - end) > limit)
+        if (fabs(layer_friction_known(&f) - end) > limit)
             low = middle;
         else
             high = middle;
     }
-    *settled = task->time[i] * pow(task->time[i + 1] / task->time[i], high);
+    r->settled = high;
     return WT_OK;
 }
 
-/* NaN where the times do not hold it. */
-static wt_status find_settled(const running_task *task, double *settled, wt_error *err)
+static wt_status find_settled(running *r, wt_error *err)
 {
-    const double end = known_friction(&task->balance);
-    const double limit = settled_share * fabs(known_friction(&task->bare) - end);
-    *settled = (double)NAN;
-    for (size_t i = task->n; isfinite(limit) && i-- > 1;)
-        if (fabs(known_friction(&task->friction[i - 1]) - end) > limit)
-            return fabs(known_friction(&task->friction[i]) - end) <= limit && task->time[i - 1] > 0
-                       ? settle_between(task, i - 1, limit, settled, err)
+    const double end = layer_friction_known(&r->balance);
+    const double limit = settled_share * fabs(layer_friction_known(&r->bare) - end);
+    r->settled = (double)NAN;
+    for (size_t i = r->n; isfinite(limit) && i-- > 1;)
+        if (fabs(layer_friction_known(&r->friction[i - 1]) - end) > limit)
+            return fabs(layer_friction_known(&r->friction[i]) - end) <= limit && r->time[i - 1] > 0
+                       ? settle_between(r, i - 1, limit, err)
                        : WT_OK;
     return WT_OK;
 }
 
-static wt_status follow_friction(running_task *task, wt_error *err)
+/* nodes: as many as the friction is known at, between which it is interpolated; 0: it is computed
+ * at every thickness. */
+static wt_status run_through(running *r, size_t nodes, wt_error *err)
 {
-    wt_status status = friction_of(task, 0, &task->bare, err);
+    double thinnest = HUGE_VAL, thickest = 0;
+    wt_status status = grow(r, err);
+    for (size_t i = 0; status == WT_OK && i <= r->n; i++) {
+        const double d = i < r->n ? r->points[i].thickness.value : r->thickness.value;
+        thinnest = d > 0 ? fmin(thinnest, d) : thinnest;
+        thickest = isfinite(d) ? fmax(thickest, d) : thickest;
+    }
     if (status == WT_OK)
-        status = friction_of(task, task->thickness, &task->balance, err);
-    for (size_t i = 0; status == WT_OK && i < task->n; i++)
-        status = friction_of(task, task->points[i].thickness.value, &task->friction[i], err);
+        status = friction_of_layer_make(r->scene, thinnest, thickest, nodes, &r->friction_of, err);
+    if (status == WT_OK)
+        status = friction_of_layer_at(&r->friction_of, 0, &r->bare, err);
+    if (status == WT_OK)
+        status = friction_of_layer_at(&r->friction_of, r->thickness.value, &r->balance, err);
+    for (size_t i = 0; status == WT_OK && i < r->n; i++)
+        status = friction_of_layer_at(&r->friction_of, r->points[i].thickness.value,
+                                      &r->friction[i], err);
+    return status == WT_OK ? find_settled(r, err) : status;
+}
+
+static void running_clear(running *r)
+{
+    friction_of_layer_clear(&r->friction_of);
+    wt_energy_source_clear(&r->source);
+    free(r->points);
+    free(r->friction);
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of a time follow. */
+enum { BARE, BALANCE, THICKNESS, SETTLED, LN_SETTLED, N_NUMBERS };
+enum { AT_THICKNESS, AT_HYSTERESIS, AT_AREA, AT_SHEAR, AT_FRICTION, N_AT };
+/* A curve through so many nodes is off by far less than the replicates scatter. */
+enum { NODES = 24 };
+
+static void put_numbers(const running *r, double *out)
+{
+    out[BARE] = layer_friction_known(&r->bare);
+    out[BALANCE] = layer_friction_known(&r->balance);
+    out[THICKNESS] = r->thickness.value;
+    out[SETTLED] = r->settled;
+    out[LN_SETTLED] = log(r->settled);
+    for (size_t i = 0; i < r->n; i++) {
+        double *const at = out + N_NUMBERS + N_AT * i;
+        at[AT_THICKNESS] = r->points[i].thickness.value;
+        at[AT_HYSTERESIS] = r->friction[i].hysteresis;
+        at[AT_AREA] = r->friction[i].area_ratio;
+        at[AT_SHEAR] = r->friction[i].shear_stress;
+        at[AT_FRICTION] = r->friction[i].total;
+    }
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const running_task *task = user;
+    wt_layer_job job;
+    layer_scene scene;
+    running r = {.scene = &scene, .time = task->time, .n = task->n};
+    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    if (status == WT_OK)
+        status = run_through(&r, NODES, err);
+    if (status == WT_OK)
+        put_numbers(&r, out);
+    running_clear(&r);
     return status;
 }
 
@@ -152,38 +209,96 @@ static wt_status follow_friction(running_task *task, wt_error *err)
 
 static void say_shear(running_task *task)
 {
-    if (isnan(task->back.sliding->shear_stress.value))
+    if (isnan(task->draws.values.sliding->shear_stress.value))
         snprintf(task->shear, sizeof task->shear, "not known: hysteresis alone");
     else
-        sliding_layer_shear_describe(&task->job.shear, task->shear, sizeof task->shear);
+        sliding_layer_shear_describe(&task->draws.calibrated.shear, task->shear,
+                                     sizeof task->shear);
 }
 
-static wt_status make_table(running_task *task, double velocity, wt_table **table, wt_error *err)
+static wt_estimate with_errors(double value, double standard, double numerical)
 {
-    double settled;
-    const wt_status status = find_settled(task, &settled, err);
-    if (status != WT_OK)
-        return status;
-    table_writer t = table_begin(&running_in_schema, err);
+    return (wt_estimate){value, standard, numerical, NULL};
+}
+
+static void add_rows(const running_task *task, table_writer *t)
+{
     for (size_t i = 0; i < task->n; i++) {
-        const layer_friction *f = &task->friction[i];
-        TABLE_ADD(running_in, &t, task->time[i], task->points[i].thickness.value, f->hysteresis,
-                  f->area_ratio, f->shear_stress, f->total);
+        const layer_friction *f = &task->centre.friction[i];
+        const wt_estimate d = task->centre.points[i].thickness;
+        const double *const e = task->draws.replicates.error + N_NUMBERS + N_AT * i;
+        TABLE_ADD(running_in, t, task->time[i],
+                  with_errors(d.value, e[AT_THICKNESS], d.numerical_error),
+                  with_errors(f->hysteresis, e[AT_HYSTERESIS], f->hysteresis_error),
+                  with_errors(f->area_ratio, e[AT_AREA], f->area_error),
+                  with_errors(f->shear_stress, e[AT_SHEAR], (double)NAN),
+                  with_errors(f->total, e[AT_FRICTION], f->total_error));
     }
+}
+
+static double known_error(const layer_friction *f)
+{
+    return isnan(f->total) ? f->hysteresis_error : f->total_error;
+}
+
+static const char *say_back(const wt_layer_job *job)
+{
+    if (job->acts_back)
+        return "the layer acts back on the energy that makes it; by the rate balance "
+               "(reconstructed)";
+    return job->closure == WT_CLOSURE_ACTIVATED && job->activation.ageing
+               ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
+                 "not known (nan) once age has modified rubber of every depth"
+               : "the energy is that of the bulk, friction that with the layer (reconstructed)";
+}
+
+static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
+{
+    const running *r = &task->centre;
+    const layer_scene *values = &task->draws.values;
+    const double *const e = task->draws.replicates.error;
+    const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
+    layer_say_known(&task->draws, LN_SETTLED, r->settled, "friction does not settle at these times",
+                    "friction settles at these times", task->known, sizeof task->known);
+    table_writer t = table_begin(&running_in_schema, err);
+    add_rows(task, &t);
     say_shear(task);
-    const bool ages = task->job.closure == WT_CLOSURE_ACTIVATED && task->job.activation.ageing;
-    TABLE_SET(running_in, &t, velocity, task->back.modulus_ratio,
-              layer_alone(known_friction(&task->bare)), layer_alone(known_friction(&task->balance)),
-              layer_alone(task->thickness), layer_alone(settled), task->shear,
-              task->job.acts_back
-                  ? "the layer acts back on the energy that makes it; by the rate balance "
-                    "(reconstructed)"
-              : ages
-                  ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
-                    "not known (nan) once age has modified rubber of every depth"
-                  : "the energy is that of the bulk, friction that with the layer (reconstructed)",
-              "of the values themselves: the standard errors are in the tables layer and friction");
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
+              flow_as_stated(task->draws.known->modulus_ratio),
+              with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
+              with_errors(layer_friction_known(&r->balance), e[BALANCE], known_error(&r->balance)),
+              with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
+              with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED], (double)NAN),
+              settled.low, settled.high, task->known, task->shear, say_back(values->job),
+              task->errors);
     return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+static int by_time(const void *left, const void *right)
+{
+    const double *const a = left, *const b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+/* Those of the balance without acting back, in order: what is left is looked for from the last on.
+ */
+static wt_status take_times(running_task *task, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_layer_balance balance;
+    wt_status status = acts_back_energy(0, &task->draws.values, &source, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &p, &balance, err);
+    if (status == WT_OK)
+        status = layer_times_choose(task->draws.values.job, &balance, &task->time, &task->n, err);
+    if (status == WT_OK)
+        qsort(task->time, task->n, sizeof *task->time, by_time);
+    wt_energy_source_clear(&source);
+    return status;
 }
 
 wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
@@ -200,17 +315,23 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
         return WT_E_ARG;
     }
     running_task task = {.n = 0};
-    wt_status status = layer_job_known(sliding, job, known, work, &task.job, err);
-    task.back = (acts_back){sliding, &task.job, work, known->modulus_ratio.value};
+    wt_status status =
+        layer_draws_open(&task.draws, sliding, job, known, work, "running-in", true, err);
     if (status == WT_OK)
-        status = grow(&task, err);
+        status = take_times(&task, err);
+    task.draws.replicates.velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
+    task.centre = (running){.scene = &task.draws.values, .time = task.time, .n = task.n};
     if (status == WT_OK)
-        status = follow_friction(&task, err);
+        status = run_through(&task.centre, 0, err);
     if (status == WT_OK)
-        status = make_table(&task, flow_layer_velocity(sliding, job), table, err);
-    cost_say(work, (cost_summary){.items = (double)task.n, .tolerance_asked = work->tolerance});
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n, one_replicate,
+                                 &task, err);
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
+                                  .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
+    running_clear(&task.centre);
     free(task.time);
-    free(task.points);
-    free(task.friction);
     return status;
 }

@@ -531,7 +531,10 @@ wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_friction_decades_make(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES], err);
+    wt_layer_known layer;
+    const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
+    return wt_friction_decades_make(&sliding, layered ? &layer : NULL, &run->job,
+                                    &run->table[FLOW_FRICTION_DECADES], err);
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)

@@ -10,12 +10,14 @@
 #include <stdlib.h>
 
 TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
-          wt_estimate hysteresis, area_ratio;)
+          wt_estimate hysteresis, area_ratio; double shearing, cracks, total;)
 
 TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
 /* The edges of the decades: q0, the powers of ten between, q1. */
 typedef struct decades {
+    const wt_sliding *sliding;
+    const wt_layer_known *known; /* with the cracks; NULL: none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
@@ -51,6 +53,21 @@ static void say_strongest(decades *d, double velocity, size_t i, double share)
                   100 * share);
 }
 
+/* What shearing costs if the roughness ends at a node, and what of it the cracks: on bare rubber.
+ */
+static void add_shearing(const sliding_contact *c, const decades *d, double velocity,
+                         const wt_friction_node *node, friction_decades_row *row)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_friction_point point = {.velocity = velocity,
+                                     .temperature = {.value = node->temperature}};
+    const double bulk = sliding_shear(d->sliding, c, &point), area = node->area_ratio;
+    const double all = sliding_layer_shear(d->known, bulk, none, area);
+    row->shearing = all * area / c->pressure;
+    row->cracks = (all - bulk) * area / c->pressure;
+    row->total = node->hysteresis + row->shearing;
+}
+
 static void add_decades(const sliding_contact *c, decades *d, double velocity, bool is_reference,
                         table_writer *t, cost_summary *cost)
 {
@@ -71,6 +88,7 @@ static void add_decades(const sliding_contact *c, decades *d, double velocity, b
             .share = share,
             .hysteresis = {part, (double)NAN, a->hysteresis_error + b->hysteresis_error, "1"},
             .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"}};
+        add_shearing(c, d, velocity, b, &row);
         friction_decades_add_row(t, &row);
         cost->items++;
         if (all > 0)
@@ -94,14 +112,14 @@ static void add_velocities(const wt_sliding *sliding, const sliding_contact *c, 
         add_decades(c, d, last, false, t, cost);
 }
 
-wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                   wt_error *err)
+wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_known *known,
+                                   const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no decades to make");
     const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
-    decades d = {0};
+    decades d = {.sliding = sliding, .known = known};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status != WT_OK)
         return status;
