@@ -57,6 +57,8 @@ bool validation_source_is_material(const char *words);
 typedef struct source_advice {
     char narrows[320], settles[320];
 } source_advice;
+/* The words of a number that is drawn, and of what makes its error smaller. */
+const char *source_of_draw(flow_draw draw, const char **remedy);
 wt_status sources_make(const validation *v, source_advice *advice, wt_table **table,
                        wt_error *err) WT_NODISCARD;
 
