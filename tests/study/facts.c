@@ -51,4 +51,9 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_SAID_PAIR] = {"said_pair", false},
     [Q_SAID_RECORD] = {"said_record", false},
     [Q_SAID_SHARED] = {"said_shared", false},
+    [Q_SETTLED] = {"settled", true},
+    [Q_TIME_RATIO] = {"time_ratio", true},
+    [Q_CHANGE_RATIO] = {"change_ratio", true},
+    [Q_NEEDED_WEAR] = {"needed_wear", true},
+    [Q_NEEDED_ENERGY] = {"needed_energy", true},
 };

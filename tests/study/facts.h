@@ -54,11 +54,17 @@ typedef enum quantity {
     Q_SHARED_WEAR,     /* wear rate of all cases of a severity */
     Q_SHARED_SHEAR,    /* shear stress of all cases */
     Q_SHARED_RATE,     /* modulus over a decade of rate, of all cases of a compound, or of all */
-    /* "Yes" and "no" as intervals that hold the truth if they are right; "cannot say" states none */
+    /* "Yes" and "no" as intervals that hold the truth if they are right; "cannot say" states none
+     */
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
     Q_SAID_RECORD,
     Q_SAID_SHARED,
+    Q_SETTLED,      /* time until friction is steady */
+    Q_TIME_RATIO,   /* measured over predicted */
+    Q_CHANGE_RATIO, /* of friction in the running-in, likewise */
+    Q_NEEDED_WEAR,  /* rate that a running-in asks for */
+    Q_NEEDED_ENERGY,
     Q_COUNT
 } quantity;
 

@@ -54,7 +54,10 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_SHARED_DIFFERS "differs"
 #define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
 
+extern const place place_settled, place_time_ratio, place_change_ratio; /* of a running-in */
+extern const place place_needed_wear, place_needed_energy;
 #define PLACE_VALIDATION "validation"
+#define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */
