@@ -171,8 +171,9 @@ static const double coarse = 0.2;
 enum { FINE = 40, COARSE_MOST = 200 };
 /* ln of what the likelihood has lost where it is left: 1e-5 of the largest. */
 static const double deep = 12;
-/* The settled time goes from that of two means to so many times the length of the series. */
-static const double fewest_means = 2, most_lengths = 5;
+/* What is settled within two means is not told by them; times are tried from an eighth of that to
+ * so many times the length of the series. */
+static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
 /* As of the running-in: one false alarm in twenty at most. */
 static const double least_odds = 20;
 static const double tail = 0.025; /* on each side of an interval of 95 % */
@@ -263,7 +264,7 @@ static void drop_laws(scan *t, const double *likelihood)
 static void limits_of(const scan *t, double limit[2])
 {
     const double length = t->s->end[t->s->n - 1], mean = length / (double)t->s->n;
-    limit[0] = log(fewest_means * mean / t->settled);
+    limit[0] = log(least_part * fewest_means * mean / t->settled);
     limit[1] = log(most_lengths * length / t->settled);
 }
 
@@ -288,18 +289,26 @@ static double log_odds(const scan *t)
     return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * t->variance);
 }
 
-/* Again where the likelihood is. */
-static void scan_finely(scan *t, const double limit[2])
+/* Again where the likelihood is, until it lies on many factors: a precise series tells the factor
+ * to less than a step. */
+enum { MANY = FINE / 2, SCANS = 5 };
+
+static size_t scan_finely(scan *t, const double limit[2])
 {
+    const double step = t->log_factor[1] - t->log_factor[0];
     double largest = -(double)INFINITY, low = limit[1], high = limit[0];
+    size_t n = 0;
     for (size_t i = 0; i < t->n; i++)
         largest = fmax(largest, t->weight[i]);
     for (size_t i = 0; i < t->n; i++)
         if (t->weight[i] > largest - deep) {
-            low = fmin(low, t->log_factor[i] - coarse);
-            high = fmax(high, t->log_factor[i] + coarse);
+            low = fmin(low, t->log_factor[i] - step);
+            high = fmax(high, t->log_factor[i] + step);
         }
     try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, NULL);
+    for (size_t i = 0; i < t->n; i++)
+        n += t->weight[i] > largest - deep;
+    return n;
 }
 
 /* ---- what they say --------------------------------------------------------------------------- */
@@ -366,7 +375,8 @@ static void find(scan *t, double expected, course_fit *fit)
     scan_coarsely(t, limit);
     fit->seen = log_odds(t) > log(least_odds);
     if (fit->seen) {
-        scan_finely(t, limit);
+        for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
+            continue;
         weigh(t, 0);
         tell_factor(t, fit);
     } else {
