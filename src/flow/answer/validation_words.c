@@ -69,6 +69,9 @@ static void say_running_in(const answer_story *story)
     tell_running_in_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
     answer_say(story, question, "validation", "%s.", text);
+    if (validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
+        answer_say(story, question, "validation", "To be kept in mind of the running-in: %s.",
+                   validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
     if (settled != NULL)
         answer_say(story, question, "validation", "What would settle the running-in: %s.", settled);
     t.used = 0;
