@@ -406,24 +406,37 @@ static inline void fixture_curves(void)
     wt_formats_free(formats);
 }
 
-/* The bundled case against the same disc. */
-static inline void fixture_validation(wt_case *read)
+/* A case against a record: the tables of the names, parted by blanks. */
+static inline void fixture_held(wt_case *read, const char *record, const char *names)
 {
-    static const char *const names[] = {"validation", "validation_choices", "validation_sources"};
-    const char *const file[] = {WT_SOURCE_DIR "/fixtures/record/steps.csv"};
     const fixture_change no_change = {.table = NULL};
     const wt_validation_job job = wt_validation_job_defaults();
+    char list[256], *rest = NULL;
     wt_run_options few = wt_run_defaults();
     wt_result *result = NULL;
     size_t failed = 0;
     few.replicates = 20;
-    fixture_check(wt_case_ask(read, "validation validation_choices validation_sources", NULL));
-    fixture_check(wt_case_validate(read, file, 1, &job, 0, NULL));
+    fixture_check(wt_case_ask(read, names, NULL));
+    fixture_check(wt_case_validate(read, &record, 1, &job, 0, NULL));
     fixture_check(wt_run(read, &few, NULL, &result, &failed, NULL));
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        fixture_check(wt_result_add(
-            fixture_case, fixture_copy(wt_result_find(result, names[i]), &no_change), NULL));
+    snprintf(list, sizeof list, "%s", names);
+    for (const char *name = strtok_r(list, " ", &rest); name != NULL;
+         name = strtok_r(NULL, " ", &rest))
+        fixture_check(wt_result_add(fixture_case,
+                                    fixture_copy(wt_result_find(result, name), &no_change), NULL));
     wt_result_free(result);
+}
+
+/* The bundled case against the same disc, and a layer that grows against a running-in. */
+static inline void fixture_validation(wt_case *read)
+{
+    wt_case *growing = NULL;
+    fixture_held(read, WT_SOURCE_DIR "/fixtures/record/steps.csv",
+                 "validation validation_choices validation_sources");
+    fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/growth/case.xml", &growing, NULL));
+    fixture_held(growing, WT_SOURCE_DIR "/fixtures/growth/record.csv",
+                 "validation_running_in validation_course");
+    wt_case_free(growing);
 }
 
 /* Adds a table of one of the other cases. */

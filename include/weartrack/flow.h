@@ -1008,12 +1008,15 @@ typedef struct wt_validation_job {
     const wt_layer_job *layer;   /* NULL, as above */
     const wt_layer_known *known; /* likewise; its thickness is that of the layer as used */
     const wt_table *record;      /* table "record" */
+    const wt_table *cycles;      /* table "record_cycles", of the running-in alone */
     const wt_table *wear;        /* table "wear", or NULL */
     const wt_table *what_if; /* table "what_if" of the same, or NULL: no likelihood of choices */
     double margin;           /* of measured over predicted; default 0.2 */
     double plausible_low, plausible_high; /* of the shear stress [Pa]; default 1 MPa, 10 MPa */
+    double running_in_margin;             /* of the times and changes of a running-in; default 1 */
+    bool wanted; /* of a case: its records are held against it; default true */
 } wt_validation_job;
-WT_API wt_validation_job wt_validation_job_defaults(void); /* the last two members and margin */
+WT_API wt_validation_job wt_validation_job_defaults(void); /* the margins and what follows */
 WT_API const wt_params *wt_validation_job_params(void);
 
 typedef struct wt_validation_tables {
@@ -1027,6 +1030,19 @@ WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
  * the likelihood of each choice of the model. */
 WT_API wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
                                     wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
+
+typedef struct wt_running_in_tables {
+    wt_table *running_in, *course; /* "validation_running_in", "validation_course" */
+} wt_running_in_tables;
+WT_API void wt_running_in_tables_clear(wt_running_in_tables *tables);
+
+/* Friction in time, in the first step of every record, over that which is predicted while the layer
+ * of `layer` and `known` (not NULL) grows: time to the steady value and change of friction, with
+ * both errors; a verdict as above; the specific wear rate and the critical energy that the time
+ * asks for. */
+WT_API wt_status wt_validation_running_in_make(const wt_validation_job *job, const wt_job *work,
+                                               wt_running_in_tables *tables,
+                                               wt_error *err) WT_NODISCARD;
 
 /* ---- error budget ----------------------------------------------------------------------------
  */

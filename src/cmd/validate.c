@@ -3,7 +3,8 @@
 #include "cmd/cmd.h"
 
 /* What is asked of the case, and told in the order of the tables. */
-static const char asked[] = "validation validation_choices validation_sources";
+static const char asked[] = "validation validation_running_in validation_course validation_choices "
+                            "validation_sources wear";
 
 static wt_status lacks_table(cmd_session *s)
 {

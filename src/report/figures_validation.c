@@ -11,6 +11,12 @@ static void caption_verdict(figure_drawing *d)
                 validation_words(d->table, VALIDATION_KEY_VERDICT));
 }
 
+static void caption_course(figure_drawing *d)
+{
+    text_format(&d->caption, " Running-in: %s.",
+                validation_course_words(d->table, VALIDATION_COURSE_KEY_VERDICT));
+}
+
 /* Where measured and predicted agree. */
 static void mark_agreement(figure_drawing *d)
 {
@@ -51,5 +57,23 @@ const figure_description figures_validation[] = {
          "95 % by both errors and the scatter between the steps. At the dotted line they agree.",
      .prepare = mark_agreement,
      .caption = caption_verdict},
+    {.name = "validation_course",
+     .title = "Friction in running-in, measured and predicted",
+     .table = &validation_course_schema,
+     .data_title = "running-in of the records",
+     .x = {VALIDATION_COURSE_TIME, AXIS_LOG, "Time from the start on"},
+     .y = {{VALIDATION_COURSE_MEASURED, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(VALIDATION_COURSE_BARE, LINE, .style = 21, .title = "without a layer",
+                      .band = 71),
+                CURVE(VALIDATION_COURSE_LAYER, LINE, .style = 24,
+                      .title = "predicted while the layer grows", .band = 74),
+                CURVE(VALIDATION_COURSE_FITTED, FIT, .style = 22,
+                      .title = "in the time that the record asks for"),
+                CURVE(VALIDATION_COURSE_MEASURED, BARS, .style = 1, .title = "measured",
+                      .with_errors = true)},
+     .words = "Friction coefficient of the records from their start on, means of the cycles with "
+              "their interval of 95 %, as predicted while the layer grows and without one, with "
+              "one standard error, and the predicted course as it lies nearest to the record.",
+     .caption = caption_course},
     {.name = NULL},
 };

@@ -128,6 +128,8 @@ static const struct result_part {
     ROWS(wear, "Wear as measured"),
     KEYS(validation, "Measured against predicted friction"),
     ROWS(validation, "Measured against predicted friction, by the steps of the records"),
+    KEYS(validation_running_in, "Measured running-in against the layer"),
+    ROWS(validation_running_in, "Running-in against the layer, by the records"),
     KEYS(validation_sources, "What would narrow measured over predicted most"),
     ROWS(validation_sources, "Where the error of measured over predicted comes from"),
     KEYS(validation_choices, "Choices of the model, by the record"),

@@ -109,6 +109,17 @@ static double thickness(const contact *c, double velocity, const wave *waves, in
     return exp(low);
 }
 
+/* Both pieces; 4 steps + 2 waves. Returns how many. */
+static int solve(const contact *c, const rubber_state *state, double v, int steps, wave *waves,
+                 double *area)
+{
+    const int n = add_piece(c, state, v, c->q0, c->qr, steps, waves);
+    const int m = add_piece(c, state, v, c->qr, c->q1, steps, waves + n);
+    const double variance = run_piece(0, v, log(c->qr / c->q0) / (2 * steps), n, waves, area);
+    run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), m, waves + n, area);
+    return n + m;
+}
+
 contact_truth contact_solve(const contact *c, const rubber_state *state, int steps)
 {
     contact_truth truth = {.thickness = (double)NAN};
@@ -117,17 +128,38 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
         abort();
     for (int i = 0; i < c->velocities; i++) {
         const double v = c->velocity[i];
-        const int n = add_piece(c, state, v, c->q0, c->qr, steps, waves);
-        const int m = add_piece(c, state, v, c->qr, c->q1, steps, waves + n);
-        const double variance =
-            run_piece(0, v, log(c->qr / c->q0) / (2 * steps), n, waves, &truth.area[i]);
-        run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), m, waves + n, &truth.area[i]);
-        truth.hysteresis[i] = power_below(waves, n + m, 0) / (c->pressure * v);
+        const int n = solve(c, state, v, steps, waves, &truth.area[i]);
+        truth.hysteresis[i] = power_below(waves, n, 0) / (c->pressure * v);
         truth.friction[i] = truth.hysteresis[i] + (c->layer_ratio > 0 ? c->layer_ratio : 1) *
                                                       c->shear_stress * truth.area[i] / c->pressure;
         if (i == c->layer_at)
-            truth.thickness = thickness(c, v, waves, n + m);
+            truth.thickness = thickness(c, v, waves, n);
     }
     free(waves);
     return truth;
+}
+
+struct contact_power {
+    int n;
+    wave waves[];
+};
+
+contact_power *contact_power_make(const contact *c, const rubber_state *state, int steps)
+{
+    double area;
+    contact_power *power = malloc(sizeof *power + (4 * (size_t)steps + 2) * sizeof power->waves[0]);
+    if (power == NULL)
+        abort();
+    power->n = solve(c, state, c->velocity[0], steps, power->waves, &area);
+    return power;
+}
+
+double contact_power_below(const contact_power *power, double depth)
+{
+    return power_below(power->waves, power->n, depth);
+}
+
+void contact_power_free(contact_power *power)
+{
+    free(power);
 }

@@ -28,4 +28,10 @@ typedef struct contact_truth {
 /* `steps` intervals for each piece of the spectrum; 100 are good to 1e-6. */
 contact_truth contact_solve(const contact *c, const rubber_state *state, int steps);
 
+/* Power per area that is lost below a depth, at the first velocity. */
+typedef struct contact_power contact_power;
+contact_power *contact_power_make(const contact *c, const rubber_state *state, int steps);
+double contact_power_below(const contact_power *power, double depth);
+void contact_power_free(contact_power *power);
+
 #endif

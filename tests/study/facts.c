@@ -56,4 +56,8 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_EDGE_VELOCITY] = {"edge_velocity", true},
     [Q_SETTLED] = {"settled", true},
     [Q_END_FRICTION] = {"end_friction", true},
+    [Q_TIME_RATIO] = {"time_ratio", true},
+    [Q_CHANGE_RATIO] = {"change_ratio", true},
+    [Q_NEEDED_WEAR] = {"needed_wear", true},
+    [Q_NEEDED_ENERGY] = {"needed_energy", true},
 };

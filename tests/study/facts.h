@@ -65,6 +65,10 @@ typedef enum quantity {
     Q_EDGE_VELOCITY,     /* up to which there is one */
     Q_SETTLED,           /* time after which friction stands */
     Q_END_FRICTION,      /* with the layer at its balance */
+    Q_TIME_RATIO,        /* measured over predicted */
+    Q_CHANGE_RATIO,      /* of friction in the running-in, likewise */
+    Q_NEEDED_WEAR,       /* rate that a running-in asks for */
+    Q_NEEDED_ENERGY,
     Q_COUNT
 } quantity;
 

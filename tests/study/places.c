@@ -84,6 +84,17 @@ const place place_edge_velocity = {"existence", "to_velocity", NULL, "to_velocit
                                    "to_velocity_high"};
 const place place_settled = {grown, "settled", NULL, "settled_low", "settled_high"};
 const place place_end_friction = {grown, "balance_friction", "standard_error", NULL, NULL};
+static const char running_in[] = PLACE_VALIDATION_RUNNING_IN;
+const place place_settled_measured = {running_in, "settled_measured", NULL, "settled_measured_low",
+                                      "settled_measured_high"};
+const place place_time_ratio = {running_in, "time_ratio", NULL, "time_ratio_low",
+                                "time_ratio_high"};
+const place place_change_ratio = {running_in, "change_ratio", NULL, "change_ratio_low",
+                                  "change_ratio_high"};
+const place place_needed_wear = {running_in, "specific_wear_rate_needed", NULL,
+                                 "specific_wear_rate_needed_low", "specific_wear_rate_needed_high"};
+const place place_needed_energy = {running_in, "critical_energy_needed", NULL,
+                                   "critical_energy_needed_low", "critical_energy_needed_high"};
 
 static const double normal95 = 1.959963984540054;
 

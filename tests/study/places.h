@@ -57,7 +57,11 @@ extern const place place_shared; /* a constant in each row */
 extern const place place_last_thickness, place_first_appearance,
     place_edge_velocity; /* of a layer */
 extern const place place_settled, place_end_friction;
+extern const place place_settled_measured, place_time_ratio,
+    place_change_ratio; /* of a running-in */
+extern const place place_needed_wear, place_needed_energy;
 #define PLACE_VALIDATION "validation"
+#define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */

@@ -164,6 +164,29 @@ static void test_what_is_asked(void **state)
                "roughness layer friction what_if ");
 }
 
+/* A record is held against the case whatever is listed, unless that is switched off. */
+static void test_records(void **state)
+{
+    (void)state;
+#define HELD                                                                                       \
+    HEAD PRONY ROAD SLIDE                                                                          \
+        "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate><critical-energy>"          \
+        "1e10J/m^3</critical-energy><modulus-ratio>0.6</modulus-ratio></layer><record>"            \
+        "<files>disc.csv</files>"
+#define FIGURE "</record><report><figure>friction</figure></report></case>"
+    static const char held[] = "given_material record roughness given_ratio layer friction what_if "
+                               "validation validation_running_in ";
+    static const char off[] = "given_material roughness given_ratio layer friction ";
+    check_plan(HELD FIGURE, held);
+    check_because(HELD FIGURE, "validation", "the case has a record");
+    check_because(HELD FIGURE, "validation_running_in", "the case has a record");
+    check_plan(HELD "<validate>no</validate>" FIGURE, off);
+    check_because(HELD "<validate>no</validate>" FIGURE, "validation", "switches it off");
+    check_because(HELD "<validate>no</validate></record></case>", "validation", "switches it off");
+    /* and where it is asked for, that is the reason */
+    check_because(HELD "</record></case>", "validation", "validation is asked for");
+}
+
 static void test_reasons(void **state)
 {
     (void)state;
@@ -239,6 +262,7 @@ int main(void)
         cmocka_unit_test(test_what_runs),       cmocka_unit_test(test_what_is_asked),
         cmocka_unit_test(test_reasons),         cmocka_unit_test(test_titles),
         cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_things),
+        cmocka_unit_test(test_records),
     };
     return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);
 }

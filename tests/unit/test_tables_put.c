@@ -1253,6 +1253,25 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     wt_table_free(what_if);
 }
 
+/* The running-in of a case against a layer that grows, or against no layer that is known. */
+static void see_running_in(const char *path)
+{
+    wt_case *read = NULL;
+    wt_result *result = NULL;
+    wt_run_options few = wt_run_defaults();
+    size_t failed = 0;
+    wt_error err = WT_ERROR_INIT;
+    few.replicates = 20;
+    if (wt_case_read(path, &read, &err) != WT_OK ||
+        wt_case_ask(read, "validation_running_in validation_course wear", &err) != WT_OK ||
+        wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(wt_result_find(result, "validation_running_in"));
+    see(wt_result_find(result, "validation_course"));
+    wt_result_free(result);
+    wt_case_free(read);
+}
+
 static void test_validation(void **state)
 {
     (void)state;
@@ -1262,6 +1281,8 @@ static void test_validation(void **state)
     see_validation(path, 0, 0, false);
     write_disc(path, 0.05, 0.3, 6);
     see_validation(path, 5e6, 0.2, false);
+    see_running_in(WT_SOURCE_DIR "/fixtures/growth/case.xml");
+    see_running_in(WT_SOURCE_DIR "/fixtures/growth/unsaid.xml");
     (void)remove(path);
 }
 

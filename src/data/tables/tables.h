@@ -163,6 +163,10 @@
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
       "validate")                                                                                  \
+    X(validation_running_in, VALIDATION_RUNNING_IN, "validation_running_in",                       \
+      "Running-in with the layer against records", "validate")                                     \
+    X(validation_course, VALIDATION_COURSE, "validation_course",                                   \
+      "Friction in running-in, measured and predicted", "validate")                                \
     X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
       "What the record says of the choices of the model", "validate")                              \
     X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \

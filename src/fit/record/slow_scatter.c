@@ -30,7 +30,12 @@ scatter_sums scatter_begin(scatter_law law)
 
 void scatter_add(scatter_sums *s, double y)
 {
-    const double value[3] = {1, (double)s->n, y};
+    scatter_add_beside(s, (double)s->n, y);
+}
+
+void scatter_add_beside(scatter_sums *s, double column, double y)
+{
+    const double value[3] = {1, column, y};
     const double spread = s->variance + (1 - s->law.share), gain = s->variance / spread;
     double off[3];
     for (int i = 0; i < 3; i++) {
@@ -59,14 +64,25 @@ scatter_fit scatter_solve(const scatter_sums *s, bool line)
     return (scatter_fit){about - slope * slope * tt, log(p[0]) + log(tt), slope, 1 / tt};
 }
 
-double scatter_likelihood(const scatter_sums *s, bool line, double least)
+/* log_unit: ln of the square of what the second column is told in. */
+static double likelihood_of(const scatter_sums *s, bool line, double least, double log_unit)
 {
     const scatter_fit f = scatter_solve(s, line);
     const double df = (double)s->n - (line ? 2 : 1);
     const double squares = fmax(f.squares, df * least);
-    /* a slope over the whole of the points, so that it has the unit of y however many they are */
-    const double information = f.log_information - (line ? 2 * log((double)s->n) : 0);
+    const double information = f.log_information - log_unit;
     return gsl_sf_lngamma(df / 2) - 0.5 * (df * log(M_PI * squares) + s->log_det + information);
+}
+
+double scatter_likelihood(const scatter_sums *s, bool line, double least)
+{
+    /* a slope over the whole of the points, so that it has the unit of y however many they are */
+    return likelihood_of(s, line, least, line ? 2 * log((double)s->n) : 0);
+}
+
+double scatter_likelihood_beside(const scatter_sums *s, double least)
+{
+    return likelihood_of(s, true, least, 0);
 }
 
 double scatter_of_mean(scatter_law law, size_t n)

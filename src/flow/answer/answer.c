@@ -515,6 +515,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&wear_schema, "", &story->wear},
         {&validation_schema, "", &story->validation},
         {&validation_sources_schema, "", &story->validation_sources},
+        {&validation_running_in_schema, "", &story->validation_running_in},
         {&layer_bands_schema, "", &story->layer_bands},
         {&layer_balances_schema, "", &story->layer_balances},
         {&existence_schema, "", &story->existence},

@@ -398,6 +398,18 @@ static void say_validation(sentence *s, const table_view *v)
     }
 }
 
+static void say_validation_running_in(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_running_in_verdict(&s->told, v);
+    if (!isnan(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value)) {
+        next(s);
+        tell_wear_needed(&s->told, v);
+    }
+}
+
 static void say_layer(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -431,7 +443,8 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer},
                  {&identification_schema, say_identification},
-                 {&validation_schema, say_validation}};
+                 {&validation_schema, say_validation},
+                 {&validation_running_in_schema, say_validation_running_in}};
     sentence s = {.told = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

@@ -35,7 +35,7 @@ typedef struct answer_story {
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
-    table_view validation, validation_sources;
+    table_view validation, validation_sources, validation_running_in;
     table_view layer_bands, layer_balances, existence, running_in;
     table_writer *answer;
     caveat *caveats;

@@ -25,6 +25,65 @@ void tell_needed(telling *t, const table_view *v)
          validation_words(v, VALIDATION_KEY_PLAUSIBLE));
 }
 
+void tell_running_in_verdict(telling *t, const table_view *v)
+{
+    tell(t, "the running-in with the layer against the record: %s",
+         validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
+}
+
+/* Of m^2/N, as wear is told. */
+static const double mm3_per_n_m = 1e9;
+
+void tell_wear_needed(telling *t, const table_view *v)
+{
+    const double wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value;
+    if (isnan(wear))
+        return;
+    tell(t,
+         "the running-in time asks for k = %.3g mm^3/(N m) (95 %%: %.3g to %.3g) with U_c = %s "
+         "(95 %%: %s to %s), the thickness as predicted",
+         mm3_per_n_m * wear,
+         mm3_per_n_m * validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
+         mm3_per_n_m * validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value,
+         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY).value, "J/m^3")
+             .text,
+         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
+                  "J/m^3")
+             .text,
+         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value,
+                  "J/m^3")
+             .text);
+}
+
+static void say_running_in(const answer_story *story)
+{
+    const table_view *const v = &story->validation_running_in;
+    if (v->table == NULL)
+        return;
+    char text[700];
+    telling t = {text, sizeof text, 0};
+    const char *const settled =
+                          validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
+                      *const agrees =
+                          validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_AGREES);
+    tell_running_in_verdict(&t, v);
+    text[0] = (char)toupper((unsigned char)text[0]);
+    answer_say(story, question, "validation", "%s.", text);
+    if (validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
+        answer_say(story, question, "validation", "To be kept in mind of the running-in: %s.",
+                   validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
+    if (settled != NULL)
+        answer_say(story, question, "validation", "What would settle the running-in: %s.", settled);
+    t.used = 0;
+    tell_wear_needed(&t, v);
+    if (t.used == 0)
+        return;
+    text[0] = (char)toupper((unsigned char)text[0]);
+    if (agrees != NULL)
+        tell(&t, "; against the wear that was measured: %s", agrees);
+    answer_say(story, question, "validation", "%s.", text);
+}
+
 static void say_needed(const answer_story *story, const table_view *v)
 {
     char text[700] = "";
@@ -65,8 +124,10 @@ static void say_narrowed(const answer_story *story, const table_view *v)
 void answer_validation(const answer_story *story)
 {
     const table_view *const v = &story->validation;
-    if (v->table == NULL)
+    if (v->table == NULL) { /* as it may have failed */
+        say_running_in(story);
         return;
+    }
     char text[400];
     telling t = {text, sizeof text, 0};
     const char *const settled = validation_words(v, VALIDATION_KEY_SETTLED_BY),
@@ -86,4 +147,5 @@ void answer_validation(const answer_story *story)
         answer_say(story, question, "validation",
                    "The specific wear rate as measured is %.3g times that of the layer: %s.",
                    validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
+    say_running_in(story);
 }

@@ -74,6 +74,9 @@ void tell_record(telling *t, const table_view *record);
 void tell_wear(telling *t, const table_view *wear);
 /* "the theory (friction with the layer) against the record: explains: ..." */
 void tell_verdict(telling *t, const table_view *validation);
+/* "the running-in with the layer against the record: explains: ..." and what the time asks for */
+void tell_running_in_verdict(telling *t, const table_view *running_in);
+void tell_wear_needed(telling *t, const table_view *running_in);
 /* "the record asks for a shear stress of 5.01 MPa (...); plausible: yes: ...", where it is known */
 void tell_needed(telling *t, const table_view *validation);
 /* "predicted from a given U_c" */

@@ -77,7 +77,7 @@ wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
     }
     if (asked == 0)
         return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", tables);
-    c->has_asked = true;
+    c->called = c->has_asked = true;
     c->asked = asked;
     return WT_OK;
 }

@@ -84,6 +84,7 @@ struct wt_case {
     bool compare_groups, compare_rates, compare_dma;
 
     wt_report_options report;
+    bool called;    /* by a call that says what it wants, whatever the case asks for */
     bool has_asked; /* else all tables are wanted */
     flow_things asked;
 };

@@ -106,6 +106,8 @@
     X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(VALIDATION, "validation", &validation_schema, "")                                            \
+    X(VALIDATION_RUNNING_IN, "validation_running_in", &validation_running_in_schema, "")           \
+    X(VALIDATION_COURSE, "validation_course", &validation_course_schema, "")                       \
     X(VALIDATION_CHOICES, "validation_choices", &validation_choices_schema, "")                    \
     X(VALIDATION_SOURCES, "validation_sources", &validation_sources_schema, "")                    \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
@@ -137,6 +139,12 @@ __extension__ typedef unsigned __int128 flow_things;
      FLOW_BIT(FLOW_RAMP) | FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) |            \
      FLOW_BIT(FLOW_PRONY_REDUCED) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) |    \
      FLOW_BIT(FLOW_PAYNE_SWEEP))
+
+/* What holds records against the case. */
+#define FLOW_VALIDATIONS                                                                           \
+    (FLOW_BIT(FLOW_VALIDATION) | FLOW_BIT(FLOW_VALIDATION_RUNNING_IN) |                            \
+     FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_CHOICES) |                        \
+     FLOW_BIT(FLOW_VALIDATION_SOURCES))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

@@ -14,6 +14,19 @@ static flow_things sources_of(const wt_case *c)
     return SOURCES(SOURCE_BIT) 0;
 }
 
+/* A call that says what it wants is not a matter of the case. */
+static bool is_switched_off(const wt_case *c)
+{
+    return !c->called && !c->validation.wanted;
+}
+
+/* What a record tells beside the results and figures that are listed. */
+static flow_things held_records(const wt_case *c)
+{
+    const bool held = c->has_asked && !c->called && c->validation.wanted && c->record.n > 0;
+    return held ? (FLOW_VALIDATIONS | FLOW_BIT(FLOW_WEAR)) & ~c->asked : 0;
+}
+
 static flow_things wanted_by(const wt_case *c)
 {
     flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES & ~FLOW_BY_NAME;
@@ -23,7 +36,9 @@ static flow_things wanted_by(const wt_case *c)
         wanted &= ~FLOW_BIT(FLOW_MODULUS_RATE);
     if (c->has_compare && !c->compare_dma)
         wanted &= ~FLOW_BIT(FLOW_DMA_COMPARISON);
-    return wanted;
+    if (is_switched_off(c))
+        wanted &= ~FLOW_VALIDATIONS;
+    return wanted | held_records(c);
 }
 
 flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level)
@@ -200,12 +215,18 @@ void flow_plan_make(const wt_case *c, flow_plan *plan)
         if (!(plan->wanted & FLOW_BIT(t)))
             continue;
         char reason[128];
-        snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
+        if (held_records(c) & FLOW_BIT(t))
+            snprintf(reason, sizeof reason, "the case has a record, which is held against it");
+        else
+            snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
         choose_stage(plan, able, (flow_thing)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
         if (plan->chosen[i])
             say_without(plan, i);
+        else if (able[i] && is_switched_off(c) && (flow_stages[i].gives & FLOW_VALIDATIONS) != 0)
+            snprintf(plan->because[i], sizeof plan->because[i],
+                     "left out because the case switches it off (<validate> in <record>)");
         else
             say_why_not(plan, i, able[i]);
 }

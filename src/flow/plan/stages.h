@@ -115,6 +115,11 @@ typedef enum flow_extra {
     X(VALIDATION, validation, "Measured friction against predicted friction",                      \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_AND_LAYER,          \
       B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
+    X(VALIDATION_RUNNING_IN, validation_running_in, "Measured running-in against the layer",       \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(RECORD) | B(RECORD_CYCLES),                                                            \
+      0, FLOW_NO_MORE, B(VALIDATION_RUNNING_IN) | B(VALIDATION_COURSE),                            \
+      flow_step_validation_running_in)                                                             \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_AND_THICKNESS, B(ERROR_BUDGET), \
       flow_step_budget)                                                                            \

@@ -205,7 +205,8 @@ typedef struct together {
 typedef struct writers {
     table_writer record, cycles, wear;
     together all;
-    several rates; /* of wear */
+    bool has_wear; /* asked for, or stored beside a record */
+    several rates; /* of it */
     size_t n_files;
 } writers;
 
@@ -315,8 +316,15 @@ static void count_stored_wear(void *user, const table_view *v, size_t row)
                     (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
 }
 
+static void begin_wear(writers *w, wt_error *err)
+{
+    if (!w->has_wear)
+        w->wear = table_begin(&wear_schema, err);
+    w->has_wear = true;
+}
+
 /* Its rows stand beside those that are measured now. */
-static wt_status take_stored(const wt_job *work, const flow_file *file, bool wear, writers *w,
+static wt_status take_stored(const wt_job *work, const flow_file *file, writers *w, wt_error *all,
                              wt_error *err)
 {
     const wt_tables_role role = {"record", "record", "what weartrack record wrote"};
@@ -330,9 +338,11 @@ static wt_status take_stored(const wt_job *work, const flow_file *file, bool wea
         status = stored_record_rows(result, &record_schema, &w->record, count_stored, &w->all, err);
     if (status == WT_OK)
         status = stored_record_rows(result, &record_cycles_schema, &w->cycles, NULL, NULL, err);
-    if (status == WT_OK && wear)
+    if (status == WT_OK && wt_result_find(result, "wear") != NULL) {
+        begin_wear(w, all);
         status =
             stored_record_rows(result, &wear_schema, &w->wear, count_stored_wear, &w->rates, err);
+    }
     wt_result_free(result);
     if (status != WT_OK)
         wt_error_file(err, file->name);
@@ -390,16 +400,16 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static wt_status end_tables(writers *w, bool wear, wt_status status, wt_record_tables *made)
+static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made)
 {
     record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
     if (w->all.friction.n > 0 && w->all.alike)
         record_set(&w->record, RECORD_KEY_FRICTION, several_mean(&w->all.friction, "1"));
-    if (wear && w->rates.n > 0)
+    if (w->has_wear && w->rates.n > 0)
         wear_set(&w->wear, WEAR_KEY_RATE, several_mean(&w->rates, "m^2/N"));
     const wt_status written[] = {table_end(&w->record, &made->record),
                                  table_end(&w->cycles, &made->record_cycles),
-                                 wear ? table_end(&w->wear, &made->wear) : WT_OK};
+                                 w->has_wear ? table_end(&w->wear, &made->wear) : WT_OK};
     for (size_t i = 0; i < COUNT_OF(written); i++)
         status = status != WT_OK ? status : written[i];
     return status;
@@ -408,20 +418,19 @@ static wt_status end_tables(writers *w, bool wear, wt_status status, wt_record_t
 static wt_status make_tables(const wt_record_job *job, const wt_job *work, const flow_files *files,
                              wt_record_tables *made, wt_error *err)
 {
-    const bool wear = wear_is_asked(job);
     wt_status status = WT_OK;
     size_t n_failed = 0;
     writers w = {.record = table_begin(&record_schema, err),
                  .cycles = table_begin(&record_cycles_schema, err)};
-    if (wear)
-        w.wear = table_begin(&wear_schema, err);
+    if (wear_is_asked(job))
+        begin_wear(&w, err);
     record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
                            job->cycle == WT_CYCLE_AUTO ? "what each record tells"
                                                        : kind_words(job->cycle));
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         status = is_stored(&files->file[i])
-                     ? take_stored(work, &files->file[i], wear, &w, &failure)
+                     ? take_stored(work, &files->file[i], &w, err, &failure)
                      : measure_file(job, work, &files->file[i], &w, &failure);
         if (status != WT_OK && flow_leave_out(work, &files->file[i], &failure)) {
             status = WT_OK;
@@ -435,7 +444,7 @@ static wt_status make_tables(const wt_record_job *job, const wt_job *work, const
         flow_tell_files(files, n_failed, err);
     }
     cost_say(work, (cost_summary){.items = (double)w.n_files});
-    return end_tables(&w, wear, status, made);
+    return end_tables(&w, status, made);
 }
 
 wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)

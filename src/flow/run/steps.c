@@ -26,8 +26,7 @@ void flow_run_clear(flow_run *run)
     *run = (flow_run){0};
 }
 
-/* Moves a table into the run; one that a stage left there before goes. */
-static void keep_table(flow_run *run, flow_thing thing, wt_table **table)
+void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table)
 {
     wt_table_free(run->table[thing]);
     run->table[thing] = *table;
@@ -189,8 +188,8 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
             return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
     }
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
-    keep_table(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
-               &run->curves.indentation);
+    flow_run_keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
+                  &run->curves.indentation);
     return status;
 }
 
@@ -218,10 +217,10 @@ static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
         say_items(run, tables.modulus_groups);
-    keep_table(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
-    keep_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
-    keep_table(run, FLOW_COMPARISON, &tables.comparison);
-    keep_table(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
+    flow_run_keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    flow_run_keep(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
+    flow_run_keep(run, FLOW_COMPARISON, &tables.comparison);
+    flow_run_keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
     wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
     return status;
 }
@@ -268,7 +267,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
         say_items(run, tables.dma_comparison);
-        keep_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
+        flow_run_keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
     return status;
@@ -295,13 +294,13 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     if (status == WT_OK && run->c->rubber.moduli == WT_MODULI_POINTS)
         status = wt_rubber_tabulate(&run->rubber, tables.master_curve, &run->c->rubber, err);
     set_direction(run->c, &run->rubber);
-    keep_table(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
-    keep_table(run, FLOW_MASTER_CURVE, &tables.master_curve);
-    keep_table(run, FLOW_PRONY, &tables.prony);
-    keep_table(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
-    keep_table(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
-    keep_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
-    keep_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
+    flow_run_keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
+    flow_run_keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
+    flow_run_keep(run, FLOW_PRONY, &tables.prony);
+    flow_run_keep(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
+    flow_run_keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
+    flow_run_keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
+    flow_run_keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the fit */
     return status;
 }
@@ -330,9 +329,9 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
     }
     const wt_status status = wt_ramp_make(&job, &work, &tables, err);
     wt_table_free(again);
-    keep_table(run, FLOW_RAMP, &tables.ramp);
-    keep_table(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
-    keep_table(run, FLOW_MODULI_AT, &tables.moduli_at);
+    flow_run_keep(run, FLOW_RAMP, &tables.ramp);
+    flow_run_keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
+    flow_run_keep(run, FLOW_MODULI_AT, &tables.moduli_at);
     return status;
 }
 
@@ -343,8 +342,8 @@ wt_status flow_step_payne(flow_run *run, wt_error *err)
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
     const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
-    keep_table(run, FLOW_PAYNE, &tables.payne);
-    keep_table(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
+    flow_run_keep(run, FLOW_PAYNE, &tables.payne);
+    flow_run_keep(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
     return status;
 }
 
@@ -365,9 +364,9 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
     job.sets = run->c->record.sets;
     job.n_sets = run->c->record.n;
     const wt_status status = wt_record_make(&job, &run->job, &tables, err);
-    keep_table(run, FLOW_RECORD, &tables.record);
-    keep_table(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
-    keep_table(run, FLOW_WEAR, &tables.wear);
+    flow_run_keep(run, FLOW_RECORD, &tables.record);
+    flow_run_keep(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
+    flow_run_keep(run, FLOW_WEAR, &tables.wear);
     return status;
 }
 
@@ -454,7 +453,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
-    keep_table(run, FLOW_LAYER, &tables.layer);
+    flow_run_keep(run, FLOW_LAYER, &tables.layer);
     return WT_OK;
 }
 
@@ -497,7 +496,7 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
         status =
             wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
     if (status == WT_OK)
-        keep_table(run, FLOW_FRICTION, &tables.friction);
+        flow_run_keep(run, FLOW_FRICTION, &tables.friction);
     return status;
 }
 
@@ -570,27 +569,6 @@ wt_status flow_step_what_if(flow_run *run, wt_error *err)
     return status == WT_OK ? wt_what_if_make(&sliding, parts.layer, parts.known, &run->job,
                                              &run->table[FLOW_WHAT_IF], err)
                            : status;
-}
-
-wt_status flow_step_validation(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known layer;
-    wt_validation_tables tables = {0};
-    wt_validation_job job = run->c->validation;
-    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
-    job.sliding = &sliding;
-    job.layer = run->c->has_layer ? &run->c->layer : NULL;
-    job.known = run->level > 0 ? &layer : NULL;
-    job.record = run->table[FLOW_RECORD];
-    job.wear = run->table[FLOW_WEAR];
-    job.what_if = run->table[FLOW_WHAT_IF];
-    if (status == WT_OK)
-        status = wt_validation_make(&job, &run->job, &tables, err);
-    keep_table(run, FLOW_VALIDATION, &tables.validation);
-    keep_table(run, FLOW_VALIDATION_CHOICES, &tables.choices);
-    keep_table(run, FLOW_VALIDATION_SOURCES, &tables.sources);
-    return status;
 }
 
 wt_status flow_step_budget(flow_run *run, wt_error *err)

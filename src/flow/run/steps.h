@@ -36,6 +36,9 @@ wt_sliding flow_run_sliding(const flow_run *run);
 wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known,
                                wt_error *err) WT_NODISCARD;
 
+/* Moves a table into the run; one that a stage left there before goes. */
+void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table);
+
 /* Adds to advice that names an option how a case says it. */
 void flow_case_advice(wt_error *failure);
 

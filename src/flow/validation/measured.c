@@ -100,6 +100,35 @@ static void say_remarks(measured *m, const table_view *record)
                            "steps of another load say is not of the theory alone");
 }
 
+measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding)
+{
+    const double velocity = record_get(record, row, RECORD_VELOCITY),
+                 temperature = record_get(record, row, RECORD_TEMPERATURE),
+                 pressure = record_get(record, row, RECORD_PRESSURE);
+    const bool rests = isnan(velocity) && record_get(record, row, RECORD_ROTATION) == 0;
+    measured_step s = {.velocity = rests             ? 0
+                                   : isnan(velocity) ? flow_reference_velocity(sliding)
+                                                     : velocity,
+                       .temperature = temperature > 0 ? temperature : sliding->temperature.value,
+                       .pressure = pressure > 0 ? pressure : sliding->pressure.value,
+                       .friction = record_get(record, row, RECORD_FRICTION),
+                       .error = record_get(record, row, RECORD_FRICTION_STANDARD_ERROR),
+                       .file = record_text(record, row, RECORD_FILE)};
+    s.measured = (wt_interval){s.friction, s.error, record_get(record, row, RECORD_FRICTION_LOW),
+                               record_get(record, row, RECORD_FRICTION_HIGH)};
+    s.note = why_not(&s);
+    return s;
+}
+
+void measured_conditions(const measured_step *step, wt_sliding *sliding)
+{
+    const wt_estimate stated = sliding->pressure;
+    const double relative = stated.standard_error / stated.value;
+    sliding->pressure = (wt_estimate){
+        step->pressure, isfinite(relative) ? relative * step->pressure : 0, 0, stated.unit};
+    sliding->temperature.value = step->temperature;
+}
+
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
                         wt_error *err)
 {
@@ -107,24 +136,8 @@ wt_status measured_make(const table_view *record, const wt_sliding *sliding, mea
     if (m->step == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < record->n_rows; i++) {
-        const double velocity = record_get(record, i, RECORD_VELOCITY),
-                     temperature = record_get(record, i, RECORD_TEMPERATURE),
-                     pressure = record_get(record, i, RECORD_PRESSURE);
         measured_step *const s = &m->step[m->n_all++];
-        const bool rests = isnan(velocity) && record_get(record, i, RECORD_ROTATION) == 0;
-        *s = (measured_step){.velocity = rests             ? 0
-                                         : isnan(velocity) ? flow_reference_velocity(sliding)
-                                                           : velocity,
-                             .temperature =
-                                 temperature > 0 ? temperature : sliding->temperature.value,
-                             .pressure = pressure > 0 ? pressure : sliding->pressure.value,
-                             .friction = record_get(record, i, RECORD_FRICTION),
-                             .error = record_get(record, i, RECORD_FRICTION_STANDARD_ERROR),
-                             .file = record_text(record, i, RECORD_FILE)};
-        s->measured =
-            (wt_interval){s->friction, s->error, record_get(record, i, RECORD_FRICTION_LOW),
-                          record_get(record, i, RECORD_FRICTION_HIGH)};
-        s->note = why_not(s);
+        *s = measured_step_of(record, i, sliding);
         m->n += is_used(s);
     }
     say_remarks(m, record);

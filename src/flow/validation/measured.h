@@ -22,6 +22,11 @@ typedef struct measured {
     char remarks[640]; /* what was taken for granted */
 } measured;
 
+/* Of a row of the record, what it does not say as the case has it. */
+measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding);
+/* Its pressure and temperature, with the errors of the case. */
+void measured_conditions(const measured_step *step, wt_sliding *sliding);
+
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
                         wt_error *err) WT_NODISCARD;
 /* One more in the key remarks. */

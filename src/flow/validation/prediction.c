@@ -126,19 +126,12 @@ static wt_status predict_group(const group *g, const wt_sliding *sliding, const 
     return status;
 }
 
-static wt_estimate with_value(wt_estimate e, double value)
-{
-    const double relative = e.standard_error / e.value;
-    return (wt_estimate){value, isfinite(relative) ? relative * value : 0, 0, e.unit};
-}
-
 static group group_of(const wt_sliding *sliding, const wt_layer_known *known,
                       const measured_step *step, const double *velocity, size_t n,
                       const wt_job *work)
 {
     group g = {.sliding = *sliding, .known = known, .work = work, .n = n, .velocity = velocity};
-    g.sliding.pressure = with_value(sliding->pressure, step->pressure);
-    g.sliding.temperature.value = step->temperature;
+    measured_conditions(step, &g.sliding);
     g.sliding.velocity = velocity;
     g.sliding.n_velocity = n;
     g.sliding.reference_velocity = velocity[0];

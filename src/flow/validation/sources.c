@@ -30,6 +30,9 @@ static const struct {
     {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
     {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
     {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one lever for bulk and track"},
+    {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},
+    {FLOW_DRAW_CRITICAL_ENERGY, "critical energy", "the layer measured at more places"},
+    {FLOW_DRAW_OBSERVED, "observed thickness", "the layer measured at more places"},
 };
 
 static size_t find_drawn(flow_draw draw)
@@ -38,6 +41,13 @@ static size_t find_drawn(flow_draw draw)
     while (i + 1 < COUNT_OF(drawn) && drawn[i].draw != draw)
         i++;
     return i;
+}
+
+const char *source_of_draw(flow_draw draw, const char **remedy)
+{
+    const size_t k = find_drawn(draw);
+    *remedy = drawn[k].remedy;
+    return drawn[k].words;
 }
 
 enum { MOST_SOURCES = COUNT_OF(drawn) + 3 }; /* and the material, the record, its scatter */

@@ -21,10 +21,17 @@ static const double reproducibility = 0.2;
  * Tolpekina and Persson, Lubricants 7 (2019) 20; soft and dirty contacts have less. */
 static const double shear_low = 1e6, shear_high = 10e6;
 
+/* Times of running-in go with the inverse of the wear rate, which is hardly known better than to a
+ * factor of two. */
+static const double time_reproducibility = 1;
+
 wt_validation_job wt_validation_job_defaults(void)
 {
-    return (wt_validation_job){
-        .margin = reproducibility, .plausible_low = shear_low, .plausible_high = shear_high};
+    return (wt_validation_job){.margin = reproducibility,
+                               .plausible_low = shear_low,
+                               .plausible_high = shear_high,
+                               .running_in_margin = time_reproducibility,
+                               .wanted = true};
 }
 
 static const wt_param rows[] = {
@@ -38,6 +45,13 @@ static const wt_param rows[] = {
              "Persson 2019, Lubricants 7, 20)"},
     {PARAM("plausible-shear-to", wt_validation_job, plausible_high, WT_Q_STRESS, ABOVE(0)),
      .value = "TAU", .help = "largest that is plausible"},
+    {PARAM("running-in-margin", wt_validation_job, running_in_margin, WT_Q_NONE, FROM_TO(0.05, 20)),
+     .value = "X",
+     .help = "time and change of a running-in over those predicted with the layer that are taken "
+             "for agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
+    {PARAM_FLAG_OF("validate", wt_validation_job, wanted), .flags = PARAM_NO_OPTION,
+     .help = "whether a run holds the records against what the case predicts, also where figures "
+             "or results are listed"},
 };
 PARAM_TABLE(wt_validation_job_params, wt_validation_job, rows, wt_validation_job_defaults, NO_PARTS)
 

@@ -55,6 +55,8 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err) W
 typedef struct source_advice {
     char narrows[320], settles[320];
 } source_advice;
+/* The words of a number that is drawn, and of what makes its error smaller. */
+const char *source_of_draw(flow_draw draw, const char **remedy);
 wt_status sources_make(const validation *v, source_advice *advice, wt_table **table,
                        wt_error *err) WT_NODISCARD;
 

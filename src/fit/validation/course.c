@@ -1,0 +1,441 @@
+/* How a predicted course lies in a series of cycles.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/validation/course.h"
+
+#include "base/normal.h"
+#include "base/pool.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- the course ------------------------------------------------------------------------------ */
+
+double course_at(const course *c, double log_time)
+{
+    const double place = (log_time - c->log_first) / c->log_step;
+    if (!(place > 0))
+        return c->value[0];
+    if (place >= (double)(c->n - 1))
+        return 0;
+    const size_t i = (size_t)place;
+    const double part = place - (double)i;
+    return c->value[i] + part * (c->value[i + 1] - c->value[i]);
+}
+
+double course_height(const course *c)
+{
+    double most = 0;
+    for (size_t i = 0; i < c->n; i++)
+        most = fmax(most, fabs(c->value[i]));
+    return most;
+}
+
+double course_settled(const course *c, double share)
+{
+    const double limit = share * course_height(c);
+    for (size_t i = c->n; limit > 0 && i-- > 0;)
+        if (fabs(c->value[i]) > limit) {
+            if (i + 1 == c->n)
+                return (double)NAN;
+            const double here = fabs(c->value[i]), next = fabs(c->value[i + 1]),
+                         part = (here - limit) / (here - next);
+            return exp(c->log_first + ((double)i + part) * c->log_step);
+        }
+    return (double)NAN;
+}
+
+wt_status course_series_new(size_t n, course_series *s, wt_error *err)
+{
+    *s = (course_series){.n = n,
+                         .end = calloc(n + 1, sizeof *s->end),
+                         .friction = calloc(n + 1, sizeof *s->friction),
+                         .log_time = calloc(COURSE_WITHIN * (n + 1), sizeof *s->log_time)};
+    return s->end == NULL || s->friction == NULL || s->log_time == NULL
+               ? wt_fail(err, WT_E_MEMORY, "out of memory")
+               : WT_OK;
+}
+
+void course_series_place(course_series *s)
+{
+    double begin = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const double step = (s->end[i] - begin) / COURSE_WITHIN;
+        for (int k = 0; k < COURSE_WITHIN; k++)
+            s->log_time[COURSE_WITHIN * i + (size_t)k] = log(begin + (k + 0.5) * step);
+        begin = s->end[i];
+    }
+}
+
+void course_series_clear(course_series *s)
+{
+    free(s->end);
+    free(s->friction);
+    free(s->log_time);
+    *s = (course_series){.n = 0};
+}
+
+/* ---- one factor ------------------------------------------------------------------------------ */
+
+/* The course over its height, as the means of the series would show it. column: [n]. */
+static void fill_column(const course_series *s, const course *c, double height, double log_factor,
+                        double *column)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        const double *const place = s->log_time + COURSE_WITHIN * i;
+        double sum = 0;
+        for (int k = 0; k < COURSE_WITHIN; k++)
+            sum += course_at(c, place[k] - log_factor);
+        column[i] = sum / (COURSE_WITHIN * height);
+    }
+}
+
+static scatter_sums sum_up(const course_series *s, const double *column, scatter_law law)
+{
+    scatter_sums sums = scatter_begin(law);
+    for (size_t i = 0; i < s->n; i++)
+        scatter_add_beside(&sums, column[i], s->friction[i]);
+    return sums;
+}
+
+static double level_of(const scatter_sums *s, double coefficient)
+{
+    return (s->product[3] - coefficient * s->product[1]) / s->product[0];
+}
+
+/* Digits of a maximum that a likelihood tells. */
+static const double finest = 1e-4;
+static const double golden = 0.6180339887498949; /* of the golden section */
+
+typedef struct place_search {
+    const course_series *s;
+    const course *c;
+    double height, *column;
+    scatter_law law;
+} place_search;
+
+static double likelihood_at(const place_search *p, double log_factor)
+{
+    fill_column(p->s, p->c, p->height, log_factor, p->column);
+    const scatter_sums sums = sum_up(p->s, p->column, p->law);
+    return -log(scatter_solve(&sums, true).squares);
+}
+
+static double search(const place_search *p, double low, double high)
+{
+    double a = high - golden * (high - low), b = low + golden * (high - low),
+           at_a = likelihood_at(p, a), at_b = likelihood_at(p, b);
+    while (high - low > finest) {
+        if (at_a > at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = likelihood_at(p, a);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = likelihood_at(p, b);
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+course_place course_place_find(const course_series *s, const course *c, scatter_law law,
+                               double around, double within)
+{
+    const double none = (double)NAN;
+    course_place place = {none, none, none};
+    place_search p = {s, c, course_height(c), malloc((s->n + 1) * sizeof(double)), law};
+    if (p.column == NULL || !(p.height > 0) || !isfinite(p.height) || !isfinite(around)) {
+        free(p.column);
+        return place;
+    }
+    place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
+    fill_column(s, c, p.height, place.log_factor, p.column);
+    const scatter_sums sums = sum_up(s, p.column, law);
+    const double coefficient = scatter_solve(&sums, true).coefficient;
+    place.ratio = coefficient / p.height;
+    place.level = level_of(&sums, coefficient);
+    free(p.column);
+    return place;
+}
+
+/* ---- all factors ----------------------------------------------------------------------------- */
+
+/* Of the factors that are tried: apart first, then so many where the likelihood is. */
+static const double coarse = 0.2;
+enum { FINE = 40, COARSE_MOST = 200 };
+/* ln of what the likelihood has lost where it is left: 1e-5 of the largest. */
+static const double deep = 12;
+/* What is settled within two means is not told by them; times are tried from an eighth of that to
+ * so many times the length of the series. */
+static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
+/* As of the running-in: one false alarm in twenty at most. */
+static const double least_odds = 20;
+static const double tail = 0.025; /* on each side of an interval of 95 % */
+
+typedef struct scan {
+    const course_series *s;
+    const course *c;
+    double height, variance, least, settled;
+    double *column;              /* [n] */
+    bool kept[SCATTER_LAWS];     /* laws that count */
+    double null[SCATTER_LAWS];   /* ln of their likelihoods about a constant */
+    size_t n;                    /* factors so far */
+    double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
+    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+    double best, best_level, best_scatter;
+    scatter_law best_law;
+} scan;
+
+typedef struct law_sum {
+    double weight, ratio, square; /* weight as a logarithm, the others by it */
+} law_sum;
+
+static void add_law(law_sum *sum, double weight, double ratio, double variance)
+{
+    const double all = log_add(sum->weight, weight), old = exp(sum->weight - all),
+                 now = exp(weight - all);
+    *sum = (law_sum){all, old * sum->ratio + now * ratio,
+                     old * sum->square + now * (ratio * ratio + variance)};
+}
+
+/* likelihood: [SCATTER_LAWS] of each, or NULL. */
+static law_sum try_factor(scan *t, double log_factor, double *likelihood)
+{
+    law_sum sum = {-(double)INFINITY, 0, 0};
+    const double df = (double)t->s->n - 2;
+    fill_column(t->s, t->c, t->height, log_factor, t->column);
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        if (!t->kept[i])
+            continue;
+        const scatter_sums s = sum_up(t->s, t->column, scatter_law_of(i, t->s->n));
+        const scatter_fit f = scatter_solve(&s, true);
+        const double scatter = fmax(f.squares / df, t->least);
+        /* changes about as large as the scatter of the whole are taken for possible, or else a
+         * course that lies beyond the series would be as likely as it is free */
+        const double l = scatter_likelihood_beside(&s, t->least) -
+                         0.5 * log1p(f.variance * scatter / t->variance);
+        if (!isfinite(l)) /* no course within the series */
+            continue;
+        const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
+        add_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
+        if (likelihood != NULL)
+            likelihood[i] = fmax(likelihood[i], l);
+        if (l > t->best) {
+            t->best = l;
+            t->best_law = s.law;
+            t->best_level = level_of(&s, f.coefficient);
+            t->best_scatter = scatter;
+        }
+    }
+    return sum;
+}
+
+static void keep_factor(scan *t, double log_factor, law_sum sum)
+{
+    t->log_factor[t->n] = log_factor;
+    t->weight[t->n] = sum.weight;
+    t->ratio[t->n] = sum.ratio;
+    t->square[t->n++] = sum.square;
+}
+
+/* Factors in equal steps from low to high. */
+static void try_factors(scan *t, double low, double high, size_t n, double *likelihood)
+{
+    t->n = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double at = low + (high - low) * (double)i / (double)(n - 1);
+        keep_factor(t, at, try_factor(t, at, likelihood));
+    }
+}
+
+/* Laws that are e^-deep as likely as the best change nothing. */
+static void drop_laws(scan *t, const double *likelihood)
+{
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        t->kept[i] = likelihood[i] > t->best - deep;
+}
+
+static void limits_of(const scan *t, double limit[2])
+{
+    const double length = t->s->end[t->s->n - 1], mean = length / (double)t->s->n;
+    limit[0] = log(least_part * fewest_means * mean / t->settled);
+    limit[1] = log(most_lengths * length / t->settled);
+}
+
+static void scan_coarsely(scan *t, const double limit[2])
+{
+    double likelihood[SCATTER_LAWS];
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        likelihood[i] = -(double)INFINITY;
+    const size_t n = (size_t)fmin(fmax(ceil((limit[1] - limit[0]) / coarse), 2), COARSE_MOST);
+    try_factors(t, limit[0], limit[1], n, likelihood);
+    drop_laws(t, likelihood);
+}
+
+/* ln of the odds of the course, by any factor, over a constant. */
+static double log_odds(const scan *t)
+{
+    double any = -(double)INFINITY, none = -(double)INFINITY;
+    for (size_t i = 0; i < t->n; i++)
+        any = log_add(any, t->weight[i]);
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        none = log_add(none, t->null[i]);
+    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * t->variance);
+}
+
+/* Again where the likelihood is, until it lies on many factors: a precise series tells the factor
+ * to less than a step. */
+enum { MANY = FINE / 2, SCANS = 5 };
+
+static size_t scan_finely(scan *t, const double limit[2])
+{
+    const double step = t->log_factor[1] - t->log_factor[0];
+    double largest = -(double)INFINITY, low = limit[1], high = limit[0];
+    size_t n = 0;
+    for (size_t i = 0; i < t->n; i++)
+        largest = fmax(largest, t->weight[i]);
+    for (size_t i = 0; i < t->n; i++)
+        if (t->weight[i] > largest - deep) {
+            low = fmin(low, t->log_factor[i] - step);
+            high = fmax(high, t->log_factor[i] + step);
+        }
+    try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, NULL);
+    for (size_t i = 0; i < t->n; i++)
+        n += t->weight[i] > largest - deep;
+    return n;
+}
+
+/* ---- what they say --------------------------------------------------------------------------- */
+
+/* `expected` > 0: the factors are as likely as that says before, else equally. */
+static void weigh(scan *t, double expected)
+{
+    double all = -(double)INFINITY;
+    for (size_t i = 0; i < t->n; i++) {
+        const double off = t->log_factor[i] / expected;
+        t->weight[i] -= expected > 0 ? 0.5 * off * off : 0;
+        all = log_add(all, t->weight[i]);
+    }
+    for (size_t i = 0; i < t->n; i++)
+        t->weight[i] = exp(t->weight[i] - all);
+}
+
+static void tell_ratio(const scan *t, course_fit *fit)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        mean += t->weight[i] * t->ratio[i];
+        square += t->weight[i] * t->square[i];
+    }
+    fit->ratio = mean;
+    fit->ratio_error = sqrt(fmax(square - mean * mean, 0));
+}
+
+/* Where so much of the weight lies below. */
+static double quantile(const scan *t, double share)
+{
+    double below = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        if (below + t->weight[i] >= share) {
+            const double step = t->log_factor[1] - t->log_factor[0];
+            return t->log_factor[i] + ((share - below) / t->weight[i] - 0.5) * step;
+        }
+        below += t->weight[i];
+    }
+    return t->log_factor[t->n - 1];
+}
+
+static void tell_factor(const scan *t, course_fit *fit)
+{
+    const double length = t->s->end[t->s->n - 1], first = t->s->end[0];
+    double beyond = 0, within = 0, mean = 0, square = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        const double settled = exp(t->log_factor[i]) * t->settled;
+        beyond += settled > length ? t->weight[i] : 0;
+        within += settled < fewest_means * first ? t->weight[i] : 0;
+        mean += t->weight[i] * t->log_factor[i];
+        square += t->weight[i] * t->log_factor[i] * t->log_factor[i];
+    }
+    fit->log_factor = mean;
+    fit->error = sqrt(fmax(square - mean * mean, 0));
+    fit->low = within > tail ? (double)NAN : quantile(t, tail);
+    fit->high = beyond > tail ? (double)NAN : quantile(t, 1 - tail);
+}
+
+static void find(scan *t, double expected, course_fit *fit)
+{
+    double limit[2];
+    limits_of(t, limit);
+    scan_coarsely(t, limit);
+    fit->seen = log_odds(t) > log(least_odds);
+    if (fit->seen) {
+        for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
+            continue;
+        weigh(t, 0);
+        tell_factor(t, fit);
+    } else {
+        const double wide = NORMAL_95 * expected;
+        try_factors(t, -wide, wide, FINE, NULL);
+        weigh(t, expected);
+    }
+    tell_ratio(t, fit);
+    fit->law = t->best_law;
+    fit->level = t->best_level;
+    fit->scatter = t->best_scatter;
+}
+
+static void find_null(scan *t)
+{
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        scatter_sums s = scatter_begin(scatter_law_of(i, t->s->n));
+        for (size_t k = 0; k < t->s->n; k++)
+            scatter_add(&s, t->s->friction[k]);
+        t->null[i] = scatter_likelihood(&s, false, t->least);
+        t->kept[i] = true;
+    }
+}
+
+static double variance_of(const course_series *s)
+{
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < s->n; i++)
+        mean += s->friction[i] / (double)s->n;
+    for (size_t i = 0; i < s->n; i++)
+        sum += (s->friction[i] - mean) * (s->friction[i] - mean);
+    return sum / (double)s->n;
+}
+
+wt_status course_fit_make(const course_series *s, const course *c, double settled_share,
+                          double expected, course_fit *fit, wt_error *err)
+{
+    const double none = (double)NAN;
+    pool memory = {0};
+    scan t = {.s = s, .c = c, .variance = variance_of(s), .best = -(double)INFINITY};
+    *fit = (course_fit){.log_factor = none, .error = none, .low = none, .high = none};
+    t.height = course_height(c);
+    t.settled = course_settled(c, settled_share);
+    t.least = SCATTER_DIGITS * SCATTER_DIGITS * t.variance;
+    if (s->n < COURSE_FEWEST || !(t.variance > 0))
+        return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
+    if (!(t.height > 0) || !(t.settled > 0))
+        return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
+    t.column = pool_numbers(&memory, s->n);
+    t.log_factor = pool_numbers(&memory, COARSE_MOST);
+    t.weight = pool_numbers(&memory, COARSE_MOST);
+    t.ratio = pool_numbers(&memory, COARSE_MOST);
+    t.square = pool_numbers(&memory, COARSE_MOST);
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    find_null(&t);
+    find(&t, expected, fit);
+    pool_free(&memory);
+    return WT_OK;
+}

@@ -1,0 +1,64 @@
+/* A predicted course of friction in a series of cycles: how much slower or faster it runs there,
+ * and how much more or less friction changes. Internal to fit and to the job of the same name.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FIT_VALIDATION_COURSE_H
+#define WEARTRACK_FIT_VALIDATION_COURSE_H
+
+#include "fit/record/slow_scatter.h"
+#include "weartrack/base.h"
+
+/* Friction less that in the end, at times in equal ratios; before the first of them it is as there,
+ * behind the last as in the end. */
+typedef struct course {
+    size_t n;
+    double log_first, log_step; /* of the times [s] */
+    const double *value;        /* [n] */
+} course;
+double course_at(const course *c, double log_time);
+/* The largest change that is left at any time. */
+double course_height(const course *c);
+/* The last time at which `share` of that is left; NaN: the times do not hold it. */
+double course_settled(const course *c, double share);
+
+/* Means over equal numbers of cycles. Within one the course is taken at so many places, for it
+ * bends little there. */
+enum { COURSE_WITHIN = 8 };
+typedef struct course_series {
+    size_t n;
+    double *end;      /* [n] from the start on; each begins where the one before ends */
+    double *friction; /* [n] */
+    double *log_time; /* [n * COURSE_WITHIN] of the places */
+} course_series;
+/* `end` is set, from which the places follow. */
+void course_series_place(course_series *s);
+wt_status course_series_new(size_t n, course_series *s, wt_error *err) WT_NODISCARD;
+void course_series_clear(course_series *s);
+
+/* friction = level + ratio x course(time / factor), with slow and white scatter of one law from end
+ * to end; likelihood averaged over laws and, but for the factor itself, over factors. */
+typedef struct course_fit {
+    bool seen;         /* odds above 20 to 1 over a constant */
+    double log_factor; /* mean; NaN unless seen */
+    double error;      /* standard deviation */
+    double low, high;  /* 95 %; NaN: the series does not tell that end */
+    double ratio, ratio_error;
+    double level;    /* of the likeliest */
+    double scatter;  /* likewise, the variance of the means about it */
+    scatter_law law; /* likewise */
+} course_fit;
+
+/* `expected`: standard deviation of the logarithm of the factor about 1 before the series is seen,
+ * which tells the ratio where no course is seen. WT_E_RANGE of fewer than COURSE_FEWEST means. */
+enum { COURSE_FEWEST = 16 };
+wt_status course_fit_make(const course_series *s, const course *c, double settled_share,
+                          double expected, course_fit *fit, wt_error *err) WT_NODISCARD;
+/* The likeliest factor and ratio of another course by one law, the factor sought within `within`
+ * about `around`, or held there if that is 0. */
+typedef struct course_place {
+    double log_factor, ratio, level;
+} course_place;
+course_place course_place_find(const course_series *s, const course *c, scatter_law law,
+                               double around, double within);
+
+#endif

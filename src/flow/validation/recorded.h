@@ -1,0 +1,30 @@
+/* Friction of the cycles of a record against time, from its start on (internal to
+ * flow/validation). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_VALIDATION_RECORDED_H
+#define WEARTRACK_FLOW_VALIDATION_RECORDED_H
+
+#include "fit/validation/course.h"
+#include "flow/validation/measured.h"
+
+/* The first step of a record, of a surface without a layer: those that follow begin with one. */
+typedef struct recorded {
+    measured_step at;
+    size_t n;
+    double *end;      /* [n] of the cycles, from the start of the step on [s] */
+    double *friction; /* [n] */
+    const char *note; /* why it is not compared, or "" */
+} recorded;
+
+/* *runs [*n], to be freed by recorded_free. */
+wt_status recorded_read(const table_view *record, const table_view *cycles,
+                        const wt_sliding *sliding, recorded **runs, size_t *n,
+                        wt_error *err) WT_NODISCARD;
+void recorded_free(recorded *runs, size_t n);
+
+/* The cycles up to a time, as means of equal numbers of them. */
+wt_status recorded_series(const recorded *r, double until, course_series *s,
+                          wt_error *err) WT_NODISCARD;
+/* Whether such means hold more than one cycle. */
+bool recorded_is_joined(const recorded *r, double until);
+
+#endif

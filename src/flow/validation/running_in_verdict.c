@@ -1,0 +1,203 @@
+/* The verdict on the running-in, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/validation/running_in.h"
+#include "flow/validation/validation.h"
+
+#include "base/clocale.h"
+#include "base/normal.h"
+#include "flow/work/draws.h"
+
+#include <math.h>
+#include <string.h>
+
+/* More draws without a layer than this leave open whether there is one. */
+static const double least_doubt = 0.025;
+
+/* ---- two questions --------------------------------------------------------------------------- */
+
+/* An end of the time of a run that tells the other one alone, with the error of the prediction. */
+static bool contradicts_at_one_end(const course_run *run, double margin)
+{
+    if (run->value == NULL || !run->fit.seen || course_run_is_closed(run))
+        return false;
+    const double spread = NORMAL_95 * course_run_spread(run, RUN_TIME_RATIO),
+                 at = run->fit.log_factor;
+    return isnan(run->fit.high) ? at - hypot(at - run->fit.low, spread) > log1p(margin)
+                                : at + hypot(run->fit.high - at, spread) < -log1p(margin);
+}
+
+static agreement_verdict judge_time(const run_set *all)
+{
+    const run_level *const level = &all->level[RUN_TIME_RATIO];
+    if (level->fit.n > 0) {
+        agreement judged = level->fit;
+        agreement_judge(&judged, log1p(all->margin));
+        return judged.verdict;
+    }
+    for (size_t i = 0; i < all->n; i++)
+        if (contradicts_at_one_end(&all->runs[i], all->margin))
+            return AGREEMENT_NO;
+    return AGREEMENT_OPEN;
+}
+
+/* Both ends of the margin are tests of their own, as the change predicted may be near none. */
+static agreement_verdict judge_change(const run_set *all)
+{
+    const wt_interval more = run_level_interval(&all->level[RUN_MORE]),
+                      less = run_level_interval(&all->level[RUN_LESS]);
+    if (more.high < 0 || less.high < 0)
+        return AGREEMENT_NO;
+    return more.low > 0 && less.low > 0 ? AGREEMENT_YES : AGREEMENT_OPEN;
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+static void tell_time(const run_set *all, char *text, size_t size)
+{
+    const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
+    for (size_t k = 0; isnan(i.value) && k < all->n; k++) {
+        const course_run *const run = &all->runs[k];
+        if (run->value == NULL)
+            continue;
+        if (run->fit.seen && isnan(run->fit.high) && !isnan(run->fit.low))
+            clocale_print(text, size,
+                          "the record ends before friction is steady, after %.3g times "
+                          "the time predicted at least",
+                          exp(run->fit.low));
+        else if (run->fit.seen && !isnan(run->fit.high))
+            clocale_print(text, size,
+                          "friction is steady within the first cycles, after %.3g times "
+                          "the time predicted at most",
+                          exp(run->fit.high));
+        else
+            clocale_print(text, size,
+                          "no change of friction as the layer makes it stands out of the "
+                          "scatter of the cycles");
+        return;
+    }
+    clocale_print(text, size,
+                  "friction is steady after %.3g times the time predicted (95 %%: %.3g "
+                  "to %.3g)",
+                  exp(i.value), exp(i.low), exp(i.high));
+}
+
+static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
+{
+    const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
+    char time[160];
+    tell_time(all, time, sizeof time);
+    clocale_print(text, size,
+                  "%s: %s; its change is %.3g times that predicted (95 %%: %.3g to %.3g), and %.3g "
+                  "to %.3g is asked for",
+                  validation_verdict(verdict), time, ratio.value, ratio.low, ratio.high,
+                  1 / (1 + all->margin), 1 + all->margin);
+}
+
+/* ---- what would settle it -------------------------------------------------------------------- */
+
+/* The draw that a number of the first run goes with most, and its share of the variance. */
+static double largest_line(const course_run *run, uint64_t seed, run_number number, size_t *line)
+{
+    double most = 0;
+    const double all = course_run_spread(run, number);
+    for (size_t u = 0; u < run->growth->n_lines; u++) {
+        double slope = 0, n = 0;
+        for (size_t k = 1; k <= run->growth->n_draws; k++) {
+            const double off = course_run_value(run, k, number) - course_run_value(run, 0, number);
+            if (!isfinite(off))
+                continue;
+            slope += off * flow_draw_normal(seed, k - 1, run->growth->line[u]);
+            n++;
+        }
+        slope /= n;
+        if (slope * slope > most) {
+            most = slope * slope;
+            *line = u;
+        }
+    }
+    return most / (all * all);
+}
+
+static const course_run *first_compared(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (all->runs[i].value != NULL)
+            return &all->runs[i];
+    return NULL;
+}
+
+static void advise(const run_set *all, run_number number, char *text, size_t size)
+{
+    const course_run *const run = first_compared(all);
+    const run_level *const level = &all->level[number];
+    size_t line = 0;
+    if (level->fit.n == 0) {
+        const bool seen = run->fit.seen, longer = seen && isnan(run->fit.high);
+        snprintf(text, size, "%s",
+                 longer ? "a record that goes on until friction is steady"
+                 : seen ? "shorter cycles at the start, or a slower record"
+                        : "a longer record, or more of them, of a fresh surface");
+        return;
+    }
+    const double share = largest_line(run, all->seed, number, &line),
+                 of_common = level->common / (level->own + level->common);
+    if (of_common < 0.5) {
+        snprintf(text, size, "a longer record, or more of them, of a fresh surface: %s",
+                 level->fit.scatter > 0 ? "they scatter by more than their errors"
+                                        : "most of the error is that of the record");
+        return;
+    }
+    const char *remedy, *words = source_of_draw(run->growth->line[line], &remedy);
+    if (share < 0.5 || run->growth->n_lines == 0)
+        snprintf(text, size, "the prediction known better: material, roughness and layer together");
+    else
+        clocale_print(text, size, "%s known better: %s; %.0f %% of the variance is of it", words,
+                      remedy, 100 * share * of_common);
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+/* Why nothing can be said; the first note of a run if nothing else. */
+static bool refuse(const run_set *all, run_verdict *w)
+{
+    const course_run *const run = first_compared(all);
+    const char *why = NULL, *settles = "a record of a fresh surface from its first cycle on";
+    if (!all->has_shear) {
+        why = "no shear stress is given, and the total friction is not predicted without it";
+        settles = "a shear stress of the real contact";
+    } else if (all->n == 0) {
+        why = "no record begins with its first step";
+    } else if (run == NULL) {
+        why = all->runs[0].note;
+        settles = all->runs[0].growth == NULL && all->runs[0].rec->note[0] == '\0'
+                      ? "a case that predicts a layer which changes friction at these conditions"
+                      : settles;
+    } else if (all->without_errors != NULL) {
+        why = all->without_errors;
+        settles = "errors of the prediction, by replicates and without acts-back";
+    } else if ((double)run->growth->n_bare > least_doubt * (double)run->growth->n_draws) {
+        why = "within the stated errors there may be no layer";
+        settles = "specific wear rate and critical energy known better";
+    }
+    if (why == NULL)
+        return false;
+    snprintf(w->verdict, sizeof w->verdict, "%s: %s", validation_verdict(AGREEMENT_OPEN), why);
+    snprintf(w->settled_by, sizeof w->settled_by, "%s", settles);
+    return true;
+}
+
+run_verdict run_set_judge(const run_set *all)
+{
+    run_verdict w = {.settled_by = ""};
+    if (refuse(all, &w))
+        return w;
+    const agreement_verdict time = judge_time(all), change = judge_change(all);
+    const agreement_verdict verdict = time == AGREEMENT_NO || change == AGREEMENT_NO ? AGREEMENT_NO
+                                      : time == AGREEMENT_YES && change == AGREEMENT_YES
+                                          ? AGREEMENT_YES
+                                          : AGREEMENT_OPEN;
+    tell_verdict(all, verdict, w.verdict, sizeof w.verdict);
+    if (verdict == AGREEMENT_OPEN)
+        advise(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
+               sizeof w.settled_by);
+    return w;
+}

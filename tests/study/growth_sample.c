@@ -1,0 +1,128 @@
+/* The case and the records of a scene. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "growth_sample.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { SAMPLES = 8, LAPS = 600 };
+static const double velocity = 0.3, stated_ratio = 0.6;
+
+static const contact stated = {.q0 = 2e3,
+                               .qr = 4e3,
+                               .q1 = 1e6,
+                               .hurst = 0.8,
+                               .c0 = 2e-17,
+                               .pressure = 0.4e6,
+                               .shear_stress = 3e6,
+                               .poisson = 0.5,
+                               .temperature = 20,
+                               .velocities = 1,
+                               .velocity = {0.3},
+                               .wear_rate = 1e-12,
+                               .critical_energy = 2e10};
+
+static double drawn(double value, double error, random_source *random)
+{
+    return value * exp(error * random_normal(random));
+}
+
+double growth_or_one(double x)
+{
+    return x > 0 || x < 0 ? x : 1;
+}
+
+bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
+{
+    const rubber lines = rubber_make(RUBBER_LINES);
+    const rubber_state state = {.rubber = &lines, .a = {1, 1}, .factor = 1};
+    growth_truth expected;
+    m->truth = stated;
+    m->truth.pressure = drawn(stated.pressure, s->of_inputs, random);
+    m->truth.c0 = drawn(stated.c0, s->of_inputs, random);
+    m->truth.shear_stress = drawn(stated.shear_stress, s->of_inputs, random);
+    m->truth.wear_rate = drawn(stated.wear_rate, s->of_layer, random);
+    m->truth.critical_energy = drawn(stated.critical_energy, s->of_layer, random);
+    const double ratio = drawn(stated_ratio, s->of_ratio, random);
+    if (!growth_solve(&stated, &state, stated_ratio, s->transport, &expected) ||
+        !growth_solve(&m->truth, &state, ratio, s->transport, &m->growth))
+        return false;
+    m->length = (s->lengths > 0 ? s->lengths : 4) * expected.settled;
+    return true;
+}
+
+/* What was worn off under so much load, as a balance says it. */
+static void write_weighed(const growth_scene *s, const growth_made *m, FILE *out)
+{
+    static const double load = 5, density = 1150;
+    fprintf(out,
+            "<record><files>record.csv</files><load>%gN</load><mass-loss>%.4gmg +- %g%%</mass-loss>"
+            "<density>%gkg/m^3</density></record>",
+            load, 1e6 * density * m->truth.wear_rate * load * velocity * m->length,
+            100 * s->weighed, density);
+}
+
+bool growth_write_case(const growth_scene *s, const growth_made *m, const char *path)
+{
+    const rubber lines = rubber_make(RUBBER_LINES);
+    FILE *out = fopen(path, "w");
+    if (out == NULL)
+        return false;
+    fprintf(out,
+            "<case version=\"1\"><dma><poisson-ratio>%g</poisson-ratio><reference-temperature>"
+            "%gdegC</reference-temperature><prony deformation=\"tension\"><equilibrium>%.12gPa"
+            "</equilibrium>",
+            stated.poisson, stated.temperature, lines.equilibrium);
+    for (size_t i = 0; i < lines.n; i++)
+        fprintf(out, "<term time=\"%.12gs\" modulus=\"%.12gPa\"/>", lines.tau[i],
+                lines.strength[i]);
+    fprintf(out,
+            "</prony></dma><roughness><self-affine><q0>%grad/m</q0><qr>%grad/m</qr><q1>%grad/m"
+            "</q1><hurst>%g</hurst><c0>%gm^4 +- %g%%</c0></self-affine></roughness>",
+            stated.q0, stated.qr, stated.q1, stated.hurst, stated.c0, 100 * s->of_inputs);
+    fprintf(out, "<sliding><pressure>%gPa +- %g%%</pressure><velocity>%gm/s</velocity>",
+            stated.pressure, 100 * s->of_inputs, velocity);
+    if (!s->unsaid)
+        fprintf(out, "<shear-stress>%gPa +- %g%%</shear-stress>", stated.shear_stress,
+                100 * s->of_inputs);
+    fprintf(out,
+            "</sliding><layer><specific-wear-rate>%gm^2/N +- %g%%</specific-wear-rate>"
+            "<critical-energy>%gJ/m^3 +- %g%%</critical-energy><incubation>%s</incubation>"
+            "<modulus-ratio>%g +- %g%%</modulus-ratio></layer>",
+            stated.wear_rate, 100 * s->of_layer, stated.critical_energy, 100 * s->of_layer,
+            s->transport ? "yes" : "no", stated_ratio, 100 * s->of_ratio);
+    if (s->weighed > 0)
+        write_weighed(s, m, out);
+    fprintf(out, "</case>\n");
+    return ferror(out) == 0 && fclose(out) == 0;
+}
+
+/* Friction of the scene at a time. */
+static double friction_at(const growth_scene *s, const growth_made *m, double time)
+{
+    const double off =
+        growth_friction(&m->growth, time / growth_or_one(s->off_time)) - m->growth.end;
+    return m->growth.end + (s->flat ? 0 : growth_or_one(s->off_change)) * off;
+}
+
+bool growth_write_record(const growth_scene *s, const growth_made *m, const char *path,
+                         random_source *random)
+{
+    enum { FOR_SLOW = 20 };
+    const int laps = s->laps > 0 ? s->laps : LAPS, samples = s->samples > 0 ? s->samples : SAMPLES;
+    const double noise = s->noise > 0 ? s->noise : 0.002, lap = m->length / laps,
+                 memory = exp(-1.0 / FOR_SLOW), share = s->slow;
+    double slow = random_normal(random);
+    FILE *out = fopen(path, "w");
+    if (out == NULL)
+        return false;
+    fprintf(out, "time (s),laps,velocity (mm/s),mu\n");
+    for (int i = 0; i < laps; i++) {
+        slow = memory * slow + sqrt(1 - memory * memory) * random_normal(random);
+        const double off = noise * (sqrt(share) * slow + sqrt(1 - share) * random_normal(random));
+        for (int k = 0; k < samples; k++)
+            fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * (i + k / (double)samples),
+                    i + k / (double)samples, 1e3 * velocity,
+                    friction_at(s, m, lap * (i + (k + 0.5) / samples)) + off);
+    }
+    return ferror(out) == 0 && fclose(out) == 0;
+}

@@ -1,0 +1,41 @@
+/* The running-in of a record against a growing layer. Fixed before the method was tried on any of
+ * them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "growth_scene.h"
+
+/* Intervals are not: they are too narrow, see README.md. */
+#define PROMISED .facts.verdict_promised = true
+#define NOT_NO .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)
+#define NOT_YES .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
+
+const growth_scene growth_scenes[] = {
+    {NAMED("R1", "the theory is right, inputs good to 3 %"), PROMISED, .facts.right = RIGHT(YES),
+     .of_inputs = 0.03, .of_layer = 0.03, .of_ratio = 0.03},
+    {NAMED("R2", "the theory is right, wear and energy good to 20 %"), PROMISED, NOT_NO,
+     .of_inputs = 0.05, .of_layer = 0.2, .of_ratio = 0.05},
+    {NAMED("R3", "by transport of damage, inputs good to 5 %"), PROMISED, NOT_NO, .of_inputs = 0.05,
+     .of_layer = 0.05, .of_ratio = 0.05, .transport = true},
+    {NAMED("R4", "five times as slow as the theory"), PROMISED, .facts.right = RIGHT(NO),
+     .off_time = 5, .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .lengths = 20},
+    {NAMED("R5", "in a fifth of the time"), PROMISED, .facts.right = RIGHT(NO), .off_time = 0.2,
+     .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03},
+    {NAMED("R6", "2.2 times as slow, beyond the margin"), PROMISED, NOT_YES, .off_time = 2.2,
+     .of_inputs = 0.05, .of_layer = 0.1, .of_ratio = 0.05, .lengths = 10},
+    {NAMED("R7", "friction changes the other way"), PROMISED, .facts.right = RIGHT(NO),
+     .off_change = -1, .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03},
+    {NAMED("R8", "three times the change"), PROMISED, .facts.right = RIGHT(NO), .off_change = 3,
+     .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03},
+    {NAMED("R9", "friction does not change"), PROMISED, .facts.right = RIGHT(NO), .flat = true,
+     .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03},
+    {NAMED("R10", "laps that scatter by 1 %, half of it slow"), PROMISED, NOT_NO, .of_inputs = 0.05,
+     .of_layer = 0.1, .of_ratio = 0.05, .noise = 0.01, .slow = 0.5},
+    {NAMED("R11", "a record that ends too soon"), PROMISED, NOT_NO, .of_inputs = 0.05,
+     .of_layer = 0.05, .of_ratio = 0.05, .lengths = 0.5},
+    {NAMED("R12", "three records"), PROMISED, NOT_NO, .of_inputs = 0.05, .of_layer = 0.1,
+     .of_ratio = 0.05, .noise = 0.006, .slow = 0.3, .records = 3},
+    {NAMED("R13", "by transport, five times as slow"), PROMISED, .facts.right = RIGHT(NO),
+     .off_time = 5, .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .lengths = 20,
+     .transport = true},
+    {NAMED("R14", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(CANNOT_SAY),
+     .of_inputs = 0.05, .of_layer = 0.05, .of_ratio = 0.05, .unsaid = true},
+};
+const int n_growth_scenes = sizeof growth_scenes / sizeof growth_scenes[0];

@@ -1,0 +1,163 @@
+/* A course in a series of cycles: an exponential of another time and height, whose intervals are
+ * held against the truth. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "truth.h"
+
+#include "fit/validation/course.h"
+
+#include <math.h>
+
+enum { TIMES = 200, CYCLES = 200 };
+static const double first = 1e-3, last = 1e3, fraction = 0.05;
+static double values[TIMES];
+
+/* From `height` to 0 by exp(-t). */
+static course exponential(double height)
+{
+    const double step = log(last / first) / (TIMES - 1);
+    for (int i = 0; i < TIMES; i++)
+        values[i] = height * exp(-first * exp(step * i));
+    return (course){TIMES, log(first), step, values};
+}
+
+/* Cycles of a unit of `each` times the course's own, of white scatter beside a slow one. */
+typedef struct scene {
+    double factor, ratio, each, white, slow;
+} scene;
+
+static course_series series_of(const scene *s, const course *c, uint64_t *seed)
+{
+    const double memory = exp(-1 / 8.0);
+    course_series made;
+    double slow = truth_normal(seed);
+    assert_int_equal(course_series_new(CYCLES, &made, NULL), WT_OK);
+    for (size_t i = 0; i < CYCLES; i++)
+        made.end[i] = s->each * (double)(i + 1);
+    course_series_place(&made);
+    for (size_t i = 0; i < CYCLES; i++) {
+        double mean = 0;
+        for (size_t k = 0; k < COURSE_WITHIN; k++)
+            mean +=
+                course_at(c, made.log_time[COURSE_WITHIN * i + k] - log(s->factor)) / COURSE_WITHIN;
+        slow = memory * slow + sqrt(1 - memory * memory) * truth_normal(seed);
+        made.friction[i] = 0.5 + s->ratio * mean + s->white * truth_normal(seed) + s->slow * slow;
+    }
+    return made;
+}
+
+static course_fit fitted(const scene *s, double height, uint64_t *seed)
+{
+    const course c = exponential(height);
+    course_series made = series_of(s, &c, seed);
+    course_fit fit;
+    assert_int_equal(course_fit_make(&made, &c, fraction, 0.1, &fit, NULL), WT_OK);
+    course_series_clear(&made);
+    return fit;
+}
+
+/* e^-3 = 0.05. */
+static void test_course(void **state)
+{
+    (void)state;
+    const course c = exponential(-0.2);
+    assert_near(course_settled(&c, fraction), log(1 / fraction), 5e-3);
+    assert_near(course_height(&c), 0.2, 1e-3);
+    assert_near(course_at(&c, 0), -0.2 * exp(-1), 1e-3);
+    assert_true(course_at(&c, log(2 * last)) == 0);
+    assert_true(isnan(course_settled(&c, 0)));
+}
+
+/* Without scatter that counts the factor and the ratio are those that were put in. */
+static void test_exact(void **state)
+{
+    (void)state;
+    static const scene scenes[] = {
+        {1, 1, 0.05, 1e-6, 0}, {2.5, 0.4, 0.1, 1e-6, 0}, {0.3, -1.5, 0.05, 1e-6, 0}};
+    uint64_t seed = 11;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        const course_fit fit = fitted(&scenes[i], 0.2, &seed);
+        assert_true(fit.seen);
+        assert_near(exp(fit.log_factor), scenes[i].factor, 2e-3);
+        assert_near(fit.ratio, scenes[i].ratio, 2e-3);
+    }
+}
+
+/* What one law says of a course twice as slow: half the factor. */
+static void test_another_course(void **state)
+{
+    (void)state;
+    const scene s = {2, 1, 0.1, 1e-5, 0};
+    uint64_t seed = 5;
+    const course c = exponential(0.2);
+    course_series made = series_of(&s, &c, &seed);
+    course slower = c;
+    slower.log_first += log(2);
+    const scatter_law law = {0.5, 0.2};
+    const course_place place = course_place_find(&made, &slower, law, 0.1, 0.5),
+                       held = course_place_find(&made, &c, law, log(2), 0);
+    assert_near_abs(place.log_factor, 0, 1e-2);
+    assert_near(place.ratio, 1, 1e-2);
+    assert_true(held.log_factor == log(2));
+    assert_near(held.ratio, 1, 1e-2);
+    course_series_clear(&made);
+}
+
+static void test_ends(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    const scene flat = {1, 0, 0.05, 0.01, 0}, brief = {1, 1, 0.004, 0.01, 0},
+                quick = {1, 1, 20, 0.002, 0};
+    course_fit fit = fitted(&flat, 0.2, &seed);
+    assert_false(fit.seen);
+    assert_true(isnan(fit.log_factor));
+    assert_true(fabs(fit.ratio) < 3 * fit.ratio_error && fit.ratio_error < 0.1);
+    fit = fitted(&brief, 0.2, &seed); /* a quarter of the way alone */
+    assert_true(!fit.seen || isnan(fit.high));
+    fit = fitted(&quick, 0.2, &seed); /* over in the first cycle */
+    assert_true(!fit.seen || isnan(fit.low));
+}
+
+/* Truth within the interval of 95 % in so many of the draws as chance allows (1 in 10000). */
+static void test_coverage(void **state)
+{
+    (void)state;
+    enum { DRAWS = 60, LEAST = 50 };
+    const scene s = {1.7, 0.8, 0.08, 0.02, 0.01};
+    uint64_t seed = 20;
+    int factor = 0, ratio = 0;
+    for (int i = 0; i < DRAWS; i++) {
+        const course_fit fit = fitted(&s, 0.2, &seed);
+        assert_true(fit.seen);
+        factor += fit.low < log(s.factor) && log(s.factor) < fit.high;
+        ratio += fabs(fit.ratio - s.ratio) < 1.96 * fit.ratio_error;
+    }
+    assert_in_range(factor, LEAST, DRAWS);
+    assert_in_range(ratio, LEAST, DRAWS);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const course c = exponential(0.2), none = exponential(0);
+    course_series made;
+    course_fit fit;
+    assert_int_equal(course_series_new(COURSE_FEWEST - 1, &made, NULL), WT_OK);
+    assert_int_equal(course_fit_make(&made, &c, fraction, 0.1, &fit, NULL), WT_E_RANGE);
+    course_series_clear(&made);
+    uint64_t seed = 1;
+    const scene s = {1, 1, 0.05, 0.01, 0};
+    made = series_of(&s, &none, &seed);
+    assert_int_equal(course_fit_make(&made, &none, fraction, 0.1, &fit, NULL), WT_E_RANGE);
+    course_series_clear(&made);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_course),         cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_another_course), cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests_name("fit course", tests, NULL, NULL);
+}
