@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/story.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -41,6 +42,22 @@ static void say_existence(const answer_story *story)
         answer_say(story, how_thick, "thickness", "At %s a layer exists %s.",
                    words_of(existence_value(v, EXISTENCE_KEY_PRESSURE).value, "Pa").text,
                    existence_words(v, EXISTENCE_KEY_WORDS));
+}
+
+void answer_track_layer(const answer_story *story)
+{
+    const table_view *const v = &story->track_layer;
+    if (v->table == NULL)
+        return;
+    const char *const allowed = track_layer_words(v, TRACK_LAYER_KEY_ALLOWED),
+                      *const agree = track_layer_words(v, TRACK_LAYER_KEY_AGREE),
+                      *const settled_by = track_layer_words(v, TRACK_LAYER_KEY_SETTLED_BY);
+    answer_say(story, how_thick, "thickness",
+               "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
+               toupper((unsigned char)allowed[0]), allowed + 1,
+               agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
+               agree != NULL ? "." : "", settled_by != NULL ? " What would settle it: " : "",
+               settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
 }
 
 static void say_bands(const answer_story *story)
