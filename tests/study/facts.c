@@ -40,4 +40,6 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_CRITICAL_ENERGY] = {"critical_energy", true},
     [Q_FRICTION_RATIO] = {"friction_ratio", true},
     [Q_NEEDED_SHEAR] = {"needed_shear", true},
+    [Q_ALLOWED] = {"allowed_thickness", false},
+    [Q_BOTH] = {"thickness_of_both", false},
 };

@@ -47,6 +47,8 @@ typedef enum quantity {
     Q_CRITICAL_ENERGY, /* of a layer */
     Q_FRICTION_RATIO,  /* measured over predicted */
     Q_NEEDED_SHEAR,    /* stress that a record asks for */
+    Q_ALLOWED,         /* ln of the thickness of a layer that curves allow, in nm */
+    Q_BOTH,            /* and of that which they and another source allow */
     Q_COUNT
 } quantity;
 

@@ -32,6 +32,14 @@ extern const place place_wear_rate;                             /* a row for eac
 
 extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
+#define PLACE_LAYER "track_layer"
+#define PLACE_LAYER_LOW "thickness_low" /* [m]; not there: no such end */
+#define PLACE_LAYER_HIGH "thickness_high"
+#define PLACE_LAYER_BOTH_LOW "both_low"
+#define PLACE_LAYER_BOTH_HIGH "both_high"
+#define PLACE_LAYER_AGREE "agree"     /* begins with yes, no or cannot say */
+#define PLACE_LAYER_ALLOWED "allowed" /* begins with none where no thickness is */
+#define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
