@@ -272,6 +272,54 @@ WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poiss
                                      const wt_depth_curve *curve, size_t n, wt_curve_depth *depth,
                                      wt_error *err) WT_NODISCARD;
 
+/* What the curves of the track alone say of the thickness of a layer on rubber like the bulk. A
+ * thickness is allowed if the curves change with depth as a layer of it would make them, which is
+ * on the bulk and has the ratio of the moduli; what the curves of the bulk change by is taken off,
+ * so that a tip, loss or a piezo that both share do not count. */
+enum { WT_LAYER_STEPS = 96 };
+typedef enum wt_layer_allows {
+    WT_ALLOWS_UNKNOWN, /* curves of track or bulk: nothing is known */
+    WT_ALLOWS_ANY,     /* every thickness down to `least` is allowed */
+    WT_ALLOWS_THICKER, /* there is a lower end alone */
+    WT_ALLOWS_THINNER, /* there is an upper end alone */
+    WT_ALLOWS_BETWEEN, /* both */
+    WT_ALLOWS_NONE,    /* no thickness makes such curves */
+} wt_layer_allows;
+typedef struct wt_layer_profile {
+    wt_layer_allows says;
+    size_t n[2], n_units[2];      /* curves and units of bulk and track */
+    double depth, contact_radius; /* mean of the track at the largest indentation [m] */
+    double least;                 /* thickness to which the law of a layer reaches [m] */
+    /* Interval of 95 % [m]: low 0, high infinity: no such end; value NaN but between two ends. */
+    wt_interval thickness;
+    size_t n_steps; /* from thick to thin: */
+    double log_thickness[WT_LAYER_STEPS];
+    double deviate[WT_LAYER_STEPS]; /* how far off such a layer is, as a standard normal one */
+} wt_layer_profile;
+/* Bulk, then track; log_ratio: ln of the modulus of the track over that of the bulk with its error,
+ * whose degrees of freedom are ratio_df, infinite: it is normal. Fewer than 12 curves of one of
+ * them, or a ratio that is not known, tell nothing. */
+WT_API wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double poisson_ratio,
+                                       const wt_depth_curve *const curve[2], const size_t n[2],
+                                       wt_estimate log_ratio, double ratio_df,
+                                       wt_layer_profile *profile, wt_error *err) WT_NODISCARD;
+/* The modulus of a homogeneous rubber with the force of a layer that has the ratio of the track
+ * where the contact radius is that of the profile, over the modulus of the bulk, at another contact
+ * radius [m]; NaN where the law does not reach. */
+WT_API double wt_layer_modulus(const wt_layer_profile *profile, double ratio, double thickness,
+                               double contact_radius);
+
+/* Thicknesses that differ by less than this factor agree: the balance of a layer goes with
+ * constants that are known to no better than their order. */
+#define WT_LAYER_MARGIN 2.0
+typedef struct wt_layer_agreement {
+    double low, high; /* interval of 95 % of the thickness that both allow [m]; NaN: none */
+    double ratio_low, ratio_high; /* of that by the curves over the other; 0, infinity: no end */
+    bool differ, agree;           /* p < 0.01; the whole ratio is within the margin */
+} wt_layer_agreement;
+/* other: a thickness that is known in another way, its interval of 95 %. */
+WT_API wt_layer_agreement wt_layer_compare(const wt_layer_profile *profile, wt_interval other);
+
 /* ---- groups and their comparison ------------------------------------------------------------- */
 
 /* One group of moduli: accepted curves only; spot[i] numbers the place on the sample (curves on one

@@ -22,18 +22,19 @@ extern "C" {
 
 /* What a job can give besides its main table. */
 typedef enum wt_extra {
-    WT_EXTRA_SHARE = 1,         /* of friction: the extrapolated share, else NaN */
-    WT_EXTRA_MODULUS_DEPTH = 2, /* of the curves: the table modulus_depth */
-    WT_EXTRA_DRAWS = 4,         /* of the isotherms: what is not known of the material, as
-                                   material_draws and series_draws and for the replicates */
-    WT_EXTRA_DIGESTS = 8,       /* SHA-256 of the files read, else "" */
-    WT_EXTRA_SUMMARY = 16,      /* items and errors in the cost, else its nodes and files alone */
-    WT_EXTRA_TIMES = 32,        /* of the layer: its incubation and its time to 90 %, else NaN */
-    WT_EXTRA_REDUCED = 64,      /* of the isotherms: the series with few terms */
-    WT_EXTRA_SPECTRUM = 128,    /* of the isotherms: the relaxation spectrum with its error */
-    WT_EXTRA_TRANSITION = 256,  /* of temperature sweeps: the peaks, else without rows */
-    WT_EXTRA_COMMON = 512,      /* of the curves: what the errors do that all of them share */
-    WT_EXTRAS = 1023
+    WT_EXTRA_SHARE = 1,           /* of friction: the extrapolated share, else NaN */
+    WT_EXTRA_MODULUS_DEPTH = 2,   /* of the curves: the table modulus_depth */
+    WT_EXTRA_DRAWS = 4,           /* of the isotherms: what is not known of the material, as
+                                     material_draws and series_draws and for the replicates */
+    WT_EXTRA_DIGESTS = 8,         /* SHA-256 of the files read, else "" */
+    WT_EXTRA_SUMMARY = 16,        /* items and errors in the cost, else its nodes and files alone */
+    WT_EXTRA_TIMES = 32,          /* of the layer: its incubation and its time to 90 %, else NaN */
+    WT_EXTRA_REDUCED = 64,        /* of the isotherms: the series with few terms */
+    WT_EXTRA_SPECTRUM = 128,      /* of the isotherms: the relaxation spectrum with its error */
+    WT_EXTRA_TRANSITION = 256,    /* of temperature sweeps: the peaks, else without rows */
+    WT_EXTRA_COMMON = 512,        /* of the curves: what the errors do that all of them share */
+    WT_EXTRA_DEPTH_CURVES = 1024, /* of each curve: what it tells of depth, else NaN */
+    WT_EXTRAS = 2047
 } wt_extra;
 
 typedef struct wt_cost wt_cost;
@@ -682,6 +683,8 @@ typedef struct wt_compare_job {
     double margin;            /* relative difference that does not matter; default 0.2 */
     bool rates;               /* default true: table of the modulus against rate */
     bool groups_only;         /* no comparison of the two groups */
+    wt_estimate
+        layer_thickness; /* known otherwise [m]; NaN (default): that of the theory, if any */
 } wt_compare_job;
 WT_API wt_compare_job wt_compare_job_defaults(void);
 WT_API const wt_params *wt_compare_job_params(void);
@@ -698,6 +701,14 @@ WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
  * modulus it says so, in a row without numbers. WT_E_RANGE if a curve is in both groups. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* What the curves alone say of the thickness of a layer in the track, beside another thickness: the
+ * one of the job or, where that is NaN, that of `layer` (table "layer", or NULL). Table
+ * "track_layer"; NULL where the tables of the groups hold nothing of depth and no thickness is
+ * given. */
+WT_API wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer,
+                                     const wt_job *work, wt_table **table,
+                                     wt_error *err) WT_NODISCARD;
 
 /* The moduli of dwells (tables dwell_moduli as job->bulk and job->track, of which the track may be
  * NULL) against those of job->rubber at the same frequency and temperature: table dwell_dma. */

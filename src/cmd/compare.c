@@ -73,9 +73,12 @@ static void compare_groups(compare_call *call, const char *master)
     }
     if (made == WT_OK)
         made = wt_compare_groups(job, &s->work, &tables, &s->err);
-    wt_table **const made_tables[] = {&tables.comparison, &tables.modulus_groups,
+    wt_table *layer = NULL;
+    if (made == WT_OK)
+        made = wt_track_layer_make(job, NULL, &s->work, &layer, &s->err);
+    wt_table **const made_tables[] = {&tables.comparison,     &tables.modulus_groups,
                                       &tables.modulus_budget, &tables.modulus_rate,
-                                      &tables.dma_comparison};
+                                      &tables.dma_comparison, &layer};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
     wt_rubber_clear(&rubber);
     wt_result_free(dma);

@@ -52,6 +52,8 @@ void contact_table_values(const wt_contact_table *table, const double *delta, si
 
 /* A pyramid or cone with a cap from the words of wt_tip_describe; false of other tips and words. */
 bool tip_from_description(const char *words, wt_tip *tip);
+/* The same of a tip of any shape. */
+bool tip_of_any_description(const char *words, wt_tip *tip);
 
 /* The depth b^2/R below which a blunted tip is a paraboloid; infinite for a paraboloid, 0 for
  * others. */

@@ -4,6 +4,7 @@
  */
 #include "model/tip.h"
 
+#include "base/array.h"
 #include "base/clocale.h"
 #include "base/nearest.h"
 
@@ -262,4 +263,31 @@ bool tip_from_description(const char *words, wt_tip *tip)
         return false;
     tip->sides = (unsigned)sides;
     return wt_tip_check(tip, NULL) == WT_OK;
+}
+
+bool tip_of_any_description(const char *words, wt_tip *tip)
+{
+    static const struct {
+        const char *words;
+        wt_tip_shape shape;
+        bool round; /* a radius, else an angle */
+    } plain[] = {{"paraboloid, ", WT_TIP_PARABOLOID, true},
+                 {"sphere, ", WT_TIP_SPHERE, true},
+                 {"flat punch, ", WT_TIP_PUNCH, true},
+                 {"cone, ", WT_TIP_CONE, false}};
+    double sides = 0;
+    for (size_t i = 0; i < COUNT_OF(plain); i++) {
+        if (strncmp(words, plain[i].words, strlen(plain[i].words)) != 0)
+            continue;
+        *tip = (wt_tip){.shape = plain[i].shape};
+        return (plain[i].round
+                    ? quantity_behind(words, "radius ", "", WT_Q_LENGTH, &tip->radius)
+                    : quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle)) &&
+               wt_tip_check(tip, NULL) == WT_OK;
+    }
+    if (!quantity_behind(words, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
+        return tip_from_description(words, tip);
+    *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID, .sides = (unsigned)sides};
+    return quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) &&
+           wt_tip_check(tip, NULL) == WT_OK;
 }

@@ -5,6 +5,7 @@
 #include "report/drawing.h"
 
 #include <math.h>
+#include <string.h>
 
 /* ---- thickness and rates in time, one above the other ---------------------------------------- */
 
@@ -132,6 +133,53 @@ static void caption_running_in(figure_drawing *d)
         text_format(&d->caption, " After %s 5 %% of the change are left.", ESTIMATE(&settled));
 }
 
+/* ---- thickness by the curves ----------------------------------------------------------------- */
+
+/* The thickness known otherwise, on the axis of the depth: a line and its interval. */
+static void mark_other(figure_drawing *d)
+{
+    const double at = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER).value,
+                 low = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER_LOW).value,
+                 high = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER_HIGH).value;
+    if (!(at >= d->x.low && at <= d->x.high))
+        return;
+    if (low < high)
+        text_format(&d->script,
+                    "set object 1 rectangle from %s*x_unit, graph 0 to %s*x_unit, graph 1 behind "
+                    "fillcolor rgb '#dddddd' fillstyle solid noborder\n",
+                    LITERAL(fmax(low, d->x.low)), LITERAL(fmin(high, d->x.high)));
+    mark_time(d, at, "thickness", 0.06);
+}
+
+/* Measured groups with their intervals, layers as lines. */
+static void draw_track_layer(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    mark_other(d);
+    for (size_t i = 0; i < d->n_groups; i++) {
+        const bool measured =
+            strcmp(d->groups[i], "bulk") == 0 || strcmp(d->groups[i], "track") == 0;
+        plot_item(d, d->data[i],
+                  measured ? "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorlines "
+                             "ls %d"
+                           : "($1*x_unit):($2*y_unit) with lines ls %d",
+                  drawing_group_style(d, i));
+        plot_title(d, d->groups[i]);
+    }
+    plot_end(d);
+}
+
+static void caption_track_layer(figure_drawing *d)
+{
+    const char *const agree = track_layer_words(d->table, TRACK_LAYER_KEY_AGREE);
+    text_format(&d->caption, " By the curves: %s.",
+                track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
+    if (agree != NULL)
+        text_format(&d->caption, " Do both agree? %s.", agree);
+}
+
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 const figure_description figures_layer[] = {
@@ -189,5 +237,20 @@ const figure_description figures_layer[] = {
      .nothing = "no shear stress is known, and so no friction",
      .words = "Friction with the layer that has grown until then (bands: one standard error).",
      .caption = caption_running_in},
+    {.name = "track_layer",
+     .title = "Thickness of the layer by the curves",
+     .table = &track_layer_schema,
+     .by_group = true,
+     .group = TRACK_LAYER_CURVE,
+     .x = {TRACK_LAYER_DEPTH, AXIS_LOG, "Indentation, thickness"},
+     .y = {{TRACK_LAYER_MODULUS, AXIS_LOG, "Modulus at this depth"}},
+     .curves = {CURVE(TRACK_LAYER_MODULUS, OWN, .with_errors = true)},
+     .nothing = "too few curves tell how the modulus changes with depth",
+     .words = "Modulus of the homogeneous rubber that would give the force at this depth, of bulk "
+              "and track (bars: 95 % confidence interval), and of layers on the bulk that have the "
+              "ratio of the moduli at the depth of the curves; grey: the thickness known otherwise "
+              "with its 95 % interval, on the same axis.",
+     .draw = draw_track_layer,
+     .caption = caption_track_layer},
     {.name = NULL},
 };

@@ -102,6 +102,7 @@ static const struct result_part {
     ROWS(modulus_depth, "Modulus against depth, of all curves of a group"),
     ROWS(comparison, "Wear track against bulk: ratio of geometric means, by indentation rate"),
     KEYS(comparison, "Wear track against bulk: what was compared"),
+    KEYS(track_layer, "Thickness of the layer by the curves"),
     ROWS(dma_comparison, "Indentation against DMA at the equivalent frequency"),
     ROWS(collection, "Cases, by sample and condition"),
     ROWS(ratio_pairs, "Modulus ratios of cases of one sample or condition against one another"),

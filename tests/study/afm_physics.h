@@ -21,6 +21,9 @@ afm_tip afm_pyramid(double radius, double angle_degrees, unsigned sides);
  * thick one. To be freed; NULL without memory. */
 typedef struct thin_sample thin_sample;
 thin_sample *thin_make(const afm_tip *tip, double thickness, int unbonded);
+/* The same of a layer that sticks to rubber of E/ratio, at contact radii up to `radius`: depth and
+ * force over those on a thick layer. */
+thin_sample *layer_make(const afm_tip *tip, double thickness, double ratio, double radius);
 double thin_depth(const thin_sample *s, double a);
 double thin_force(const thin_sample *s, double a);
 

@@ -19,7 +19,7 @@ static double modulus_of(const afm_scene *s)
     return s->modulus > 0 ? s->modulus : 5e6;
 }
 
-static afm_tip true_tip(const afm_scene *s)
+afm_tip afm_true_tip(const afm_scene *s)
 {
     const double factor = s->radius_factor > 0 ? s->radius_factor : 1;
     const double angle = 35 * (s->angle_factor > 0 ? s->angle_factor : 1);
@@ -201,11 +201,11 @@ static void disturb(const afm_scene *s, afm_sample *to)
 afm_sample *afm_sample_make(const afm_scene *s)
 {
     afm_sample *to = calloc(1, sizeof *to);
-    afm_tip tip = true_tip(s);
+    afm_tip tip = afm_true_tip(s);
     if (to == NULL)
         return NULL;
     thin_sample *thin = s->thickness > 0 ? thin_make(&tip, s->thickness, s->unbonded) : NULL;
-    tip.thin = thin;
+    tip.thin = s->layered != NULL ? s->layered : thin;
     to->spring_constant = s->spring_constant > 0 ? s->spring_constant : 0.5;
     const double depth = true_depth(s);
     const double a = tip_contact_radius(&tip, depth),
@@ -248,7 +248,7 @@ double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
     const double depth = share * true_depth(s);
     afm_scene stated = *s;
     stated.radius_factor = stated.angle_factor = 1;
-    const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);
+    const afm_tip tip = afm_true_tip(s), as_stated = afm_true_tip(&stated);
     const double a = tip_contact_radius(&tip, depth),
                  of_stated = tip_contact_radius(&as_stated, depth);
     if (s->loss != LOSS_NONE || (s->thickness > 0 && !s->untold))

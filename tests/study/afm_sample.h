@@ -17,6 +17,8 @@ typedef struct afm_sample {
     double modulus; /* the truth: of the rubber, |E*(1/t_c)|, or that at the largest depth */
 } afm_sample;
 
+/* The tip of a scene; what it is pressed into left out. */
+afm_tip afm_true_tip(const afm_scene *s);
 /* Without noise. NULL if memory runs out. */
 afm_sample *afm_sample_make(const afm_scene *s);
 /* What the tip as stated makes of the force at a share of the largest depth; |E*| for loss. */

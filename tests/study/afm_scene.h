@@ -61,6 +61,8 @@ typedef struct afm_scene {
     bool untold;                         /* the thickness is not given */
     double radius_stated, angle_stated;  /* relative standard errors that are told */
     double before;                       /* share of the way in before contact; 0: two thirds */
+    const struct thin_sample
+        *layered; /* a layer by the integral equation, made before; NULL: none */
     double spots; /* relative scatter of the moduli of six spots, a file each; 0: one spot */
 } afm_scene;
 

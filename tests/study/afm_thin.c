@@ -1,6 +1,7 @@
-/* A thin sample on a rigid base, by the integral equation of the contact: pi/2 g + int K g = the
- * depth of the tip, its kernel the response of the sample to waves less that of a thick one.
- * Lengths are those of the thickness. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A thin sample on a rigid base, or a layer on other rubber, by the integral equation of the
+ * contact: pi/2 g + int K g = the depth of the tip, its kernel the response of the sample to waves
+ * less that of a thick one. Lengths are those of the thickness. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "afm_physics.h"
 
 #include <math.h>
@@ -42,6 +43,15 @@ static double response(double x, int unbonded)
     if (unbonded)
         return x > 0 ? (2 * e * e - 2 * e - 4 * x * e) / (1 - e * e + 4 * x * e) : -1;
     return -(2 * (1 + 2 * x + 2 * x * x) * e + 2 * e * e) / (1 + (2 + 4 * x * x) * e + e * e);
+}
+
+/* The same of a layer on rubber to which it sticks, of that of a thick layer (Burmister, J. Appl.
+ * Phys. 16 (1945) 89); ratio: E of the layer over that of the ground. */
+static double layer_response(double x, double ratio)
+{
+    const double beta = (ratio - 1) / (ratio + 1), e = exp(-2 * x), all = beta * beta * e * e;
+    return (2 * beta * (1 + 2 * x + 2 * x * x) * e - 2 * all) /
+           (1 - (2 * beta + 4 * beta * x * x) * e + all);
 }
 
 /* Solves m y = b for two right sides, by elimination with pivots. */
@@ -129,19 +139,18 @@ static void solve(const afm_tip *tip, double thickness, const double *kernel, do
     free(wave);
 }
 
-thin_sample *thin_make(const afm_tip *tip, double thickness, int unbonded)
+/* kernel: responses, without the weights of Simpson's rule; radius: the largest. */
+static thin_sample *solve_all(const afm_tip *tip, double thickness, double kernel[WAVES + 1],
+                              double radius)
 {
     thin_sample *to = calloc(1, sizeof *to);
     if (to == NULL)
         return NULL;
-    double kernel[WAVES + 1]; /* with the weights of Simpson's rule */
     for (int k = 0; k <= WAVES; k++) {
-        const double x = k * deepest_wave / WAVES, simpson = k == 0 || k == WAVES ? 1
-                                                             : k % 2 == 1         ? 4
-                                                                                  : 2;
-        kernel[k] = simpson * deepest_wave / WAVES / 3 * response(x, unbonded);
+        const double simpson = k == 0 || k == WAVES ? 1 : k % 2 == 1 ? 4 : 2;
+        kernel[k] *= simpson * deepest_wave / WAVES / 3;
     }
-    to->step = largest_radius * thickness / RADII;
+    to->step = radius / RADII;
     to->depth[0] = to->force[0] = 1;
     for (int i = 1; i <= RADII; i++) {
         const double a = i * to->step;
@@ -151,6 +160,22 @@ thin_sample *thin_make(const afm_tip *tip, double thickness, int unbonded)
         to->force[i] = force / tip_force(tip, a);
     }
     return to;
+}
+
+thin_sample *thin_make(const afm_tip *tip, double thickness, int unbonded)
+{
+    double kernel[WAVES + 1];
+    for (int k = 0; k <= WAVES; k++)
+        kernel[k] = response(k * deepest_wave / WAVES, unbonded);
+    return solve_all(tip, thickness, kernel, largest_radius * thickness);
+}
+
+thin_sample *layer_make(const afm_tip *tip, double thickness, double ratio, double radius)
+{
+    double kernel[WAVES + 1];
+    for (int k = 0; k <= WAVES; k++)
+        kernel[k] = layer_response(k * deepest_wave / WAVES, ratio);
+    return solve_all(tip, thickness, kernel, radius);
 }
 
 /* By the cubic through four points. */

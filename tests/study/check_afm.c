@@ -149,6 +149,33 @@ static void check_layer_file(char *text)
     check_true("rows of layers", rows > 30);
 }
 
+/* The contact by the integral equation beside solutions of others in 11 digits. */
+static void check_layers(const char *folder)
+{
+    char *text = read_all(folder, "layer.csv");
+    int rows = 0;
+    for (char *line = text != NULL ? strtok(text, "\n") : NULL; line != NULL;
+         line = strtok(NULL, "\n")) {
+        double ratio, x[7];
+        char name[16];
+        if (sscanf(line, "%lf %15s %lf %lf %lf %lf %lf %lf %lf", &ratio, name, x, x + 1, x + 2,
+                   x + 3, x + 4, x + 5, x + 6) != 9 ||
+            !(x[0] > 0.2 && x[0] <= 3))
+            continue;
+        afm_tip tip = {.radius = 1, .angle = 1, .b = (double)INFINITY};
+        if (strcmp(name, "sphere") != 0)
+            tip = strcmp(name, "cone") == 0 ? afm_pyramid(0, 45, 0) : afm_pyramid(0.2, 35, 4);
+        thin_sample *layer = layer_make(&tip, 1, ratio, 3.1);
+        tip.thin = layer;
+        check_near("depth on a layer", layer != NULL ? tip_depth(&tip, x[0]) : 0, x[1], 2e-3);
+        check_near("force on a layer", layer != NULL ? tip_force(&tip, x[0]) : 0, x[2], 3e-3);
+        free(layer);
+        rows++;
+    }
+    check_true("rows of layers by the equation", text == NULL || rows > 40);
+    free(text);
+}
+
 void check_afm(const char *folder)
 {
     char *adhesive = read_all(folder, "jkr.json"), *lossy = read_all(folder, "viscoelastic.json");
@@ -168,6 +195,7 @@ void check_afm(const char *folder)
         check_lossy_case(at, strstr(at + 5, "\"id\":"));
     if (layer != NULL)
         check_layer_file(layer);
+    check_layers(folder);
     free(adhesive);
     free(lossy);
     free(layer);

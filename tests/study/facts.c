@@ -60,4 +60,6 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_CHANGE_RATIO] = {"change_ratio", true},
     [Q_NEEDED_WEAR] = {"needed_wear", true},
     [Q_NEEDED_ENERGY] = {"needed_energy", true},
+    [Q_ALLOWED] = {"allowed_thickness", false},
+    [Q_BOTH] = {"thickness_of_both", false},
 };

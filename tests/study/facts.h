@@ -69,6 +69,8 @@ typedef enum quantity {
     Q_CHANGE_RATIO,      /* of friction in the running-in, likewise */
     Q_NEEDED_WEAR,       /* rate that a running-in asks for */
     Q_NEEDED_ENERGY,
+    Q_ALLOWED, /* ln of the thickness of a layer that curves allow, in nm */
+    Q_BOTH,    /* and of that which they and another source allow */
     Q_COUNT
 } quantity;
 

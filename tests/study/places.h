@@ -60,6 +60,14 @@ extern const place place_settled, place_end_friction;
 extern const place place_settled_measured, place_time_ratio,
     place_change_ratio; /* of a running-in */
 extern const place place_needed_wear, place_needed_energy;
+#define PLACE_LAYER "track_layer"
+#define PLACE_LAYER_LOW "thickness_low" /* [m]; not there: no such end */
+#define PLACE_LAYER_HIGH "thickness_high"
+#define PLACE_LAYER_BOTH_LOW "both_low"
+#define PLACE_LAYER_BOTH_HIGH "both_high"
+#define PLACE_LAYER_AGREE "agree"     /* begins with yes, no or cannot say */
+#define PLACE_LAYER_ALLOWED "allowed" /* begins with none where no thickness is */
+#define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */

@@ -14,6 +14,7 @@
 #include "record_observe.h"
 #include "surface_observe.h"
 #include "tally.h"
+#include "thickness_observe.h"
 #include "track_observe.h"
 #include "validation_observe.h"
 
@@ -230,10 +231,11 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    const family families[] = {
-        dma_family(), track_family(), afm_family(), dwell_family(), lever_family(),
-        surface_family(), record_family(), validation_family(), identify_family(),
-        const family families[] = {collection_family(), layer_family(), growth_family()};
+    const family families[] = {dma_family(),        track_family(),      afm_family(),
+                               dwell_family(),      lever_family(),      surface_family(),
+                               record_family(),     validation_family(), identify_family(),
+                               collection_family(), layer_family(),      growth_family(),
+                               thickness_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

@@ -457,7 +457,9 @@ static void check_curves(const char *asks, const ran *r)
     check(asks, AGAIN,
           count[CURVES] + (runs(r, FLOW_COVERAGE) ? TRIALS * groups * fitted : (size_t)0) +
               (common ? groups * moved : 0));
-    check(asks, DEPTHS, (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK));
+    check(asks, DEPTHS,
+          (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK) +
+              2 * (size_t)runs(r, FLOW_TRACK_LAYER));
 }
 
 static void check_material(const char *asks, const ran *r)

@@ -59,6 +59,7 @@ static void test_measured(void **state)
                                          "modulus_groups",
                                          "modulus_rate",
                                          "comparison",
+                                         "track_layer",
                                          "dma_comparison",
                                          "shift_factors",
                                          "master_curve",

@@ -87,7 +87,7 @@ static void test_what_runs(void **state)
     check_plan(HEAD "</case>", "");
     check_plan(HEAD "<indentation>" TIP BULK "</indentation></case>", "indentation_bulk groups ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation></case>",
-               "indentation_bulk indentation_track comparison ");
+               "indentation_bulk indentation_track comparison track_layer ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation><compare/></case>",
                "indentation_bulk indentation_track groups ");
     check_plan(HEAD DMA "</case>", "master_curve ");
@@ -100,7 +100,7 @@ static void test_what_runs(void **state)
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
                "master_curve indentation_bulk indentation_track "
                "comparison "
-               "dma_comparison roughness layer energy_density friction "
+               "dma_comparison roughness layer track_layer energy_density friction "
                "contact_area what_if ");
 }
 
@@ -147,7 +147,7 @@ static void test_what_is_asked(void **state)
     check_plan(ALL "<compare><track-to-bulk/></compare></case>",
                "master_curve indentation_bulk indentation_track "
                "comparison "
-               "roughness layer energy_density friction contact_area "
+               "roughness layer track_layer energy_density friction contact_area "
                "what_if ");
     check_plan(ALL "<report><result>friction</result></report></case>",
                "master_curve indentation_bulk indentation_track "

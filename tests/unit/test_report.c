@@ -294,7 +294,7 @@ static void test_the_median_decides_the_unit(void **state)
     const char *const cost = "cost";
     const fixture_change change = {cost, .keep = ran, .edit = set_times};
     wt_result *result = fixture_only(&cost, 1, &change);
-    assert_int_equal(wt_table_n_rows(wt_result_find(result, cost)), 11);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, cost)), 12);
     write_report(result, "out", NULL);
     size_t length = 0;
     char *page = read_all("out/index.html", &length);

@@ -266,6 +266,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"layer_bands", "title 'lower edge'", "time lower"},
         {"layer_bands", "title 'upper edge'", "time upper"},
         {"running_in", "title 'hysteresis and shearing'", "time friction"},
+        {"track_layer", "title 'track'", "depth modulus low high"},
+        {"track_layer", "title 'thinnest layer'", "depth modulus"},
         {"running_in", "title 'hysteresis'", "time hysteresis"},
         {"existence", "lw 1.8 lc palette", "power thickness pressure"},
         {"existence_thickness", "palette notitle", "velocity ratio pressure thickness"},

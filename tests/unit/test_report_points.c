@@ -147,12 +147,14 @@ static void test_groups(void **state)
     NEED_REPORT();
     static const struct {
         const char *figure, *column, *group[4];
-    } by_group[] = {{"force_indentation", "group", {"bulk", "track"}},
-                    {"modulus_depth", "group", {"bulk", "track"}},
-                    {"modulus_rate", "group", {"bulk", "track"}},
-                    {"materials", "material", {"soft", FIXTURE_EVIL}},
-                    {"common_law", "sample", {"NR", "SBR 10%"}},
-                    {"directions", "factors", {"none", "loss", "storage", "both"}}};
+    } by_group[] = {
+        {"force_indentation", "group", {"bulk", "track"}},
+        {"modulus_depth", "group", {"bulk", "track"}},
+        {"modulus_rate", "group", {"bulk", "track"}},
+        {"track_layer", "curve", {"bulk", "track", "thinnest layer", "layer of the theory"}},
+        {"materials", "material", {"soft", FIXTURE_EVIL}},
+        {"common_law", "sample", {"NR", "SBR 10%"}},
+        {"directions", "factors", {"none", "loss", "storage", "both"}}};
     for (size_t i = 0; i < sizeof by_group / sizeof *by_group; i++) {
         sections s = begin_sections(by_group[i].figure);
         for (size_t k = 0; k < 4 && by_group[i].group[k] != NULL; k++)

@@ -477,6 +477,45 @@ static void test_materials(void **state)
         wt_rubber_clear(&made[k]);
 }
 
+static void shift_waves(wt_table *copy, size_t row)
+{
+    /* of a fifth of the residual on a soft layer of 100 nm */
+    static const double wave[] = {1.513e-4, 6.242e-4, -5.172e-4, -1.915e-4, -3.442e-4, -8.22e-5};
+    for (size_t i = 0; i < COUNT_OF(wave); i++) {
+        char name[32];
+        snprintf(name, sizeof name, "misfit_wave_%zu", i + 1);
+        const size_t column = (size_t)wt_table_find(copy, name);
+        fixture_put(copy, name, wt_table_number(copy, row, column) + wave[i]);
+    }
+}
+
+/* The bundled case with the residual of a layer in its track, of which the curves tell the
+ * thickness. */
+static void test_layer_by_curves(void **state)
+{
+    (void)state;
+    const fixture_change layered = {.table = "indentation/track", .edit = shift_waves};
+    wt_case *read = NULL;
+    wt_result *result = NULL;
+    wt_table *table = NULL;
+    wt_compare_job job = wt_compare_job_defaults();
+    const wt_job common = wt_job_defaults();
+    assert_int_equal(wt_case_read(CASE "case.xml", &read, NULL), WT_OK);
+    assert_int_equal(wt_case_ask(read, "track_layer indentation/bulk indentation/track", NULL),
+                     WT_OK);
+    assert_int_equal(wt_run(read, NULL, NULL, &result, NULL, NULL), WT_OK);
+    wt_table *const track = fixture_copy(wt_result_find(result, "indentation/track"), &layered);
+    job.bulk = wt_result_find(result, "indentation/bulk");
+    job.track = track;
+    job.layer_thickness = (wt_estimate){3e-7, 2e-8, 0, "m"};
+    assert_int_equal(wt_track_layer_make(&job, NULL, &common, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_table_free(track);
+    wt_result_free(result);
+    wt_case_free(read);
+}
+
 /* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
 static void test_spring_constants(void **state)
 {
@@ -1368,6 +1407,7 @@ int main(void)
         cmocka_unit_test(test_no_hysteresis),
         cmocka_unit_test(test_flash),
         cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_layer_by_curves),
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_ramps),

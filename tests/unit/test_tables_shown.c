@@ -11,7 +11,7 @@
 #define ROWS(X) \
     X(indentation) X(curves) X(choices) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
     X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
-    X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(friction) X(directions) \
+    X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(track_layer) X(friction) X(directions) \
     X(softening) X(contact_area) X(layer) X(materials) X(material_ratio) X(coverage) \
     X(error_budget) X(work_precision) X(cost) X(notes) X(map_curves) X(map_segments) \
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) X(common_law) \
@@ -23,7 +23,7 @@
     X(layer_bands) X(running_in) X(layer_balances) X(existence)
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
-    X(comparison) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
+    X(comparison) X(track_layer) X(friction) X(softening) X(layer) X(material_ratio) X(master_curve) X(prony) \
     X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash) \
     X(collection) X(collected_friction) X(shared_constants) X(ratio_pairs) X(layer_bands) X(running_in) X(layer_balances) X(existence)
 /* clang-format on */

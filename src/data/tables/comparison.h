@@ -114,6 +114,44 @@
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \
       LABEL("Share of calibration and temperature in it"), OPTIONAL)
 
+/* Measured, and of layers that have the ratio of the moduli at the depth of the curves. */
+#define TRACK_LAYER_COLUMNS(X)                                                                     \
+    X(TRACK_LAYER_CURVE, AS(curve), "bulk, track, or a layer of which thickness", TEXT,            \
+      LABEL("Curve"))                                                                              \
+    X(TRACK_LAYER_DEPTH, AS(depth), "indentation depth", SI(INDENTATION), LABEL("Depth"))          \
+    X(TRACK_LAYER_MODULUS, AS(modulus),                                                            \
+      "modulus of a homogeneous rubber with the force at this depth", SI(MODULUS),                 \
+      LABEL("Modulus at this depth"), INTERVAL(TRACK_LAYER_LOW, TRACK_LAYER_HIGH))                 \
+    INTERVAL_COLUMNS(X, TRACK_LAYER, "", SI(MODULUS))
+
+/* Ends are there where there is one. */
+#define TRACK_LAYER_KEYS(X)                                                                        \
+    X(TRACK_LAYER_KEY_ALLOWED, AS(allowed), TEXT, LABEL("Thickness that the curves allow"))        \
+    X(TRACK_LAYER_KEY_AGREE, AS(agree), TEXT, LABEL("Do curves and theory agree on it"), OPTIONAL) \
+    X(TRACK_LAYER_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)   \
+    X(TRACK_LAYER_KEY_DEPTH, AS(deepest), SI(INDENTATION),                                         \
+      LABEL("Indentation, mean of the track"), OPTIONAL)                                           \
+    X(TRACK_LAYER_KEY_RADIUS, AS(contact_radius), SI(LENGTH), LABEL("Contact radius there"),       \
+      OPTIONAL)                                                                                    \
+    X(TRACK_LAYER_KEY_THICKNESS, AS(thickness), SI(LENGTH), LABEL("Thickness by the curves"),      \
+      OPTIONAL)                                                                                    \
+    X(TRACK_LAYER_KEY_LOW, "thickness_low", SI(LENGTH), SHOWS(low),                                \
+      LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
+    X(TRACK_LAYER_KEY_HIGH, "thickness_high", SI(LENGTH), SHOWS(high), LABEL("to"), OPTIONAL)      \
+    X(TRACK_LAYER_KEY_LEAST, "thinnest_tried", SI(LENGTH), SHOWS(least), OPTIONAL)                 \
+    X(TRACK_LAYER_KEY_RATIO, "layer_to_bulk", NUMBER, SHOWS(layer_ratio),                          \
+      LABEL("Modulus of such a layer over that of the bulk"), OPTIONAL)                            \
+    X(TRACK_LAYER_KEY_OTHER, "other_thickness", SI(LENGTH), SHOWS(other),                          \
+      LABEL("Thickness otherwise"), OPTIONAL)                                                      \
+    X(TRACK_LAYER_KEY_OTHER_LOW, AS(other_low), SI(LENGTH), LABEL("Its 95 % interval from"),       \
+      OPTIONAL)                                                                                    \
+    X(TRACK_LAYER_KEY_OTHER_HIGH, AS(other_high), SI(LENGTH), LABEL("to"), OPTIONAL)               \
+    X(TRACK_LAYER_KEY_OTHER_FROM, AS(other_from), TEXT, LABEL("Where that is from"), OPTIONAL)     \
+    X(TRACK_LAYER_KEY_BOTH_LOW, AS(both_low), SI(LENGTH), LABEL("Both allow from"), OPTIONAL)      \
+    X(TRACK_LAYER_KEY_BOTH_HIGH, AS(both_high), SI(LENGTH), LABEL("to"), OPTIONAL)                 \
+    X(TRACK_LAYER_KEY_OVER_LOW, AS(over_low), NUMBER, OPTIONAL)                                    \
+    X(TRACK_LAYER_KEY_OVER_HIGH, AS(over_high), NUMBER, OPTIONAL)
+
 #define MODULUS_RATE_COLUMNS(X)                                                                    \
     X(MODULUS_RATE_GROUP, AS(group), "bulk or track", TEXT)                                        \
     X(MODULUS_RATE_RATE, "indentation_rate", "geometric mean of the indentation rate",             \

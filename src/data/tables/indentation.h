@@ -116,7 +116,42 @@
       "factor on the spectrum of the DMA: modulus over its |E*|", NUMBER,                          \
       STANDARD_ERROR(INDENTATION_SPECTRUM_FACTOR), OPTIONAL)                                       \
     X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
-      "standard error of the factor", NUMBER, OPTIONAL)
+      "standard error of the factor", NUMBER, OPTIONAL)                                            \
+    X(INDENTATION_MISFIT_WAVE_1, "misfit_wave_1",                                                  \
+      "cosine 1 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[0]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_WAVE_2, "misfit_wave_2",                                                  \
+      "cosine 2 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[1]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_WAVE_3, "misfit_wave_3",                                                  \
+      "cosine 3 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[2]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_WAVE_4, "misfit_wave_4",                                                  \
+      "cosine 4 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[3]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_WAVE_5, "misfit_wave_5",                                                  \
+      "cosine 5 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[4]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_WAVE_6, "misfit_wave_6",                                                  \
+      "cosine 6 of the residual over the contact, of the largest force; of curves that tell of "   \
+      "depth",                                                                                     \
+      NUMBER, SHOWS(deep.misfit[5]), OPTIONAL)                                                     \
+    X(INDENTATION_MISFIT_LENGTH, "misfit_length", "travel of the piezo that the cosines are over", \
+      SI(LENGTH), SHOWS(deep.window), OPTIONAL)                                                    \
+    X(INDENTATION_BASELINE_LENGTH, "baseline_length", "travel of the piezo before contact",        \
+      SI(LENGTH), SHOWS(deep.baseline), OPTIONAL)                                                  \
+    X(INDENTATION_BASELINE_CURVATURE, "baseline_curvature",                                        \
+      "factor of the square of the position in the baseline", UNIT("N/m^2"),                       \
+      SHOWS(deep.curvature), OPTIONAL)                                                             \
+    X(INDENTATION_LOSS_ERROR, "loss_error",                                                        \
+      "relative error of the modulus by the memory that stands for loss; nan: loss, and what it "  \
+      "does is not known",                                                                         \
+      NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
 /* Where an error of theirs is stated: relative standard error of what all curves share, and what 1
  * of it does to ln E, with the standard error of that. In the order of wt_common_source. */

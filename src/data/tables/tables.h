@@ -93,6 +93,7 @@
       "Error budget of the moduli of the groups", "compare")                                       \
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
+    X(track_layer, TRACK_LAYER, "track_layer", "Thickness of the layer by the curves", "compare")  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
     X(dwell_dma, DWELL_DMA, "dwell_dma", "Dwells against DMA", "compare")                          \
     X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \

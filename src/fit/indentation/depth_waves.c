@@ -14,10 +14,14 @@ enum {
     MAX_STEPS = 60, /* halves alone are at the last digit */
 };
 
-depth_modulus depth_modulus_of(depth_law law, const double *p)
+depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p)
 {
     depth_modulus to = {.law = law, .level = p[DEPTH_LEVEL]};
-    if (law == DEPTH_LAYER) {
+    if (law == DEPTH_TIED) {
+        to.ratio = exp(p[DEPTH_LEVEL] + m->tie.log_ratio);
+        to.reach = m->tie.reach;
+        to.slope = p[DEPTH_SLOPE];
+    } else if (law == DEPTH_LAYER) {
         to.ratio = exp(p[DEPTH_RATIO]);
         to.reach = exp(p[DEPTH_REACH]);
     } else {
@@ -31,6 +35,8 @@ double depth_log_modulus(const depth_modulus *l, double u)
 {
     if (l->law == DEPTH_LAYER)
         return l->level + log(thin_layer_apparent(l->ratio, l->reach * u));
+    if (l->law == DEPTH_TIED)
+        return l->level + log(thin_layer_apparent(l->ratio, l->reach * u)) + (u - 1.0) * l->slope;
     return l->level + (u - 1.0) * (l->slope + (l->law == DEPTH_BENT ? l->bend * (u - 1.0) : 0.0));
 }
 
@@ -118,7 +124,7 @@ void depth_mean_cosines(const depth_mean *m, const double d[DEPTH_POINTS], doubl
 void depth_mean_waves(const depth_mean *m, const double *p, double wave[W])
 {
     double z[DEPTH_POINTS], from_contact[DEPTH_POINTS], d[DEPTH_POINTS];
-    const depth_modulus law = depth_modulus_of(m->law, p);
+    const depth_modulus law = depth_modulus_of(m, m->law, p);
     for (size_t i = 0; i < DEPTH_POINTS; i++) {
         z[i] = depth_mean_point(m, i);
         from_contact[i] = z[i] - p[DEPTH_CONTACT] * m->depth;

@@ -14,8 +14,9 @@ enum {
 };
 
 /* Contact point [depth], then: ln of the modulus at the top, slope, bend; or ln E1, ln E1/E2, ln
- * (contact radius over thickness). */
-typedef enum depth_law { DEPTH_LINE, DEPTH_BENT, DEPTH_LAYER } depth_law;
+ * (contact radius over thickness); or, of a layer of given thickness on a bulk of given modulus, ln
+ * E1 and the slope of what the curves have beside it. */
+typedef enum depth_law { DEPTH_LINE, DEPTH_BENT, DEPTH_LAYER, DEPTH_TIED } depth_law;
 enum {
     DEPTH_CONTACT,
     DEPTH_LEVEL,
@@ -24,6 +25,12 @@ enum {
     DEPTH_RATIO = DEPTH_SLOPE,
     DEPTH_REACH = DEPTH_BEND
 };
+/* What a layer is tied to: contact radius at the depth over its thickness, and ln of the modulus of
+ * the fit over that of the bulk. */
+typedef struct depth_tie {
+    double reach, log_ratio;
+} depth_tie;
+
 /* The mean curve: what all are taken to share. */
 typedef struct depth_mean {
     const wt_contact_table *table;
@@ -35,6 +42,7 @@ typedef struct depth_mean {
     double loss_error;
     double factor[CURVE_WAVES * CURVE_WAVES]; /* Cholesky's of the scatter of a mean */
     depth_law law;
+    depth_tie tie;
     double fitted[DEPTH_POINTS];              /* force of the fit at the points of the window */
     double cosine[DEPTH_POINTS][CURVE_WAVES]; /* of unit waves there */
 } depth_mean;
@@ -42,11 +50,11 @@ typedef struct depth_mean {
 /* ln of the modulus over that of the fit, at a contact radius. */
 typedef struct depth_modulus {
     depth_law law;
-    double level, slope, bend; /* of line and parabola */
+    double level, slope, bend; /* of line and parabola; slope: of a tied layer, too */
     double ratio, reach;       /* of a layer */
 } depth_modulus;
 
-depth_modulus depth_modulus_of(depth_law law, const double *p);
+depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p);
 double depth_log_modulus(const depth_modulus *l, double u);
 
 /* What all fits of the mean curve need at the points of its window. */

@@ -520,6 +520,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&layer_balances_schema, "", &story->layer_balances},
         {&existence_schema, "", &story->existence},
         {&running_in_schema, "", &story->running_in},
+        {&track_layer_schema, "", &story->track_layer},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -544,6 +545,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_layer(&story);
     answer_difference(&story);
     answer_thickness(&story);
+    answer_track_layer(&story);
     answer_layer_models(&story);
     answer_friction(&story);
     answer_running_in(&story);

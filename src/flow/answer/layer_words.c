@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/story.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -66,6 +67,22 @@ static void say_existence(const answer_story *story)
                    words_between(to, ends[0], ends[1]).text);
     if (cannot_say(known))
         answer_say(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
+}
+
+void answer_track_layer(const answer_story *story)
+{
+    const table_view *const v = &story->track_layer;
+    if (v->table == NULL)
+        return;
+    const char *const allowed = track_layer_words(v, TRACK_LAYER_KEY_ALLOWED),
+                      *const agree = track_layer_words(v, TRACK_LAYER_KEY_AGREE),
+                      *const settled_by = track_layer_words(v, TRACK_LAYER_KEY_SETTLED_BY);
+    answer_say(story, how_thick, "thickness",
+               "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
+               toupper((unsigned char)allowed[0]), allowed + 1,
+               agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
+               agree != NULL ? "." : "", settled_by != NULL ? " What would settle it: " : "",
+               settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
 }
 
 static void say_bands(const answer_story *story)

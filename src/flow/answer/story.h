@@ -36,7 +36,7 @@ typedef struct answer_story {
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_balances, existence, running_in;
+    table_view layer_bands, layer_balances, existence, running_in, track_layer;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
@@ -53,6 +53,8 @@ void answer_put_caveats(answer_story *story);
 /* What the rubber is like, only where no later stage uses it: there it is an answer, else a step.
  */
 void answer_rubber(const answer_story *story);
+/* How thick the curves alone allow the layer to be, and whether the theory agrees. */
+void answer_track_layer(const answer_story *story);
 /* The layer under loads in turn, acting back and where it exists; its friction in running-in. */
 void answer_layer_models(const answer_story *story);
 void answer_running_in(const answer_story *story);

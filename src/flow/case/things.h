@@ -67,6 +67,7 @@
     X(MODULUS_GROUPS, "modulus_groups", &modulus_groups_schema, "")                                \
     X(MODULUS_BUDGET, "modulus_budget", &modulus_budget_schema, "")                                \
     X(MODULUS_RATE, "modulus_rate", &modulus_rate_schema, "")                                      \
+    X(TRACK_LAYER, "track_layer", &track_layer_schema, "")                                         \
     X(DMA_COMPARISON, "dma_comparison", &dma_comparison_schema, "")                                \
     X(SHIFT_FACTORS, "shift_factors", &shift_factors_schema, "")                                   \
     X(MASTER_CURVE, "master_curve", &master_curve_schema, "")                                      \

@@ -234,6 +234,7 @@ wt_compare_job wt_compare_job_defaults(void)
                             .track_temperature = unset,
                             .temperature_slope = {(double)NAN, (double)NAN, 0, "1/K"},
                             .margin = 0.2,
+                            .layer_thickness = {(double)NAN, (double)NAN, 0, "m"},
                             .rates = true};
 }
 
@@ -263,56 +264,13 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
      .help = "each place of a map is a spot of its own; else a map whose spots are not named is "
              "one, for its places are near to each other"},
+    {PARAM("layer-thickness", wt_compare_job, layer_thickness, WT_Q_LENGTH, ABOVE(0)), .value = "D",
+     .unset = "that of the theory, where the case has a layer",
+     .help = "thickness of the layer known otherwise, such as \"3um +- 20%\" of a section, for the "
+             "comparison with what the curves allow"},
     EQUIVALENCE_MARGIN(wt_compare_job),
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
-
-/* A curve in both groups is a file that was given twice. */
-static wt_status check_copies(const compare_pair *p, wt_error *err)
-{
-    const wt_group_data *a = &p->data[0], *b = &p->data[1];
-    size_t n = 0;
-    for (size_t i = 0, k = 0; i < a->n_digests && k < b->n_digests;) {
-        const uint64_t x = a->digest[i].digest, y = b->digest[k].digest;
-        n += x == y && x != 0 ? 1 : 0;
-        i += x <= y ? 1 : 0;
-        k += y <= x ? 1 : 0;
-    }
-    if (n == 0)
-        return WT_OK;
-    wt_fail(err, WT_E_RANGE, "bulk and track hold the same curves");
-    wt_error_expected(err, "curves of the bulk and others of the track");
-    wt_error_found(err, "%zu curves of the same content in both", n);
-    wt_error_advice(err, "a file was given for both, perhaps under two names: leave it out of one");
-    return WT_E_RANGE;
-}
-
-/* Whether all curves tell their factor on the spectrum, in which no rate is left, and nobody says
- * otherwise how temperature acts. */
-static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
-{
-    bool all = p->present[0] && p->present[1] && isnan(job->temperature_slope.value);
-    all = all && p->data[0].group.n > 0 && p->data[1].group.n > 0;
-    for (int g = 0; all && g < 2; g++)
-        for (size_t i = 0; i < p->data[g].group.n; i++)
-            all = all && p->data[g].spectrum_factor[i] > 0;
-    return all;
-}
-
-static wt_status read_groups(const wt_compare_job *job, compare_pair *p, wt_error *err)
-{
-    const wt_table *given[2] = {job->bulk, job->track};
-    wt_status status = WT_OK;
-    for (int g = 0; status == WT_OK && g < 2; g++) {
-        p->present[g] = given[g] != NULL;
-        if (p->present[g])
-            status = wt_group_from_table(given[g], job->map_spots, &p->data[g], err);
-    }
-    if (status == WT_OK)
-        status = check_copies(p, err);
-    p->by_factor = status == WT_OK && compares_factors(job, p);
-    return status == WT_OK ? compare_make_bins(p, err) : status;
-}
 
 wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                             wt_compare_tables *tables, wt_error *err)
@@ -323,7 +281,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
     wt_compare_tables t = {0};
     wt_status status = param_check(wt_compare_job_params(), job, err);
     if (status == WT_OK)
-        status = read_groups(job, &p, err);
+        status = compare_read(job, &p, err);
     if (status == WT_OK)
         status = make_groups(&p, &t.modulus_groups, err);
     if (status == WT_OK)

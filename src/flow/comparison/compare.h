@@ -123,6 +123,15 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
                               const compare_known *known, const compare_unsaid *unsaid,
                               const compare_row *row, const compare_row *rates, size_t n_rates);
 
+/* Both groups of a job, with their rates. */
+wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err) WT_NODISCARD;
+
+/* ln of the ratio of what was fitted, by all rates, with its error by scatter, calibration and
+ * temperature, without what the contact law misses; degrees of freedom of the error, infinite: it
+ * is normal. NaN where the comparison does not tell it. */
+wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
+                            double *df, wt_error *err) WT_NODISCARD;
+
 wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
                              wt_table **table, wt_error *err) WT_NODISCARD;
 

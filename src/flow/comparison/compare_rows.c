@@ -108,6 +108,30 @@ static wt_status compare_rows(comparison_task *task, wt_error *err)
     return status == WT_OK ? holm_rows(task->rows + 1, p->n_bins, err) : status;
 }
 
+wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
+                            double *df, wt_error *err)
+{
+    compare_pair p = {0};
+    compare_row row = {.valid = false};
+    comparison_task task = {.p = &p, .job = job, .work = work};
+    *log_ratio = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
+    *df = (double)INFINITY;
+    wt_status status = compare_read(job, &p, err);
+    for (int g = 0; g < 2; g++)
+        p.data[g].misfit_error = 0;
+    if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
+        status = compare_find_known(&p, job, work, false, &task.known, err);
+        if (status == WT_OK)
+            status = compare_bin(&task, COMPARE_ALL_BINS, &row, err);
+    }
+    if (status == WT_OK && row.valid && !task.known.lever_not_stated) {
+        *log_ratio = row.c.log_ratio;
+        *df = row.c.df;
+    }
+    compare_pair_clear(&p);
+    return status;
+}
+
 /* ---- warnings -------------------------------------------------------------------------------- */
 
 static void warn_copies(const comparison_task *task)

@@ -120,10 +120,11 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
 }
 
 TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
-          double x, y, equivalent_frequency; wt_indent_fit fit;)
+          double x, y, equivalent_frequency; wt_indent_fit fit; wt_depth_curve deep;)
 
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
-                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)
+                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
+                          const wt_depth_curve *deep)
 {
     indentation_row row = {.file = file,
                            .spot = spot,
@@ -132,7 +133,8 @@ void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char 
                            .x = curve->x,
                            .y = curve->y,
                            .equivalent_frequency = equivalent_frequency(job, fit),
-                           .fit = *fit};
+                           .fit = *fit,
+                           .deep = *deep};
     if (!job->rates)
         row.equivalent_frequency = row.fit.piezo_rate = row.fit.indentation_rate =
             row.fit.load_time = (double)NAN;

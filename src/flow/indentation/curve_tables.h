@@ -6,9 +6,10 @@
 #include "data/tables/tables.h"
 #include "weartrack/flow.h"
 
-/* What was found of one curve, as a row of a table of indentation. */
+/* What was found of one curve, as a row of a table of indentation; deep: what it tells of depth. */
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
-                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit);
+                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
+                          const wt_depth_curve *deep);
 
 /* Appends the whole curve (approach and retract) and its indentation branch with the fit to the
  * curve tables of `tables`, which are made if they are NULL. options: those of the fit. */

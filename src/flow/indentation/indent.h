@@ -47,8 +47,11 @@ typedef struct indent_depths {
     long n_spots;
     const char *last_spot; /* borrowed */
 } indent_depths;
-wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
-                            const wt_force_curve *curve, const char *spot, wt_error *err);
+/* What a curve tells of depth, if it is asked; false, and all of it NaN: nothing. */
+bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
+                        wt_depth_curve *to);
+wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
+                            wt_error *err);
 /* Table "modulus_depth", if there are such curves. */
 wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
                               const wt_contact_table *contact, wt_indent_tables *tables,

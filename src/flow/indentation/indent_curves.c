@@ -155,6 +155,26 @@ static wt_status note_calibration(indent_task *task, const wt_cantilever *used, 
     return WT_OK;
 }
 
+/* What was found of a curve, and what it tells of depth if it was fitted as all are. */
+static wt_status write_row(indent_task *task, const item *it, const wt_indent_options *options,
+                           bool alike, wt_error *err)
+{
+    const unsigned left_out = task->work->left_out;
+    const bool columns = (left_out & WT_EXTRA_DEPTH_CURVES) == 0,
+               table = (left_out & WT_EXTRA_MODULUS_DEPTH) == 0;
+    const bool may_tell = alike && !options->plain_least_squares;
+    wt_indent_job job = *task->job;
+    wt_depth_curve deep, shown;
+    job.tip = *task->file_tip;
+    job.options = *options;
+    const bool tells = indent_depth_curve(&it->fit, &it->curve, may_tell && table, &deep);
+    (void)indent_depth_curve(&it->fit, &it->curve, may_tell && columns, &shown);
+    task->rows.err = err;
+    flow_indentation_row(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit,
+                         &shown);
+    return tells ? indent_depths_add(&task->depths, &deep, task->spot, err) : WT_OK;
+}
+
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -166,19 +186,15 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     }
     if (status != WT_OK)
         return status;
-    task->rows.err = err;
-    wt_indent_job job = *task->job;
-    job.tip = *task->file_tip;
-    job.options = indent_curve_options(task, &it->choice);
-    flow_indentation_row(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit);
-    task->n_curves++;
-    status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit, task->file_contact,
-                              &job.options, err);
     const bool own_tip = task->file_contact != task->contact,
                as_fitted = isnan(it->choice.contact_point);
     const bool alike = !own_tip && as_fitted;
-    if (status == WT_OK && alike && (task->work->left_out & WT_EXTRA_MODULUS_DEPTH) == 0)
-        status = indent_depths_add(&task->depths, &it->fit, &it->curve, task->spot, err);
+    const wt_indent_options options = indent_curve_options(task, &it->choice);
+    task->n_curves++;
+    status = write_row(task, it, &options, alike, err);
+    if (status == WT_OK)
+        status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit,
+                                  task->file_contact, &options, err);
     if (status != WT_OK)
         return status;
     if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))

@@ -16,16 +16,40 @@ bool indent_loss_is_unknown(const wt_indent_fit *fit)
            isnan(fit->spectrum_factor.value) && !pull;
 }
 
-wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
-                            const wt_force_curve *curve, const char *spot, wt_error *err)
+/* Whether the curve tells of depth. What a law misses at small depths is not in a fit from a depth
+ * on. */
+static bool tells_depth(const wt_indent_fit *fit)
 {
-    if (fit->fitted_from > 0) /* what a law misses at small depths is not in it */
-        return WT_OK;
     const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
-    if ((!wt_curve_usable(fit->verdict) && fit->verdict != WT_CURVE_POOR_FIT) ||
-        (fit->verdict == WT_CURVE_DOUBTFUL && pull) || !isnan(fit->work_of_adhesion.value) ||
-        !isnan(fit->contact_pull.value) || !(fit->modulus.value > 0) || isnan(fit->misfit[0]))
-        return WT_OK;
+    return !(fit->fitted_from > 0) &&
+           (wt_curve_usable(fit->verdict) || fit->verdict == WT_CURVE_POOR_FIT) &&
+           !(fit->verdict == WT_CURVE_DOUBTFUL && pull) && isnan(fit->work_of_adhesion.value) &&
+           isnan(fit->contact_pull.value) && fit->modulus.value > 0 && !isnan(fit->misfit[0]);
+}
+
+bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
+                        wt_depth_curve *to)
+{
+    const double none = (double)NAN;
+    *to = (wt_depth_curve){.baseline = none, .window = none, .curvature = none, .loss_error = none};
+    for (size_t i = 0; i < WT_CURVE_WAVES; i++)
+        to->misfit[i] = none;
+    if (!asked || !tells_depth(fit))
+        return false;
+    *to = (wt_depth_curve){.modulus = fit->modulus.value,
+                           .depth = fit->max_indentation,
+                           .spring_constant = curve->cantilever.spring_constant,
+                           .baseline = fit->baseline_length,
+                           .window = fit->misfit_length,
+                           .curvature = fit->baseline_curvature,
+                           .loss_error = indent_loss_is_unknown(fit) ? none : fit->loss_error};
+    memcpy(to->misfit, fit->misfit, sizeof to->misfit);
+    return true;
+}
+
+wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
+                            wt_error *err)
+{
     wt_depth_curve *deep = array_grow(to->curve, to->n, sizeof *deep);
     if (deep == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -34,16 +58,8 @@ wt_status indent_depths_add(indent_depths *to, const wt_indent_fit *fit,
     if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
         to->n_spots++;
     to->last_spot = spot;
-    *deep =
-        (wt_depth_curve){.modulus = fit->modulus.value,
-                         .depth = fit->max_indentation,
-                         .spring_constant = curve->cantilever.spring_constant,
-                         .baseline = fit->baseline_length,
-                         .window = fit->misfit_length,
-                         .curvature = fit->baseline_curvature,
-                         .loss_error = indent_loss_is_unknown(fit) ? (double)NAN : fit->loss_error,
-                         .spot = to->n_spots};
-    memcpy(deep->misfit, fit->misfit, sizeof deep->misfit);
+    *deep = *curve;
+    deep->spot = to->n_spots;
     return WT_OK;
 }
 

@@ -31,7 +31,7 @@ static flow_things wanted_by(const wt_case *c)
 {
     flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES & ~FLOW_BY_NAME;
     if (c->has_compare && !c->compare_groups)
-        wanted &= ~FLOW_BIT(FLOW_COMPARISON);
+        wanted &= ~(FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_TRACK_LAYER));
     if (c->has_compare && !c->compare_rates)
         wanted &= ~FLOW_BIT(FLOW_MODULUS_RATE);
     if (c->has_compare && !c->compare_dma)

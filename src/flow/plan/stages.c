@@ -14,6 +14,7 @@ static const flow_more mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
     [FLOW_AND_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer", "the layer"}},
     [FLOW_AND_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
                          "the modulus ratio of the layer"}},
+    [FLOW_AND_BALANCE] = {{B(LAYER), ", beside that of the theory", "the thickness of the theory"}},
     [FLOW_AND_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
                             {B(MODULUS_RATIO), ", friction with it",
                              "the modulus ratio of the layer"}},

@@ -14,6 +14,7 @@ typedef enum flow_extra {
     FLOW_AND_LAYER,
     FLOW_AND_THICKNESS,
     FLOW_AND_RATIO,
+    FLOW_AND_BALANCE,
     FLOW_N_EXTRAS
 } flow_extra;
 
@@ -69,6 +70,9 @@ typedef enum flow_extra {
     X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_MORE, B(LAYER),     \
       flow_step_layer)                                                                             \
+    X(TRACK_LAYER, track_layer, "Thickness of the layer by the curves",                            \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(COMPARISON), 0, FLOW_AND_BALANCE,             \
+      B(TRACK_LAYER), flow_step_track_layer)                                                       \
     X(ENERGY_DENSITY, energy_density, "Energy density against depth",                              \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_MORE,               \
       B(ENERGY_DENSITY), flow_step_energy_density)                                                 \

@@ -291,6 +291,7 @@ static unsigned find_left_out(const flow_plan *plan, const wt_run_options *optio
         flow_things shown_in;
     } extras[] = {{WT_EXTRA_SHARE, FLOW_BIT(FLOW_FRICTION)},
                   {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
+                  {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
                   {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
                   {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
                   {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)},

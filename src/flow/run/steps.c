@@ -457,6 +457,20 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
     return WT_OK;
 }
 
+wt_status flow_step_track_layer(flow_run *run, wt_error *err)
+{
+    wt_compare_job job = run->c->compare;
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
+    job.rubber = (run->plan.done[FLOW_STAGE_COMPARISON] > 0) ? &run->rubber : NULL;
+    const wt_status status =
+        wt_track_layer_make(&job, run->level > 0 ? run->table[FLOW_LAYER] : NULL, &run->job,
+                            &run->table[FLOW_TRACK_LAYER], err);
+    if (status == WT_OK && run->table[FLOW_TRACK_LAYER] != NULL)
+        say_items(run, run->table[FLOW_TRACK_LAYER]);
+    return status;
+}
+
 wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);

@@ -1,0 +1,112 @@
+/* Do the curves and another source (the theory, a section under the microscope) mean one thickness?
+ * The curves have a deviate for each thickness, the other source one of ln of it by its interval; a
+ * thickness is as far off as the root of the sum of both squares says.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+enum { POINTS = 2000, RATIOS = 241 };   /* 1 % apart */
+static const double widest_ratio = 8.0; /* in ln: of 3000 no other end is looked for */
+/* Of a "no", which is to be wrong in fewer than the customary 5 of 100 also where an interval is
+ * somewhat short. */
+static const double no_level = 0.01;
+static const double reach = 6.0; /* standard errors of the other source that are looked at */
+
+/* ln of the other thickness: its value, and the standard errors below and above. */
+typedef struct other_source {
+    double at, below, above;
+} other_source;
+
+static double square_off(const other_source *o, double x)
+{
+    const double off = x - o->at, error = off < 0 ? o->below : o->above;
+    return isinf(error) ? 0.0 : off * off / (error * error);
+}
+
+/* Of the curves, on a line between steps; beyond the last ones as there. */
+static double square_of_curves(const wt_layer_profile *p, double x)
+{
+    size_t i = 1;
+    if (x >= p->log_thickness[0])
+        return p->deviate[0] * p->deviate[0];
+    while (i + 1 < p->n_steps && x < p->log_thickness[i])
+        i++;
+    const double step = p->log_thickness[i] - p->log_thickness[i - 1],
+                 part = fmin(1.0, (x - p->log_thickness[i - 1]) / step),
+                 z = p->deviate[i - 1] + part * (p->deviate[i] - p->deviate[i - 1]);
+    return z * z;
+}
+
+/* Least sum of squares where ln of the thickness by the curves is `shift` more than the other. */
+static double least_square(const double x[POINTS], const double of_curves[POINTS],
+                           const other_source *o, double shift)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < POINTS; i++)
+        least = fmin(least, of_curves[i] + square_off(o, x[i] - shift));
+    return least;
+}
+
+/* Where both allow it: the sum less its least one. */
+static void find_both(const double x[POINTS], const double of_curves[POINTS], const other_source *o,
+                      double limit, wt_layer_agreement *to)
+{
+    const double least = least_square(x, of_curves, o, 0.0);
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < POINTS; i++)
+        if (of_curves[i] + square_off(o, x[i]) <= least + limit) {
+            low = fmin(low, x[i]);
+            high = fmax(high, x[i]);
+        }
+    to->low = exp(low);
+    to->high = exp(high);
+}
+
+static void find_ratio(const double x[POINTS], const double of_curves[POINTS],
+                       const other_source *o, double limit, wt_layer_agreement *to)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < RATIOS; i++) {
+        const double shift = widest_ratio * (2.0 * i / (RATIOS - 1) - 1.0);
+        if (least_square(x, of_curves, o, shift) > limit)
+            continue;
+        low = fmin(low, shift);
+        high = fmax(high, shift);
+    }
+    to->ratio_low = low <= -widest_ratio ? 0.0 : exp(low);
+    to->ratio_high = high >= widest_ratio ? (double)INFINITY : exp(high);
+}
+
+wt_layer_agreement wt_layer_compare(const wt_layer_profile *p, wt_interval other)
+{
+    const double quantile = gsl_cdf_ugaussian_Pinv(0.975), limit = quantile * quantile;
+    const double none = (double)NAN;
+    wt_layer_agreement to = {none, none, none, none, false, false};
+    double x[POINTS], of_curves[POINTS];
+    if (p->n_steps < 2 || !(other.value > 0) || !(other.high >= other.value) ||
+        !(other.low <= other.value))
+        return to;
+    const other_source o = {
+        log(other.value),
+        other.low > 0 ? log(other.value / other.low) / quantile : (double)INFINITY,
+        isfinite(other.high) ? log(other.high / other.value) / quantile : (double)INFINITY};
+    const double low = fmin(p->log_thickness[p->n_steps - 1],
+                            isinf(o.below) ? o.at : o.at - reach * o.below) -
+                       widest_ratio,
+                 high = fmax(p->log_thickness[0], isinf(o.above) ? o.at : o.at + reach * o.above) +
+                        widest_ratio;
+    for (size_t i = 0; i < POINTS; i++) {
+        x[i] = low + (high - low) * (double)i / (POINTS - 1);
+        of_curves[i] = square_of_curves(p, x[i]);
+    }
+    find_ratio(x, of_curves, &o, limit, &to);
+    to.differ = gsl_cdf_chisq_Q(least_square(x, of_curves, &o, 0.0), 1.0) < no_level;
+    to.agree = to.ratio_low >= 1.0 / WT_LAYER_MARGIN && to.ratio_high <= WT_LAYER_MARGIN;
+    if (!to.differ)
+        find_both(x, of_curves, &o, limit, &to);
+    return to;
+}

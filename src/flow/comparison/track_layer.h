@@ -1,0 +1,30 @@
+/* Inside the comparison: the thickness that curves allow beside another one. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_COMPARISON_TRACK_LAYER_H
+#define WEARTRACK_FLOW_COMPARISON_TRACK_LAYER_H
+
+#include "model/tip.h"
+#include "weartrack/flow.h"
+
+/* Known otherwise; the value NaN: nothing is. */
+typedef struct track_other {
+    wt_interval thickness;
+    const char *from;  /* where from, in words; "" = nowhere */
+    const char *lacks; /* of what its error lacks, or NULL */
+} track_other;
+
+typedef struct track_findings {
+    wt_layer_profile profile;
+    wt_layer_agreement agreement;
+    track_other other;
+    double ratio, ratio_error; /* of the moduli, ln of it its error; NaN: not known */
+    const wt_tip *tip;         /* of the track; NULL: not known */
+    const char *obstacle;      /* why the curves are not asked, or NULL */
+} track_findings;
+
+typedef struct track_words {
+    char allowed[480], agree[480], settled_by[400];
+} track_words;
+void track_words_make(const track_findings *found, track_words *words);
+
+#endif

@@ -1,0 +1,10 @@
+/* Curves of bulk and track through indent and compare, with a thickness beside them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_THICKNESS_OBSERVE_H
+#define STUDY_THICKNESS_OBSERVE_H
+
+#include "trial.h"
+
+family thickness_family(void);
+
+#endif
