@@ -131,16 +131,16 @@ static wt_status find_energy(const one_draw *d, layer_energy *energy, wt_layer_p
 static wt_status grow_back(const growing *g, double ratio, wt_layer_point *points,
                            double *thickness, wt_error *err)
 {
-    acts_back back = {&g->sliding, &g->job, g->work, ratio};
+    layer_scene scene = {&g->sliding, &g->job, g->work, WT_NO_REPLICATE, NULL, ratio};
     wt_layer_loop loop;
-    wt_status status = acts_back_find(&back, &loop, err);
+    wt_status status = acts_back_find(&scene, &loop, err);
     if (status != WT_OK)
         return status;
     *thickness = 0;
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
             *thickness = loop.root[i].thickness;
-    return wt_layer_loop_history(acts_back_energy, &back, &loop, g->time, g->n, points, err);
+    return wt_layer_loop_history(acts_back_energy, &scene, &loop, g->time, g->n, points, err);
 }
 
 /* Thickness at the times, and in the end. */
@@ -337,8 +337,10 @@ wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
     g.sliding.reference_velocity = g.velocity;
     g.time = malloc(g.n * sizeof *g.time);
     wt_status status = g.time == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK && layer->acts_back)
-        status = layer_job_calibrated(sliding, layer, &own, &g.job, err);
+    if (status == WT_OK && layer->acts_back) {
+        const layer_scene stated = {sliding, layer, &own, WT_NO_REPLICATE, NULL, (double)NAN};
+        status = layer_job_calibrated(&stated, &g.job, err);
+    }
     g.job.velocity = g.velocity;
     g.job.time = NULL;
     if (status == WT_OK)
