@@ -1222,7 +1222,10 @@ static void test_surface(void **state)
     static const char *const sizes[] = {WT_SOURCE_DIR "/fixtures/surface/road.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
                                         WT_SOURCE_DIR "/fixtures/case/road-*-near.gsf"};
+    static const char *const both[] = {WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
+                                       WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
     see_surfaces(files, COUNT_OF(files));
+    see_surfaces(both, COUNT_OF(both));
     see_surfaces(sizes, COUNT_OF(sizes));
     see_surfaces(profile, 1);
 }
