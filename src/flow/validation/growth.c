@@ -168,8 +168,11 @@ static wt_status choose_times(growing *g, growth *out, wt_error *err)
     if (status == WT_OK)
         status = layer_times_choose(&job, &balance, &shown, &n, err);
     if (status == WT_OK) {
-        out->log_first = log(shown[0]);
-        out->log_step = log(shown[n - 1] / shown[0]) / (double)(g->n - 1);
+        /* by rates a layer is there at once: from the thinnest that is felt on */
+        const double at_once = thinnest / g->sliding.surface->q1 / balance.formation_rate_zero,
+                     first = g->transport || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
+        out->log_first = log(first);
+        out->log_step = log(shown[n - 1] / first) / (double)(g->n - 1);
         for (size_t i = 0; i < g->n; i++)
             g->time[i] = exp(out->log_first + (double)i * out->log_step);
     }
