@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-/* Intervals of the wavenumber; thicknesses at which friction is solved for; how near the balance
- * the last of them is. */
-enum { INTERVALS = 60, SOLVED = 40 };
+/* Intervals of the wavenumber; thicknesses at which friction is solved for. */
+enum { INTERVALS = 60, SOLVED = 100 };
+/* How thin the first thickness is, and how near the balance the last one, of the balance. */
 static const double nearest = 1e-4;
 
 typedef struct growing {
@@ -14,18 +14,18 @@ typedef struct growing {
     double balance, wear, needed; /* Qw [m/s]; U_c Qw */
 } growing;
 
-/* Places between 0 and the balance: close to 0, and ever closer to the balance. */
+/* Places between 0 and the balance, ever closer to both: equal steps of ln (d / (balance - d)). */
 static double place(const growing *g, double u)
 {
-    return g->balance * (1 - pow(nearest, u));
+    return g->balance / (1 + exp(log(nearest) * (2 * u - 1)));
 }
 
-/* By rates: the integral of d thickness / (Qf - Qw), with thickness = balance (1 - nearest^u). */
+/* By rates: what is integrated of d thickness / (Qf - Qw). */
 static double rate_step(const growing *g, double u)
 {
     const double there = place(g, u),
                  speed = contact_power_below(g->power, there) / g->c->critical_energy - g->wear;
-    return -log(nearest) * g->balance * pow(nearest, u) / speed;
+    return -2 * log(nearest) * there * (1 - there / g->balance) / speed;
 }
 
 /* By transport: what was worn until damage at this depth is 1, J(d) - J(d + worn) = U_c Qw. */
@@ -44,7 +44,9 @@ static double worn_until(const growing *g, double depth)
 
 static void find_times(const growing *g, bool transport, growth_truth *t)
 {
-    double time = 0;
+    /* the first thickness at the speed of none */
+    const double at_once = contact_power_below(g->power, 0) / g->c->critical_energy - g->wear;
+    double time = place(g, 0) / at_once;
     t->begins = transport ? worn_until(g, 0) / g->wear : 0;
     for (int i = 0; i < GROWTH_POINTS; i++) {
         const double u = (i + 1.0) / GROWTH_POINTS, half = 0.5 / GROWTH_POINTS;
@@ -78,7 +80,7 @@ static void find_friction(const growing *g, const rubber_state *state, double ra
                           growth_truth *t)
 {
     double log_depth[SOLVED], friction[SOLVED];
-    const double first = log(place(g, 1.0 / GROWTH_POINTS)), last = log(g->balance);
+    const double first = log(place(g, 0)), last = log(g->balance);
     for (int i = 0; i < SOLVED; i++) {
         log_depth[i] = first + (last - first) * i / (SOLVED - 1);
         friction[i] = friction_with(g->c, state, exp(log_depth[i]), ratio);

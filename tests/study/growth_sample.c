@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 enum { SAMPLES = 8, LAPS = 600 };
+enum { WITHIN = 16 }; /* places of which a sample is the mean, as an instrument averages */
 static const double velocity = 0.3, stated_ratio = 0.6;
 
 static const contact stated = {.q0 = 2e3,
@@ -104,6 +105,14 @@ static double friction_at(const growth_scene *s, const growth_made *m, double ti
     return m->growth.end + (s->flat ? 0 : growth_or_one(s->off_change)) * off;
 }
 
+static double mean_friction(const growth_scene *s, const growth_made *m, double from, double length)
+{
+    double sum = 0;
+    for (int i = 0; i < WITHIN; i++)
+        sum += friction_at(s, m, from + length * (i + 0.5) / WITHIN);
+    return sum / WITHIN;
+}
+
 bool growth_write_record(const growth_scene *s, const growth_made *m, const char *path,
                          random_source *random)
 {
@@ -122,7 +131,7 @@ bool growth_write_record(const growth_scene *s, const growth_made *m, const char
         for (int k = 0; k < samples; k++)
             fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * (i + k / (double)samples),
                     i + k / (double)samples, 1e3 * velocity,
-                    friction_at(s, m, lap * (i + (k + 0.5) / samples)) + off);
+                    mean_friction(s, m, lap * (i + k / (double)samples), lap / samples) + off);
     }
     return ferror(out) == 0 && fclose(out) == 0;
 }

@@ -50,44 +50,70 @@ wt_status course_series_new(size_t n, course_series *s, wt_error *err)
 {
     *s = (course_series){.n = n,
                          .end = calloc(n + 1, sizeof *s->end),
-                         .friction = calloc(n + 1, sizeof *s->friction),
-                         .log_time = calloc(COURSE_WITHIN * (n + 1), sizeof *s->log_time)};
-    return s->end == NULL || s->friction == NULL || s->log_time == NULL
-               ? wt_fail(err, WT_E_MEMORY, "out of memory")
-               : WT_OK;
-}
-
-void course_series_place(course_series *s)
-{
-    double begin = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        const double step = (s->end[i] - begin) / COURSE_WITHIN;
-        for (int k = 0; k < COURSE_WITHIN; k++)
-            s->log_time[COURSE_WITHIN * i + (size_t)k] = log(begin + (k + 0.5) * step);
-        begin = s->end[i];
-    }
+                         .friction = calloc(n + 1, sizeof *s->friction)};
+    return s->end == NULL || s->friction == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                                 : WT_OK;
 }
 
 void course_series_clear(course_series *s)
 {
     free(s->end);
     free(s->friction);
-    free(s->log_time);
     *s = (course_series){.n = 0};
 }
 
 /* ---- one factor ------------------------------------------------------------------------------ */
 
-/* The course over its height, as the means of the series would show it. column: [n]. */
-static void fill_column(const course_series *s, const course *c, double height, double log_factor,
-                        double *column)
+/* The integral of a course from the start on: means by it are exact in the first cycles, too,
+ * within which most of a course may pass. */
+typedef struct course_sums {
+    const course *c;
+    double *time, *sum; /* [n] its times [s], and the integral up to them; NULL: out of memory */
+} course_sums;
+
+/* From time i, behind which the course is linear in the logarithm of time. */
+static double piece(const course *c, size_t i, double from, double to)
 {
+    const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
+    return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
+}
+
+static course_sums course_sums_make(const course *c, pool *memory)
+{
+    const course_sums m = {c, pool_numbers(memory, c->n), pool_numbers(memory, c->n)};
+    if (memory->failed)
+        return m;
+    for (size_t i = 0; i < c->n; i++) {
+        m.time[i] = exp(c->log_first + (double)i * c->log_step);
+        m.sum[i] = i == 0 ? c->value[0] * m.time[0]
+                          : m.sum[i - 1] + piece(c, i - 1, m.time[i - 1], m.time[i]);
+    }
+    return m;
+}
+
+static double course_sum(const course_sums *m, double time)
+{
+    const course *const c = m->c;
+    const double place = (log(time) - c->log_first) / c->log_step;
+    if (!(place > 0))
+        return c->value[0] * time;
+    if (place >= (double)(c->n - 1))
+        return m->sum[c->n - 1];
+    const size_t i = (size_t)place;
+    return m->sum[i] + piece(c, i, m->time[i], time);
+}
+
+/* The course over its height, as the means of the series would show it. column: [n]. */
+static void fill_column(const course_series *s, const course_sums *m, double height,
+                        double log_factor, double *column)
+{
+    const double faster = exp(-log_factor);
+    double begin = 0, before = 0;
     for (size_t i = 0; i < s->n; i++) {
-        const double *const place = s->log_time + COURSE_WITHIN * i;
-        double sum = 0;
-        for (int k = 0; k < COURSE_WITHIN; k++)
-            sum += course_at(c, place[k] - log_factor);
-        column[i] = sum / (COURSE_WITHIN * height);
+        const double end = faster * s->end[i], sum = course_sum(m, end);
+        column[i] = (sum - before) / ((end - begin) * height);
+        begin = end;
+        before = sum;
     }
 }
 
@@ -110,14 +136,14 @@ static const double golden = 0.6180339887498949; /* of the golden section */
 
 typedef struct place_search {
     const course_series *s;
-    const course *c;
+    course_sums sums;
     double height, *column;
     scatter_law law;
 } place_search;
 
 static double likelihood_at(const place_search *p, double log_factor)
 {
-    fill_column(p->s, p->c, p->height, log_factor, p->column);
+    fill_column(p->s, &p->sums, p->height, log_factor, p->column);
     const scatter_sums sums = sum_up(p->s, p->column, p->law);
     return -log(scatter_solve(&sums, true).squares);
 }
@@ -149,18 +175,18 @@ course_place course_place_find(const course_series *s, const course *c, scatter_
 {
     const double none = (double)NAN;
     course_place place = {none, none, none};
-    place_search p = {s, c, course_height(c), malloc((s->n + 1) * sizeof(double)), law};
-    if (p.column == NULL || !(p.height > 0) || !isfinite(p.height) || !isfinite(around)) {
-        free(p.column);
-        return place;
+    pool memory = {0};
+    place_search p = {s, course_sums_make(c, &memory), course_height(c),
+                      pool_numbers(&memory, s->n), law};
+    if (!memory.failed && p.height > 0 && isfinite(p.height) && isfinite(around)) {
+        place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
+        fill_column(s, &p.sums, p.height, place.log_factor, p.column);
+        const scatter_sums sums = sum_up(s, p.column, law);
+        const double coefficient = scatter_solve(&sums, true).coefficient;
+        place.ratio = coefficient / p.height;
+        place.level = level_of(&sums, coefficient);
     }
-    place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
-    fill_column(s, c, p.height, place.log_factor, p.column);
-    const scatter_sums sums = sum_up(s, p.column, law);
-    const double coefficient = scatter_solve(&sums, true).coefficient;
-    place.ratio = coefficient / p.height;
-    place.level = level_of(&sums, coefficient);
-    free(p.column);
+    pool_free(&memory);
     return place;
 }
 
@@ -180,7 +206,7 @@ static const double tail = 0.025; /* on each side of an interval of 95 % */
 
 typedef struct scan {
     const course_series *s;
-    const course *c;
+    course_sums sums;
     double height, variance, least, settled;
     double *column;              /* [n] */
     bool kept[SCATTER_LAWS];     /* laws that count */
@@ -209,7 +235,7 @@ static law_sum try_factor(scan *t, double log_factor, double *likelihood)
 {
     law_sum sum = {-(double)INFINITY, 0, 0};
     const double df = (double)t->s->n - 2;
-    fill_column(t->s, t->c, t->height, log_factor, t->column);
+    fill_column(t->s, &t->sums, t->height, log_factor, t->column);
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         if (!t->kept[i])
             continue;
@@ -416,7 +442,7 @@ wt_status course_fit_make(const course_series *s, const course *c, double settle
 {
     const double none = (double)NAN;
     pool memory = {0};
-    scan t = {.s = s, .c = c, .variance = variance_of(s), .best = -(double)INFINITY};
+    scan t = {.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
     *fit = (course_fit){.log_factor = none, .error = none, .low = none, .high = none};
     t.height = course_height(c);
     t.settled = course_settled(c, settled_share);
@@ -425,6 +451,7 @@ wt_status course_fit_make(const course_series *s, const course *c, double settle
         return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
     if (!(t.height > 0) || !(t.settled > 0))
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
+    t.sums = course_sums_make(c, &memory);
     t.column = pool_numbers(&memory, s->n);
     t.log_factor = pool_numbers(&memory, COARSE_MOST);
     t.weight = pool_numbers(&memory, COARSE_MOST);

@@ -21,17 +21,12 @@ double course_height(const course *c);
 /* The last time at which `share` of that is left; NaN: the times do not hold it. */
 double course_settled(const course *c, double share);
 
-/* Means over equal numbers of cycles. Within one the course is taken at so many places, for it
- * bends little there. */
-enum { COURSE_WITHIN = 8 };
+/* Means over equal numbers of cycles. */
 typedef struct course_series {
     size_t n;
     double *end;      /* [n] from the start on; each begins where the one before ends */
     double *friction; /* [n] */
-    double *log_time; /* [n * COURSE_WITHIN] of the places */
 } course_series;
-/* `end` is set, from which the places follow. */
-void course_series_place(course_series *s);
 wt_status course_series_new(size_t n, course_series *s, wt_error *err) WT_NODISCARD;
 void course_series_clear(course_series *s);
 

@@ -1,7 +1,8 @@
 /* Friction while a layer grows. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/validation/growth.h"
 #include "flow/layer/acts_back.h"
-#include "flow/sliding/sliding_contact.h"
+#include "flow/layer/friction_of_layer.h"
+#include "flow/work/draws.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,9 +11,9 @@
 /* Times in equal ratios: by damage transport so close that a layer which is there at once is placed
  * to 2 %; the rate balance is smooth, and its line between two misses a thousandth. */
 enum { TIMES_TRANSPORT = 600, TIMES_RATES = 150 };
-/* Thicknesses at which friction is computed, in equal ratios, linear in the logarithm between: a
- * line then misses the bends of friction by less than a hundredth of its change. */
-enum { NODES = 48 };
+/* Thicknesses that friction is computed at, with a curve through them, which misses less than a
+ * thousandth of its change. */
+enum { NODES = 32 };
 /* From a layer that the shortest wave hardly feels: of 1/q1, but of what is grown at least. */
 static const double thinnest = 0.02, least_part = 1e-3;
 
@@ -20,183 +21,128 @@ typedef struct growing {
     wt_sliding sliding; /* at the conditions of the record */
     double velocity;
     const wt_sliding *stated; /* the conditions of the case, at which a thickness was observed */
-    wt_layer_job job;         /* at the velocity of the record */
-    double worn_at;           /* velocity at which that thickness came about */
-    wt_layer_known known;     /* with any thickness */
+    wt_layer_job job;         /* as stated, with the shear stress of the layer */
+    const wt_layer_known *known;
     const wt_job *work;
-    double *time; /* [n] */
+    bool transport; /* of damage; else by rates */
+    double *time;   /* [n] */
     size_t n;
 } growing;
 
-/* ---- friction -------------------------------------------------------------------------------- */
+/* ---- one draw -------------------------------------------------------------------------------- */
 
+/* The scene of a draw at the conditions of the record, whose job the caller keeps: its critical
+ * energy is that which makes an observed thickness at the conditions of the case. */
+static wt_status scene_of(const growing *g, size_t replicate, wt_drawn *drawn, wt_layer_job *job,
+                          layer_scene *scene, wt_error *err)
+{
+    const wt_layer_known *const known = g->known;
+    const uint64_t seed = g->work->seed;
+    *scene = (layer_scene){g->stated, &g->job, g->work, replicate, NULL, (double)NAN};
+    const wt_status status = layer_job_calibrated(scene, job, err);
+    job->velocity = g->velocity;
+    job->time = NULL;
+    *scene = (layer_scene){.sliding = &g->sliding,
+                           .job = job,
+                           .work = g->work,
+                           .replicate = replicate,
+                           .drawn = drawn,
+                           .modulus_ratio =
+                               flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                    seed, replicate, FLOW_DRAW_RATIO)};
+    return status;
+}
+
+/* What a layer does to friction, and when it is how thick. */
 typedef struct one_draw {
-    const growing *g;
-    size_t replicate;
-    wt_drawn *drawn;
-    double ratio; /* of the moduli of layer and bulk */
+    layer_scene *scene;
+    wt_layer_parameters parameters;
+    wt_layer_point *points; /* [n] at the times */
+    double thickness, bare; /* in the end; friction without a layer */
+    friction_of_layer friction_of;
 } one_draw;
 
-static wt_status contact_of(const one_draw *d, wt_layer_state layer, sliding_contact *c,
-                            wt_error *err)
+static wt_status grow_back(const growing *g, one_draw *d, wt_error *err)
 {
-    return sliding_contact_make(&d->g->sliding, d->g->work, d->replicate, d->drawn, layer, c, err);
-}
-
-static wt_status friction_with(const one_draw *d, double thickness, double *friction, wt_error *err)
-{
-    const wt_layer_state layer = {thickness, thickness > 0 ? d->ratio : 1};
-    const wt_sliding *const s = &d->g->sliding;
-    sliding_contact c = {0};
-    wt_friction_point p;
-    wt_status status = contact_of(d, layer, &c, err);
-    if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, &d->g->velocity, 1, &p, err);
-    if (status == WT_OK)
-        *friction = p.hysteresis.value + sliding_layer_shear(&d->g->known, sliding_shear(s, &c, &p),
-                                                             layer, p.area_ratio.value) *
-                                             p.area_ratio.value / c.pressure;
-    sliding_contact_clear(&c);
-    return status;
-}
-
-typedef struct friction_nodes {
-    double log_first, log_step, value[NODES];
-} friction_nodes;
-
-static wt_status find_nodes(const one_draw *d, double most, friction_nodes *nodes, wt_error *err)
-{
-    const double low = fmin(thinnest / d->g->sliding.surface->q1, least_part * most);
-    wt_status status = WT_OK;
-    nodes->log_first = log(low);
-    nodes->log_step = log(most / low) / (NODES - 1);
-    for (int i = 0; status == WT_OK && i < NODES; i++)
-        status =
-            friction_with(d, exp(nodes->log_first + i * nodes->log_step), &nodes->value[i], err);
-    return status;
-}
-
-static double friction_at(const friction_nodes *nodes, double bare, double thickness)
-{
-    if (!(thickness > 0))
-        return bare;
-    const double place = fmax((log(thickness) - nodes->log_first) / nodes->log_step, 0);
-    const size_t i = (size_t)fmin(place, NODES - 2);
-    return nodes->value[i] + (place - (double)i) * (nodes->value[i + 1] - nodes->value[i]);
-}
-
-/* ---- thickness ------------------------------------------------------------------------------- */
-
-/* The critical energy that makes a thickness observed at the conditions of the case. */
-static wt_status calibrate(const one_draw *d, double *critical_energy, wt_error *err)
-{
-    const growing *const g = d->g;
-    const wt_layer_state none = {.modulus_ratio = 1};
-    const uint64_t seed = g->work->seed;
-    layer_energy energy = {.source = {.n = 0}};
-    sliding_contact c = {0};
-    /* a material of its own, as it may be of another temperature */
-    wt_status status = sliding_contact_make(g->stated, g->work, d->replicate, NULL, none, &c, err);
-    if (status == WT_OK)
-        status = layer_energy_make(g->stated, &g->job, &c, g->worn_at, none, &energy, err);
-    if (status == WT_OK) {
-        const wt_layer_parameters p =
-            layer_parameters_of(&g->job, &c, g->worn_at, &energy, seed, d->replicate);
-        *critical_energy = wt_layer_calibrate(
-            &energy.source, &p,
-            flow_draw_positive(g->job.observed_thickness, seed, d->replicate, FLOW_DRAW_OBSERVED));
-    }
-    layer_energy_clear(&energy);
-    sliding_contact_clear(&c);
-    return status;
-}
-
-static wt_status find_energy(const one_draw *d, layer_energy *energy, wt_layer_parameters *p,
-                             wt_error *err)
-{
-    const growing *const g = d->g;
-    const wt_layer_state none = {.modulus_ratio = 1};
-    sliding_contact c = {0};
-    wt_status status = contact_of(d, none, &c, err);
-    if (status == WT_OK)
-        status = layer_energy_make(&g->sliding, &g->job, &c, g->velocity, none, energy, err);
-    if (status == WT_OK)
-        *p = layer_parameters_of(&g->job, &c, g->velocity, energy, g->work->seed, d->replicate);
-    sliding_contact_clear(&c);
-    return status == WT_OK && !isnan(g->job.observed_thickness.value)
-               ? calibrate(d, &p->critical_energy, err)
-               : status;
-}
-
-static wt_status grow_back(const growing *g, double ratio, wt_layer_point *points,
-                           double *thickness, wt_error *err)
-{
-    layer_scene scene = {&g->sliding, &g->job, g->work, WT_NO_REPLICATE, NULL, ratio};
     wt_layer_loop loop;
-    wt_status status = acts_back_find(&scene, &loop, err);
+    const wt_status status = acts_back_find(d->scene, &loop, err);
     if (status != WT_OK)
         return status;
-    *thickness = 0;
+    d->thickness = 0;
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
-            *thickness = loop.root[i].thickness;
-    return wt_layer_loop_history(acts_back_energy, &scene, &loop, g->time, g->n, points, err);
+            d->thickness = loop.root[i].thickness;
+    return wt_layer_loop_history(acts_back_energy, d->scene, &loop, g->time, g->n, d->points, err);
 }
 
-/* Thickness at the times, and in the end. */
-static wt_status grow(const one_draw *d, wt_layer_parameters *p, wt_layer_point *points,
-                      double *thickness, wt_error *err)
+static wt_status grow(const growing *g, one_draw *d, wt_error *err)
 {
+    wt_layer_parameters *const p = &d->parameters;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_balance balance;
-    wt_status status = find_energy(d, &energy, p, err);
+    wt_status status = layer_at(d->scene, layer_here(), &energy, p, err);
     p->balance_only = true;
     if (status == WT_OK)
         status = wt_layer_balance_compute(&energy.source, p, &balance, err);
     if (status == WT_OK)
-        *thickness = balance.thickness.value;
+        d->thickness = balance.thickness.value;
     p->without_errors = true;
-    if (status == WT_OK && d->g->job.acts_back)
-        status = grow_back(d->g, d->ratio, points, thickness, err);
-    else if (status == WT_OK && isfinite(*thickness))
-        status = wt_layer_history(&energy.source, p, d->g->time, d->g->n, points, err);
+    if (status == WT_OK && g->job.acts_back)
+        status = grow_back(g, d, err);
+    else if (status == WT_OK && isfinite(d->thickness))
+        status = wt_layer_history(&energy.source, p, g->time, g->n, d->points, err);
     layer_energy_clear(&energy);
-    if (status == WT_OK && !isfinite(*thickness))
+    if (status == WT_OK && !isfinite(d->thickness))
         status = wt_fail(err, WT_E_RANGE, "the layer grows without end");
     return status;
 }
 
-/* out: [GROWTH_NUMBERS + n] */
-static wt_status follow(const one_draw *d, double *out, wt_error *err)
+static wt_status find_friction(const growing *g, one_draw *d, wt_error *err)
 {
-    wt_layer_parameters p;
-    double end = (double)NAN, most = 0, *const friction = out + GROWTH_NUMBERS;
-    friction_nodes nodes = {.log_step = 1};
-    wt_layer_point *const points = calloc(d->g->n, sizeof *points);
-    wt_status status = points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                      : grow(d, &p, points, &end, err);
-    if (status == WT_OK)
-        status = friction_with(d, 0, &out[GROWTH_BARE], err);
-    for (size_t i = 0; status == WT_OK && i < d->g->n; i++)
-        most = fmax(most, points[i].thickness.value);
-    most = fmax(most, end);
-    if (status == WT_OK && most > 0)
-        status = find_nodes(d, most, &nodes, err);
-    if (status == WT_OK) {
-        for (size_t i = 0; i < d->g->n; i++)
-            friction[i] = friction_at(&nodes, out[GROWTH_BARE], points[i].thickness.value);
-        out[GROWTH_END] = friction_at(&nodes, out[GROWTH_BARE], end);
-        out[GROWTH_WEAR] = p.specific_wear_rate;
-        out[GROWTH_ENERGY] = p.closure == WT_CLOSURE_ENERGY ? p.critical_energy : (double)NAN;
-    }
-    free(points);
+    layer_friction bare;
+    double most = d->thickness;
+    for (size_t i = 0; i < g->n; i++)
+        most = fmax(most, d->points[i].thickness.value);
+    wt_status status = layer_friction_at(d->scene, layer_here(), &bare, err);
+    if (status != WT_OK)
+        return status;
+    d->bare = bare.total;
+    if (most > 0)
+        status = friction_of_layer_make(d->scene,
+                                        fmin(thinnest / g->sliding.surface->q1, least_part * most),
+                                        most, NODES, &d->friction_of, err);
     return status;
 }
 
-static one_draw draw_of(const growing *g, size_t replicate, wt_drawn *drawn)
+static wt_status put_friction(const one_draw *d, double thickness, double *out, wt_error *err)
 {
-    const wt_layer_state layer = sliding_layer(&g->known, g->work->seed, replicate);
-    return (one_draw){g, replicate, drawn, layer.modulus_ratio};
+    layer_friction at = {.total = d->bare};
+    const wt_status status =
+        thickness > 0 ? friction_of_layer_at(&d->friction_of, thickness, &at, err) : WT_OK;
+    *out = at.total;
+    return status;
+}
+
+/* out: [GROWTH_NUMBERS + n] */
+static wt_status follow(const growing *g, layer_scene *scene, double *out, wt_error *err)
+{
+    const wt_layer_job *const job = scene->job;
+    one_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
+    wt_status status =
+        d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow(g, &d, err);
+    if (status == WT_OK)
+        status = find_friction(g, &d, err);
+    for (size_t i = 0; status == WT_OK && i < g->n; i++)
+        status = put_friction(&d, d.points[i].thickness.value, &out[GROWTH_NUMBERS + i], err);
+    if (status == WT_OK)
+        status = put_friction(&d, d.thickness, &out[GROWTH_END], err);
+    out[GROWTH_BARE] = d.bare;
+    out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
+    out[GROWTH_ENERGY] =
+        job->closure == WT_CLOSURE_ENERGY ? d.parameters.critical_energy : (double)NAN;
+    friction_of_layer_clear(&d.friction_of);
+    free(d.points);
+    return status;
 }
 
 /* ---- the times ------------------------------------------------------------------------------- */
@@ -204,23 +150,29 @@ static one_draw draw_of(const growing *g, size_t replicate, wt_drawn *drawn)
 /* Those that a layer is shown at, closer. */
 static wt_status choose_times(growing *g, growth *out, wt_error *err)
 {
-    const one_draw d = draw_of(g, WT_NO_REPLICATE, NULL);
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
     wt_layer_balance balance;
+    wt_layer_job job;
+    layer_scene scene;
     double *shown = NULL;
     size_t n = 0;
-    wt_status status = find_energy(&d, &energy, &p, err);
+    wt_status status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
+    if (status == WT_OK)
+        status = layer_at(&scene, layer_here(), &energy, &p, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&energy.source, &p, &balance, err);
     layer_energy_clear(&energy);
     if (status == WT_OK && balance.thickness.value <= 0 && !g->job.acts_back)
         status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
     if (status == WT_OK)
-        status = layer_times_choose(&g->job, &balance, &shown, &n, err);
+        status = layer_times_choose(&job, &balance, &shown, &n, err);
     if (status == WT_OK) {
-        out->log_first = log(shown[0]);
-        out->log_step = log(shown[n - 1] / shown[0]) / (double)(g->n - 1);
+        /* by rates a layer is there at once: from the thinnest that is felt on */
+        const double at_once = thinnest / g->sliding.surface->q1 / balance.formation_rate_zero,
+                     first = g->transport || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
+        out->log_first = log(first);
+        out->log_step = log(shown[n - 1] / first) / (double)(g->n - 1);
         for (size_t i = 0; i < g->n; i++)
             g->time[i] = exp(out->log_first + (double)i * out->log_step);
     }
@@ -238,31 +190,22 @@ typedef struct drawing {
 static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const drawing *const d = user;
-    const one_draw one = draw_of(&d->g, i, d->r->drawn);
-    return follow(&one, out, err);
+    wt_layer_job job;
+    layer_scene scene;
+    const wt_status status = scene_of(&d->g, i, d->r->drawn, &job, &scene, err);
+    return status == WT_OK ? follow(&d->g, &scene, out, err) : status;
 }
 
 static replicates begin_replicates(const growing *g)
 {
-    const wt_layer_job *const job = &g->job;
-    const bool calibrated = !isnan(job->observed_thickness.value),
-               activated = job->closure == WT_CLOSURE_ACTIVATED;
-    const wt_estimate *const given = activated    ? &job->barrier
-                                     : calibrated ? &job->observed_thickness
-                                                  : &job->critical_energy;
     replicates r = replicates_of(&g->sliding, g->work, "friction in running-in");
     r.velocity = g->velocity;
-    replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                   "shear stress");
-    replicates_add(&r, g->known.modulus_ratio.standard_error, FLOW_DRAW_RATIO,
+    layer_replicates_add(&r, &g->sliding, &g->job);
+    if (g->job.energy == WT_LAYER_HYSTERESIS)
+        replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
+    replicates_add(&r, g->known->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
                    "modulus ratio of the layer");
-    replicates_add(&r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR,
-                   "specific wear rate");
-    replicates_add(&r, given->standard_error,
-                   calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
-                   activated    ? "barrier"
-                   : calibrated ? "observed thickness"
-                                : "critical energy");
     return r;
 }
 
@@ -278,9 +221,12 @@ static wt_status draw_all(const growing *g, growth *out, wt_error *err)
     wt_status status = out->value == NULL || out->course == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : WT_OK;
-    const one_draw nominal = draw_of(g, WT_NO_REPLICATE, NULL);
+    wt_layer_job job;
+    layer_scene nominal;
     if (status == WT_OK)
-        status = follow(&nominal, out->value, err);
+        status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
+    if (status == WT_OK)
+        status = follow(g, &nominal, out->value, err);
     if (status == WT_OK && r.n > 0)
         status = replicates_draw(&r, out->stride, one_replicate, &d, err);
     if (status == WT_OK && r.n > 0)
@@ -312,13 +258,10 @@ static growing growing_of(const wt_sliding *sliding, const wt_layer_job *layer,
                  .velocity = at->velocity,
                  .stated = sliding,
                  .job = *layer,
-                 .worn_at = flow_layer_velocity(sliding, layer),
-                 .known = *known,
+                 .known = known,
                  .work = work};
     measured_conditions(at, &g.sliding);
-    g.job.velocity = at->velocity;
-    g.job.time = NULL;
-    g.known.thickness = (wt_estimate){1, 0, 0, "m"}; /* any, for the draws of the ratio */
+    g.job.shear = sliding_layer_shear_of(known);
     return g;
 }
 
@@ -330,19 +273,14 @@ wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
     own.drawn = NULL; /* of another temperature */
     own.left_out = WT_EXTRAS;
     growing g = growing_of(sliding, layer, known, at, &own);
-    g.n = layer->incubation && !layer->acts_back ? TIMES_TRANSPORT : TIMES_RATES;
+    g.transport = layer->incubation && !layer->acts_back;
+    g.n = g.transport ? TIMES_TRANSPORT : TIMES_RATES;
     *out = (growth){.n = g.n, .stride = GROWTH_NUMBERS + g.n, .without_errors = layer->acts_back};
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;
     g.sliding.reference_velocity = g.velocity;
     g.time = malloc(g.n * sizeof *g.time);
     wt_status status = g.time == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK && layer->acts_back) {
-        const layer_scene stated = {sliding, layer, &own, WT_NO_REPLICATE, NULL, (double)NAN};
-        status = layer_job_calibrated(&stated, &g.job, err);
-    }
-    g.job.velocity = g.velocity;
-    g.job.time = NULL;
     if (status == WT_OK)
         status = choose_times(&g, out, err);
     if (status == WT_OK)

@@ -115,6 +115,5 @@ wt_status recorded_series(const recorded *r, double until, course_series *s, wt_
         for (size_t k = 0; k < length; k++)
             s->friction[i] += r->friction[i * length + k] / (double)length;
     }
-    course_series_place(s);
     return WT_OK;
 }

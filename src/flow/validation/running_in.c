@@ -256,25 +256,18 @@ static wt_status set_agreement(const running_in_task *task, const run_set *all, 
     return WT_OK;
 }
 
-/* As tests/study has it: about three of four hold the truth. */
-#define TOO_NARROW                                                                                 \
-    "the intervals of the time, of k and of U_c are too narrow where the change stands far out "   \
-    "of "                                                                                          \
-    "the scatter: of made records they hold about three in four"
-
 static void set_remarks(const running_in_task *task, table_writer *t)
 {
     const double duty = task->job->layer->duty;
     if (duty < 1)
         validation_running_in_set_print(
             t, VALIDATION_RUNNING_IN_KEY_REMARKS,
-            "a place of the rubber is in contact for %.3g of the time, as the case says; %s", duty,
-            TOO_NARROW);
+            "a place of the rubber is in contact for %.3g of the time, as the case says", duty);
     else
         validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_REMARKS,
                                        "the rubber is in contact all the time, as the case has no "
-                                       "duty below 1: a track that a "
-                                       "pin passes once in a lap is not; " TOO_NARROW);
+                                       "duty below 1: a track that a pin passes once in a lap is "
+                                       "not");
 }
 
 /* What the prediction of the first run that has one holds. */
