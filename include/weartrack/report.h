@@ -52,6 +52,9 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
                                  const wt_report_options *options, const wt_progress *progress,
                                  wt_error *err) WT_NODISCARD;
 
+/* Whether a result has curves for the two below: WT_E_EMPTY if not, with what makes them. */
+WT_API wt_status wt_report_check_curves(const wt_result *result, wt_error *err) WT_NODISCARD;
+
 /* One self-contained page, the file `path`, to go through the curves of all groups of a result with
  * their fits, which hands back what is chosen by hand for wt_indent_job.choices. WT_E_EMPTY if the
  * result has no table "curves"; WT_E_TOOL if the library was built without dygraphs, which draws on

@@ -86,8 +86,16 @@ static bool is_own_pdf(FILE *file)
            fread(end, 1, sizeof end, file) == sizeof end && memcmp(end, PDF_MARK, sizeof end) == 0;
 }
 
-/* Whether the file is one of an instrument, say: neither text nor HDF5 or PDF of this program,
- * which is what outputs are. Headers of instruments are text: the middle and the end count, too. */
+static bool is_own_database(const unsigned char *begin, size_t n)
+{
+    return n >= DATABASE_ID_AT + DATABASE_ID_SIZE &&
+           memcmp(begin, DATABASE_START, sizeof DATABASE_START) == 0 &&
+           memcmp(begin + DATABASE_ID_AT, DATABASE_ID, DATABASE_ID_SIZE) == 0;
+}
+
+/* Whether the file is one of an instrument, say: neither text nor HDF5, database or PDF of this
+ * program, which is what outputs are. Headers of instruments are text: the middle and the end
+ * count, too. */
 static bool is_foreign(const char *path, off_t size)
 {
     static const char nanoscope[] = "\\*F";
@@ -102,7 +110,7 @@ static bool is_foreign(const char *path, off_t size)
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
         own = i == 0 && (block_holds(block, n, STORE_FORMAT_ATTRIBUTE) ||
-                         block_holds(block, n, STORE_MAP_ATTRIBUTE));
+                         block_holds(block, n, STORE_MAP_ATTRIBUTE) || is_own_database(block, n));
         foreign =
             !own && (is_binary(block, n) || (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
     }

@@ -14,6 +14,12 @@
 
 #define PATTERN ".weartrack-%ld-%16[0-9a-f]%n"
 
+const char *temporary_place(void)
+{
+    const char *const asked = getenv("TMPDIR");
+    return asked != NULL && asked[0] != '\0' ? asked : "/tmp";
+}
+
 char *temporary_name(const char *folder)
 {
     uint64_t random = 0;

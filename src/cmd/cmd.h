@@ -234,6 +234,8 @@ wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 wt_status cmd_write(cmd_session *s);
 /* Whether the name after -o asks for the HDF5 store. */
 bool cmd_is_store(const char *path);
+/* Whether it is standard output that is meant: without a name, or by "-". */
+bool cmd_is_standard(const char *path);
 /* Of a subcommand that writes text only: a usage error if the name after -o asks for HDF5. */
 bool cmd_is_text(cmd_session *s);
 /* Whether that file could be written, before there is work to lose. NULL and "-" can. */

@@ -43,7 +43,7 @@ wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *tab
 {
     cmd_sink sink;
     const wt_export_form form = form_of(s->common.output, part);
-    if (form == WT_EXPORT_SQLITE && s->common.output == NULL && isatty(STDOUT_FILENO)) {
+    if (form == WT_EXPORT_SQLITE && cmd_is_standard(s->common.output) && isatty(STDOUT_FILENO)) {
         (void)wt_fail(&s->err, WT_E_ARG, "a terminal cannot show a database");
         wt_error_advice(&s->err, "give it a name: -o NAME.sqlite");
         return WT_E_ARG;

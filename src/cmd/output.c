@@ -15,6 +15,11 @@ bool cmd_is_store(const char *path)
     return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
 }
 
+bool cmd_is_standard(const char *path)
+{
+    return path == NULL || strcmp(path, "-") == 0;
+}
+
 bool cmd_is_text(cmd_session *s)
 {
     return !cmd_is_store(s->common.output) ||
@@ -25,7 +30,7 @@ bool cmd_is_text(cmd_session *s)
 wt_status cmd_try_output(const char *path, wt_error *err)
 {
     struct stat info;
-    if (path == NULL || strcmp(path, "-") == 0 ||
+    if (cmd_is_standard(path) ||
         (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
         return WT_OK; /* a pipe is opened once */
     wt_outfile *file = NULL;
@@ -56,7 +61,7 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
 
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
 {
-    const bool to_file = output != NULL && strcmp(output, "-") != 0;
+    const bool to_file = !cmd_is_standard(output);
     *sink = (cmd_sink){NULL, stdout, to_file ? output : "standard output"};
     wt_status status = to_file ? wt_outfile_open(output, &sink->file, err) : WT_OK;
     if (sink->file != NULL)

@@ -1,6 +1,8 @@
 /* weartrack report: plots and one page from a result file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cmd/tables.h"
 
@@ -96,13 +98,76 @@ static wt_status write_methods(cmd_session *s)
     return status;
 }
 
+/* ---- places ---------------------------------------------------------------------------------- */
+
+/* Whether two names, of files that need not be there, are one in the same folder. */
+static bool is_same(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    if (a == NULL || b == NULL || strcmp(wt_path_base(a), wt_path_base(b)) != 0)
+        return false;
+    char *const in_a = wt_path_folder(a), *const in_b = wt_path_folder(b);
+    const bool same = in_a != NULL && in_b != NULL && stat(in_a, &of_a) == 0 &&
+                      stat(in_b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+                      of_a.st_ino == of_b.st_ino;
+    free(in_a);
+    free(in_b);
+    return same || strcmp(a, b) == 0;
+}
+
+/* Of pages, pictures and a folder nothing goes to standard output, and no two have one name. */
+static bool check_names(cmd_session *s, const own_options *own)
+{
+    const struct {
+        const char *option, *name;
+    } places[] = {{"-o", own->methods ? NULL : s->common.output},
+                  {"--browse", own->browse},
+                  {"--sheets", own->sheets}};
+    for (size_t i = 0; i < COUNT_OF(places); i++) {
+        if (places[i].name != NULL && cmd_is_standard(places[i].name))
+            return cmd_usage_error(s, "%s -: this goes to a file; give it a name",
+                                   places[i].option);
+        for (size_t k = 0; k < i; k++)
+            if (is_same(places[k].name, places[i].name))
+                return cmd_usage_error(s, "%s %s: %s has that name, too; give another one",
+                                       places[i].option, places[i].name, places[k].option);
+    }
+    return true;
+}
+
+static bool is_in(const char *path, const char *folder)
+{
+    size_t n = folder != NULL ? strlen(folder) : 0;
+    while (n > 1 && folder[n - 1] == '/')
+        n--;
+    return n > 0 && strncmp(path, folder, n) == 0 && path[n] == '/';
+}
+
+/* Whether all of several outputs could be written, before there is the first one. */
+static wt_status try_places(cmd_session *s, const wt_report_options *options,
+                            const own_options *own)
+{
+    const char *const output = s->common.output, *const curves[] = {own->browse, own->sheets};
+    wt_status status = WT_OK;
+    if (output != NULL && (own->browse != NULL || own->sheets != NULL))
+        status = wt_report_check(output, options, &s->err);
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(curves); i++)
+        if (curves[i] != NULL && !is_in(curves[i], output)) /* a folder that is made first */
+            status = cmd_try_output(curves[i], &s->err);
+    if (status == WT_OK && (own->browse != NULL || own->sheets != NULL))
+        status = wt_report_check_curves(s->result, &s->err);
+    return status;
+}
+
 /* ---- the page -------------------------------------------------------------------------------- */
 
 /* What was asked for: the page or folder, the curves as a page, as sheets, or several of them. */
 static wt_status write_pages(cmd_session *s, const wt_report_options *options,
                              const own_options *own)
 {
-    wt_status status = WT_OK;
+    wt_status status = try_places(s, options, own);
+    if (status != WT_OK)
+        return status;
     const wt_progress progress = cmd_progress_start(s);
     cmd_catch_interruptions();
     if (s->common.output != NULL)
@@ -145,6 +210,8 @@ int cmd_report(int argc, char **argv)
         (void)cmd_usage_error(&s, "--methods is a call of its own");
         return cmd_session_free(&s);
     }
+    if (!check_names(&s, &own))
+        return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
     wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (made == WT_OK)

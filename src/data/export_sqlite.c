@@ -3,19 +3,24 @@
 #include "data/export_sqlite.h"
 
 #include "base/array.h"
+#include "base/own_files.h"
+#include "base/utf8.h"
 #include "data/table.h"
 
+#include <endian.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-/* Beside the table: what its columns are, and the values that belong to all of it. The names are
- * ones that no table has. */
+/* Beside the table: what its columns are, and the values that belong to all of it. No table of this
+ * program has these names, one of another may. */
 #define COLUMNS_TABLE "weartrack_columns"
 #define KEYS_TABLE "weartrack_keys"
+#define OF_SQLITE "sqlite_" /* names that begin so are its own */
 #define BLOCK_COLUMN "block"
 
 typedef struct database {
@@ -46,11 +51,30 @@ static wt_status prepare(const database *d, const char *words, sqlite3_stmt **st
     return code == SQLITE_OK ? WT_OK : failed(d, code);
 }
 
+/* A text with U+FFFD for each byte that is not UTF-8, which a column of text must not have; new. */
+static char *whole_text(const char *text)
+{
+    static const char replacement[] = "\xef\xbf\xbd";
+    char *const whole = malloc((sizeof replacement - 1) * strlen(text) + 1);
+    char *to = whole;
+    for (size_t left = strlen(text), n; whole != NULL && left > 0; text += n, left -= n) {
+        n = utf8_character(text, left);
+        to = n > 0 ? mempcpy(to, text, n) : mempcpy(to, replacement, sizeof replacement - 1);
+        n += n == 0;
+    }
+    if (whole != NULL)
+        *to = '\0';
+    return whole;
+}
+
 /* What is not known is NULL, a text without a word likewise. What cannot be bound for want of
  * memory stays NULL, and taking the row says so. */
 static void bind_text(sqlite3_stmt *row, int place, const char *text)
 {
-    if (text != NULL && text[0] != '\0')
+    const size_t length = text != NULL ? strlen(text) : 0;
+    if (length > 0 && utf8_check(text, length) < length)
+        (void)sqlite3_bind_text(row, place, whole_text(text), -1, free);
+    else if (length > 0)
         (void)sqlite3_bind_text(row, place, text, -1, SQLITE_TRANSIENT);
     else
         (void)sqlite3_bind_null(row, place);
@@ -72,6 +96,26 @@ static wt_status put_row(const database *d, sqlite3_stmt *row)
 }
 
 /* ---- names ----------------------------------------------------------------------------------- */
+
+/* A table that no database holds beside those of this program and of SQLite, or holds at all. */
+static wt_status check_table(const database *d)
+{
+    const char *const name = d->table->name;
+    const int most = sqlite3_limit(d->db, SQLITE_LIMIT_COLUMN, -1);
+    if (strcasecmp(name, COLUMNS_TABLE) == 0 || strcasecmp(name, KEYS_TABLE) == 0 ||
+        strncasecmp(name, OF_SQLITE, strlen(OF_SQLITE)) == 0)
+        (void)wt_fail(d->err, WT_E_UNSUPPORTED,
+                      "a table \"%s\" cannot be in a database: the name has another meaning there",
+                      name);
+    else if (d->table->n_columns + d->blocks > (size_t)most)
+        (void)wt_fail(d->err, WT_E_UNSUPPORTED,
+                      "a table \"%s\" of %zu columns cannot be in a database: %d it may have", name,
+                      d->table->n_columns + d->blocks, most);
+    else
+        return WT_OK;
+    wt_error_advice(d->err, "write it as json or csv");
+    return WT_E_UNSUPPORTED;
+}
 
 static bool is_taken(const database *d, size_t n, const char *name)
 {
@@ -193,6 +237,16 @@ static wt_status put_keys(const database *d)
     return status;
 }
 
+/* By this a later run knows the file for one that it may replace. */
+static wt_status put_mark(const database *d)
+{
+    char words[64];
+    uint32_t id;
+    memcpy(&id, DATABASE_ID, sizeof id);
+    (void)snprintf(words, sizeof words, "PRAGMA application_id = %" PRIu32, be32toh(id));
+    return run(d, words);
+}
+
 static wt_status write_bytes(const database *d, FILE *out)
 {
     sqlite3_int64 size = 0;
@@ -210,9 +264,13 @@ wt_status export_sqlite(FILE *out, const wt_table *table, bool blocks, wt_error 
     database d = {.table = table, .blocks = blocks, .err = err};
     const int opened = sqlite3_open_v2(
         ":memory:", &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_MEMORY, NULL);
-    wt_status status = opened == SQLITE_OK ? name_columns(&d) : failed(&d, opened);
+    wt_status status = opened == SQLITE_OK ? check_table(&d) : failed(&d, opened);
+    if (status == WT_OK)
+        status = name_columns(&d);
     if (status == WT_OK)
         status = run(&d, "BEGIN");
+    if (status == WT_OK)
+        status = put_mark(&d);
     if (status == WT_OK)
         status = put_rows(&d);
     if (status == WT_OK)

@@ -20,6 +20,11 @@ static const struct {
              {&layer_schema, offsetof(finding_tables, layer)},
              {&what_if_schema, offsetof(finding_tables, what_if)}};
 
+const char *findings_table(size_t i)
+{
+    return i < COUNT_OF(bound) ? bound[i].schema->name : NULL;
+}
+
 bool findings_are_of(const char *table)
 {
     for (size_t i = 0; i < COUNT_OF(bound); i++)

@@ -41,6 +41,8 @@ typedef struct finding_tables {
     table_view groups, budget, rates, comparison, friction, layer, what_if;
 } finding_tables;
 
+/* Their names, one after the other; NULL: no more. */
+const char *findings_table(size_t i);
 /* Whether a table is one of them. */
 bool findings_are_of(const char *table);
 

@@ -39,11 +39,13 @@ wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hd
 /* The same of the tables that headlines are made of. */
 wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
 bool store_has_headlines(const char *table);
-bool store_has_headline_rows(const char *table); /* and not of its keys alone */
+bool store_has_headline_rows(const char *table);          /* and not of its keys alone */
+void store_headlines_digest(char hex[STORE_DIGEST_SIZE]); /* of the names of these tables */
 /* Puts the tables that headlines are made of behind the end of a result file that HDF5 has closed
  * (store_abstract.c). */
 wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err) WT_NODISCARD;
-/* Reads them from there; WT_END: there are none, or memory is short. */
+/* Reads them from there; WT_END: there are none, or of another set of tables, or memory is short.
+ */
 wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
                               wt_error *err) WT_NODISCARD;
 /* The samples of a map, data/map.h: blocks of all channels. A hdf5_reading, too. */

@@ -2,7 +2,8 @@
  * made of, once more, as they come through the door (store.h). It is read without HDF5, so that no
  * process and no library stands between thousands of files and one table of them; its bytes are
  * checked as those from behind the door are. A program that opens the file for writing cuts it off
- * there, so that it cannot be older than what it is of; without it the file is read as any other.
+ * there, so that it cannot be older than what it is of; without it, or where headlines were made of
+ * other tables when it was written, the file is read as any other.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/store.h"
 #include "data/table.h"
@@ -21,7 +22,7 @@ typedef struct abstract_end {
     uint64_t length; /* the low byte first */
     char mark[8];
 } abstract_end;
-static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '1', '\n'};
+static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
 
 /* ---- written --------------------------------------------------------------------------------- */
 
@@ -52,6 +53,9 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
     if (status == WT_OK) {
         (void)fwrite(digests, sizeof *digests, tail.n_tables, out);
         store_tail_write(out, &tail);
+        char of[STORE_DIGEST_SIZE];
+        store_headlines_digest(of);
+        (void)fwrite(of, sizeof of, 1, out);
         const long to = ftell(out);
         abstract_end end = {.length = htole64((uint64_t)(to - from))};
         memcpy(end.mark, mark, sizeof mark);
@@ -75,11 +79,20 @@ static bool read_at(int file, size_t at, void *to, size_t n)
     return true;
 }
 
-/* A made file of any length costs no more memory than this; an abstract that is longer is not used.
- * That of a whole case takes some 40 kB. */
-#define ABSTRACT_MOST ((size_t)16 << 20)
+/* An abstract that is longer is not used. A made one costs some twenty times this memory at most: a
+ * text of two bytes is a pointer and a piece of memory of its own. That of a whole case takes some
+ * 40 kB. */
+#define ABSTRACT_MOST ((size_t)2 << 20)
 
-/* The bytes of the abstract, new; NULL if the file has none or memory is short. */
+/* Whether the abstract is of the tables that headlines are made of now. */
+static bool is_of_headlines(const char *bytes, size_t length)
+{
+    char of[STORE_DIGEST_SIZE];
+    store_headlines_digest(of);
+    return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
+}
+
+/* The bytes of the abstract, new; NULL if the file has none of use or memory is short. */
 static char *take_abstract(int file, size_t size, size_t *length)
 {
     abstract_end end;
@@ -91,8 +104,11 @@ static char *take_abstract(int file, size_t size, size_t *length)
     *length = (size_t)le64toh(end.length);
     const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_MOST;
     char *const bytes = whole ? malloc(*length) : NULL;
-    if (bytes != NULL && read_at(file, before - *length, bytes, *length))
+    if (bytes != NULL && read_at(file, before - *length, bytes, *length) &&
+        is_of_headlines(bytes, *length)) {
+        *length -= STORE_DIGEST_SIZE;
         return bytes;
+    }
     free(bytes);
     return NULL;
 }

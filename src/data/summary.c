@@ -173,6 +173,24 @@ bool store_has_headline_rows(const char *table)
            strcmp(table, failures_schema.name) == 0;
 }
 
+/* The digest so far and one more name, with what is taken of that table. */
+static void add_name(const char *table, char hex[STORE_DIGEST_SIZE])
+{
+    char words[STORE_DIGEST_SIZE + SCHEMA_NAME_SIZE];
+    const int n = snprintf(words, sizeof words, "%s%c%s", hex,
+                           store_has_headline_rows(table) ? 'r' : 'k', table);
+    wt_digest(words, (size_t)n < sizeof words ? (size_t)n : sizeof words - 1, hex);
+}
+
+void store_headlines_digest(char hex[STORE_DIGEST_SIZE])
+{
+    hex[0] = '\0';
+    for (size_t i = 0; findings_table(i) != NULL; i++)
+        add_name(findings_table(i), hex);
+    for (size_t i = 0; i < N_TABLES; i++)
+        add_name(sources[i]->name, hex);
+}
+
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
     finding_tables found;

@@ -204,11 +204,22 @@ static bool take_columns(byte_reader *r)
     return good;
 }
 
-/* Each cell takes a byte at least, so there are no more rows than bytes. */
+/* The least bytes that a row takes: those of its numbers, and the zero of each text. */
+static size_t row_least(const wt_table *table)
+{
+    size_t least = 0;
+    for (size_t i = 0; i < table->n_columns; i++)
+        least += table->columns[i].kind == WT_COLUMN_NUMBER ? sizeof(double) : 1;
+    return least;
+}
+
+/* Rows take room before their cells are read: as many as there are bytes for, no more. */
 static bool take_rows(byte_reader *r)
 {
     size_t n = 0, n_blocks = 0, next = 0;
-    bool good = take_count(r, (size_t)(r->end - r->at), &n) && take_count(r, n, &n_blocks);
+    const size_t least = row_least(r->table);
+    const size_t most = least > 0 ? (size_t)(r->end - r->at) / least : 0;
+    bool good = take_count(r, most, &n) && take_count(r, n, &n_blocks);
     for (size_t block = 0; good && block < n_blocks; block++) {
         const size_t first = next;
         good = take_count(r, n - 1, &next) &&

@@ -4,6 +4,8 @@
  */
 #include "report/bound.h"
 
+#include "weartrack/report.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,5 +71,15 @@ wt_status bound_check_curves(const bound_tables *tables, wt_error *err)
     wt_error_expected(err, "the tables indentation/... and curves");
     wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
                          "<indentation> of a case");
+    return status;
+}
+
+wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
+{
+    bound_tables tables;
+    wt_status status = bound_make(result, &tables, err);
+    if (status == WT_OK)
+        status = bound_check_curves(&tables, err);
+    bound_clear(&tables);
     return status;
 }

@@ -14,6 +14,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* On a sheet: each panel is then 55 mm wide and, below the words, 40 mm high. */
@@ -141,20 +142,27 @@ static bool go_on(void *user)
     return !s->late && tell(s, s->begun > 0 ? s->begun - 1 : 0);
 }
 
+/* Beside the output; where that is a pipe there is no such place. */
 static wt_status open_folder(sheets *s, const char *path, wt_error *err)
 {
-    char *parent = wt_path_folder(path);
-    if (parent == NULL)
+    struct stat info;
+    const bool beside = stat(path, &info) != 0 || S_ISREG(info.st_mode);
+    char *const parent = beside ? wt_path_folder(path) : realpath(temporary_place(), NULL);
+    if (parent == NULL && (beside || errno == ENOMEM))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    temporary_sweep(parent);
-    s->folder = temporary_folder(parent, &s->in_use);
-    free(parent);
-    if (s->folder != NULL)
-        return WT_OK;
+    if (parent != NULL) {
+        temporary_sweep(parent);
+        s->folder = temporary_folder(parent, &s->in_use);
+    }
     const int code = errno;
-    const wt_status status = wt_fail(err, WT_E_IO, "cannot be made: %s", strerror(code));
+    free(parent);
+    if (s->folder != NULL && fchmod(s->in_use, S_IRWXU) == 0)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_IO, "cannot be made: %s", strerror(s->folder != NULL ? errno : code));
     wt_error_file(err, path);
-    wt_error_advice(err, "the folder it goes into must exist and be writable");
+    wt_error_advice(err, beside ? "the folder it goes into must exist and be writable"
+                                : "set TMPDIR to a folder that may be written to");
     return status;
 }
 

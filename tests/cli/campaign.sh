@@ -90,6 +90,27 @@ indent=
 by_file && fail "no tip is asked for"
 grep -q 'files need their tip' said || fail "that a tip is needed is not said"
 
+# Below a hidden folder, and with names that Snakemake would take for wildcards; what is hidden in it is left out.
+mkdir -p .hidden/maps/.skipped
+cp cases/bulk-1.jpk-force-map '.hidden/maps/a{1}.jpk-force-map'
+cp cases/bulk-2.jpk-force-map .hidden/maps/.skipped
+indent='--tip pyramid:half-angle=20deg,radius=20nm --no-provenance'
+hidden() {
+  by_file files=.hidden/maps results=by-hidden
+}
+hidden || fail "a folder below a hidden one, or a name with braces, fails"
+[ "$(indents)" = 1 ] || fail "not one file below a hidden folder"
+[ -s 'by-hidden/files/a%7B1%7D.jpk-force-map.h5' ] || fail "no result of a name with braces"
+[ "$(wc -l <by-hidden/files.tsv)" = 2 ] || fail "not one row: $(cat by-hidden/files.tsv)"
+hidden || fail "a name with braces fails again"
+[ "$(indents)" = 0 ] || fail "a name with braces was indented again though nothing has changed"
+touch '.hidden/maps/a{1}.jpk-force-map'
+hidden || fail "a name with braces fails the third time"
+[ "$(indents)" = 1 ] || fail "a name with braces was not indented again though it has changed"
+cp cases/bulk-1.jpk-force-map '.hidden/maps/a%7B1%7D.jpk-force-map'
+hidden && fail "two files have one result"
+grep -q 'rename one of them' said || fail "that two files have one result is not said"
+
 # Killed when the first job is done.
 rm -rf results
 setsid snakemake --snakefile "$snakefile" --cores 1 --config cases=cases weartrack="$weartrack" \

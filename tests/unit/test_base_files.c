@@ -278,6 +278,17 @@ static void leftovers(void **state)
     }
 }
 
+/* The header of an SQLite database with an application ID, and a page of it. */
+static void write_database(const char *path, const char *id)
+{
+    char bytes[512] = "SQLite format 3";
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    memcpy(bytes + 68, id, 4);
+    assert_int_equal(fwrite(bytes, sizeof bytes, 1, file), 1);
+    assert_int_equal(fclose(file), 0);
+}
+
 static void guarded(void **state)
 {
     (void)state;
@@ -300,6 +311,11 @@ static void guarded(void **state)
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n");
     assert_int_equal(wt_guard_write(pdf, &err), WT_E_ARG); /* of another program */
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n%weartrack sheets\n");
+    assert_int_equal(wt_guard_write(pdf, &err), WT_OK);
+    assert_int_equal(unlink(pdf), 0);
+    write_database(pdf, "GP10");
+    assert_int_equal(wt_guard_write(pdf, &err), WT_E_ARG); /* a GeoPackage */
+    write_database(pdf, "wtrk");
     assert_int_equal(wt_guard_write(pdf, &err), WT_OK);
     assert_int_equal(unlink(pdf), 0);
     assert_int_equal(unlink(path) + unlink(other), 0);

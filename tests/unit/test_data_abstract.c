@@ -9,11 +9,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 static char path[] = "/tmp/weartrack-abstract-XXXXXX";
-enum { END = 16 }; /* bytes behind an abstract: its length, its mark */
+enum {
+    END = 16,               /* bytes behind an abstract: its length, its mark */
+    SET = STORE_DIGEST_SIZE /* its last ones: the names of the tables it is made of */
+};
 
 static int set_up(void **state)
 {
@@ -164,7 +168,7 @@ static void every_byte(void **state)
             fail_msg("byte %zu of %zu is changed and not noticed", at - (size - END - length),
                      length);
         assert_true(status == WT_END || (status == WT_E_CORRUPT && err.file[0] != '\0'));
-        assert_true(status == WT_E_CORRUPT || at >= size - END);
+        assert_true(status == WT_E_CORRUPT || at >= size - END - SET);
         change_byte(at);
     }
     assert_int_equal(try_abstract(&err), WT_OK);
@@ -196,6 +200,25 @@ static void by_both_ways(void **state)
     wt_result_free(by[1]);
 }
 
+/* One of another set of tables is not used: what is not in it would be missing without a word. */
+static void other_tables(void **state)
+{
+    (void)state;
+    wt_error err;
+    wt_result *read = NULL;
+    const size_t size = write_result();
+    change_byte(size - END - SET);
+    assert_int_equal(try_abstract(&err), WT_END);
+    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_OK);
+    assert_int_equal(wt_table_n_rows(wt_result_find(read, "shift_factors")), 500); /* by HDF5 */
+    wt_result_free(read);
+    char now[STORE_DIGEST_SIZE], again[STORE_DIGEST_SIZE];
+    store_headlines_digest(now);
+    store_headlines_digest(again);
+    assert_string_equal(now, again);
+    assert_int_equal(strlen(now), STORE_DIGEST_SIZE - 1);
+}
+
 /* A program that opens the file for writing, even one that changes nothing, takes it away. */
 static void not_older_than_the_file(void **state)
 {
@@ -220,14 +243,66 @@ static void not_older_than_the_file(void **state)
     assert_null(read);
 }
 
+static void put_count(FILE *out, uint64_t n)
+{
+    const uint64_t low_first = htole64(n);
+    assert_int_equal(fwrite(&low_first, sizeof low_first, 1, out), 1);
+}
+
+/* Writes a file whose abstract says that a table of many columns has as many rows as bytes. */
+static void put_bomb(size_t n_columns, size_t n_filler)
+{
+    char set[STORE_DIGEST_SIZE];
+    FILE *const out = fopen(path, "wb");
+    assert_non_null(out);
+    (void)fputs("\x89HDF\r\n\x1a\n", out);
+    const long from = ftell(out);
+    (void)fwrite("notes\0title", 1, sizeof "notes\0title", out);
+    put_count(out, 0);
+    put_count(out, n_columns);
+    for (size_t i = 0; i < n_columns; i++) {
+        (void)fprintf(out, "c%zu%c", i, 0);
+        put_count(out, 0);
+        (void)fwrite("1\0", 1, sizeof "1\0", out);
+    }
+    put_count(out, n_filler);
+    put_count(out, 0);
+    for (size_t i = 0; i < n_filler; i++)
+        (void)putc(0, out);
+    for (size_t i = 0; i < STORE_DIGEST_SIZE; i++)
+        (void)putc('0', out);
+    for (int i = 0; i < 4; i++)
+        put_count(out, i == 1);
+    store_headlines_digest(set);
+    (void)fwrite(set, sizeof set, 1, out);
+    put_count(out, (uint64_t)(ftell(out) - from));
+    (void)fwrite("WTABST2\n", 1, 8, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* A made abstract is refused before it takes memory that is not in proportion to its bytes: 2000
+ * columns with a row for each of 100,000 bytes are 1.6 GB. */
+static void no_bomb(void **state)
+{
+    (void)state;
+    wt_error err;
+    put_bomb(2000, 100000);
+    struct rusage before, after;
+    assert_int_equal(getrusage(RUSAGE_SELF, &before), 0);
+    assert_int_equal(try_abstract(&err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.message, "too large"));
+    assert_string_equal(err.file, path);
+    assert_int_equal(getrusage(RUSAGE_SELF, &after), 0);
+    assert_true(after.ru_maxrss - before.ru_maxrss < 100 * 1024); /* KiB */
+}
+
 static void put_file(const void *begin, size_t n_begin, uint64_t length)
 {
-    const uint64_t low_first = htole64(length);
     FILE *const file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(begin, 1, n_begin, file), n_begin);
-    assert_int_equal(fwrite(&low_first, sizeof low_first, 1, file), 1);
-    assert_int_equal(fwrite("WTABST1\n", 1, 8, file), 8);
+    put_count(file, length);
+    assert_int_equal(fwrite("WTABST2\n", 1, 8, file), 8);
     assert_int_equal(fclose(file), 0);
 }
 
@@ -249,11 +324,11 @@ static void made_files(void **state)
     assert_non_null(file);
     assert_int_equal(fseek(file, (long)2 << 30, SEEK_SET), 0);
     assert_int_equal(fwrite(&length, sizeof length, 1, file), 1);
-    assert_int_equal(fwrite("WTABST1\n", 1, 8, file), 8);
+    assert_int_equal(fwrite("WTABST2\n", 1, 8, file), 8);
     assert_int_equal(fclose(file), 0);
     assert_int_equal(try_abstract(&err), WT_END);
     put_file(begin, sizeof begin, sizeof begin);
-    assert_int_equal(try_abstract(&err), WT_E_CORRUPT);
+    assert_int_equal(try_abstract(&err), WT_END);
     begin[0] = '#';
     put_file(begin, sizeof begin, sizeof begin);
     /* Of what is no HDF5 file nothing is read, whatever its end. */
@@ -267,9 +342,10 @@ static void made_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_headlines_need),
-                                       cmocka_unit_test(every_byte), cmocka_unit_test(by_both_ways),
-                                       cmocka_unit_test(not_older_than_the_file),
-                                       cmocka_unit_test(made_files)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_headlines_need), cmocka_unit_test(every_byte),
+        cmocka_unit_test(by_both_ways),        cmocka_unit_test(not_older_than_the_file),
+        cmocka_unit_test(other_tables),        cmocka_unit_test(no_bomb),
+        cmocka_unit_test(made_files)};
     return cmocka_run_group_tests_name("abstract of a result", tests, set_up, clean);
 }

@@ -162,9 +162,60 @@ static void same_bytes(void **state)
     wt_table_free(t);
 }
 
+/* Bytes that are not UTF-8 are replaced as in JSON: a text that is none stops other programs. */
+static void no_utf8(void **state)
+{
+    (void)state;
+    wt_table *const t = make_table("friction");
+    add_row(t,
+            "Pr\xFC"
+            "fling \xC3\xA4",
+            1, 1, 1);
+    assert_int_equal(wt_table_set_key(t, "file", "\xE4", NULL), WT_OK);
+    sqlite3 *const db = database_of(t);
+    assert_string_equal(ask(db, "SELECT file, hex(file) FROM friction"),
+                        "Pr\xEF\xBF\xBD"
+                        "fling \xC3\xA4|5072EFBFBD666C696E6720C3A4");
+    assert_string_equal(ask(db, "SELECT hex(words) FROM weartrack_keys WHERE key = 'file'"),
+                        "EFBFBD");
+    assert_string_equal(ask(db, "PRAGMA application_id"), "2004120171"); /* "wtrk" */
+    assert_int_equal(sqlite3_close(db), SQLITE_OK);
+    wt_table_free(t);
+}
+
+/* What a database cannot hold is refused by name, and nothing is written. */
+static void refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"weartrack_keys", "Weartrack_Columns", "sqlite_x"};
+    wt_table *t = NULL;
+    for (size_t i = 0; i <= sizeof names / sizeof *names; i++) {
+        char *bytes = NULL;
+        size_t size = 0;
+        wt_error err = WT_ERROR_INIT;
+        FILE *const out = open_memstream(&bytes, &size);
+        const bool named = i < sizeof names / sizeof *names;
+        t = named ? make_table(names[i]) : make_table("wide");
+        for (int k = 0; !named && k < 2000; k++) {
+            char name[16];
+            (void)snprintf(name, sizeof name, "c%d", k);
+            assert_int_equal(wt_table_add_column(t, name, "1", "", NULL), WT_OK);
+        }
+        assert_int_equal(wt_table_export(out, t, WT_EXPORT_SQLITE, false, &err), WT_E_UNSUPPORTED);
+        assert_non_null(strstr(err.message, wt_table_name(t)));
+        assert_non_null(strstr(err.advice, "csv"));
+        assert_int_equal(fclose(out), 0);
+        assert_int_equal(size, 0);
+        free(bytes);
+        wt_table_free(t);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cells), cmocka_unit_test(columns_and_keys),
-                                       cmocka_unit_test(blocks), cmocka_unit_test(same_bytes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells),   cmocka_unit_test(columns_and_keys),
+        cmocka_unit_test(blocks),  cmocka_unit_test(same_bytes),
+        cmocka_unit_test(no_utf8), cmocka_unit_test(refused)};
     return cmocka_run_group_tests_name("table as a database", tests, NULL, NULL);
 }

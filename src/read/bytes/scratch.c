@@ -1,21 +1,17 @@
 /* Files without a name. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/scratch.h"
 
+#include "base/temporary.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-const char *scratch_folder(void)
-{
-    const char *const asked = getenv("TMPDIR");
-    return asked != NULL && asked[0] != '\0' ? asked : "/tmp";
-}
-
 int scratch_open(void)
 {
-    const char *const folder = scratch_folder();
+    const char *const folder = temporary_place();
     int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0)
         return file;
