@@ -246,24 +246,46 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
     return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
 }
 
+/* The sum of those with power: without it a wavenumber may be any. */
+WIDE_REGISTERS
+static double total_of(const double *value, const double *power, size_t n)
+{
+    double sum[WIDE] = {0};
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE)
+        for (size_t k = 0; k < WIDE; k++)
+            sum[k] += power[i + k] > 0 ? value[i + k] : 0;
+    for (; i < n; i++)
+        sum[0] += power[i] > 0 ? value[i] : 0;
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Tail and density of both profiles, of a batch. */
+WIDE_REGISTERS
+static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
+{
+    const double r = b->r, depth = b->depth;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = b->power[i], x = q * depth;
+        value[0][i] = power;
+        value[1][i] = power * q * 2;
+        value[2][i] = power * (1 + 2 * x * (x + r));
+        value[3][i] = power * q * density_from(1 - r, x).c[0];
+    }
+}
+
 static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
                          double sum[ENERGY_BOTH])
 {
-    static shape_fn *const of[] = {tail_shape, energy_shape};
-    wt_energy_source as[2] = {*source, *source};
-    double value[BATCH];
+    double value[ENERGY_BOTH][BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth};
-    as[0].profile = WT_PROFILE_PERSSON;
-    as[1].profile = WT_PROFILE_INCOMPRESSIBLE;
     for (size_t k = 0; k < ENERGY_BOTH; k++)
         sum[k] = 0;
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
-        for (size_t k = 0; k < ENERGY_BOTH; k++) {
-            of[k % 2](&as[k / 2], &b, value);
-            for (size_t i = 0; i < b.n; i++)
-                sum[k] += b.power[i] * value[i];
-        }
+        terms_of_both(&b, value);
+        for (size_t k = 0; k < ENERGY_BOTH; k++)
+            sum[k] += total_of(value[k], b.power, b.n);
     }
 }
 
@@ -293,20 +315,6 @@ double energy_falling(const wt_energy_source *source)
 typedef struct course_terms {
     double value[BATCH], slope[BATCH], curvature[BATCH];
 } course_terms;
-
-/* Of those with power: without it a wavenumber may be any. */
-WIDE_REGISTERS
-static double total_of(const double *value, const double *power, size_t n)
-{
-    double sum[WIDE] = {0};
-    size_t i = 0;
-    for (; i + WIDE <= n; i += WIDE)
-        for (size_t k = 0; k < WIDE; k++)
-            sum[k] += power[i + k] > 0 ? value[i + k] : 0;
-    for (; i < n; i++)
-        sum[0] += power[i] > 0 ? value[i] : 0;
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
 
 /* Of the density itself. */
 WIDE_REGISTERS
