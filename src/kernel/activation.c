@@ -261,7 +261,9 @@ typedef struct rate_slopes {
 
 static rate_slopes slopes_at(const activation *a, double depth, double reach, double scale)
 {
-    const energy_course c = energy_course_at(&a->dwell, depth, 0, reach);
+    double q_min = 0, q_max;
+    (void)energy_range(&a->dwell, &q_min, &q_max);
+    const energy_course c = energy_course_at(&a->dwell, q_min, depth, 0, reach);
     const double volume = exp(a->log_volume + c.log_scale); /* of the numbers of the course */
     const double x = volume * c.value;
     const double highest =

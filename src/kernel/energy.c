@@ -12,6 +12,7 @@
 #include "kernel/params.h"
 
 #include "base/exponential.h"
+#include "base/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -81,15 +82,27 @@ bool energy_falls(const wt_energy_source *source)
 }
 
 /* The density over q exp(-2 x) and its derivatives, quadratics in x: g = q exp(-2 x) P(x), g' = q^2
- * exp(-2 x) D(x), g'' = q^3 exp(-2 x) B(x), with s = 1 - r. */
-static double density_bracket(double s, double x)
+ * exp(-2 x) D(x), g'' = q^3 exp(-2 x) B(x), with s = 1 - r. A quadratic c[0] + c[1] t + c[2] t^2 in
+ * the way t from x on. */
+typedef struct quadratic {
+    double c[3];
+} quadratic;
+
+WIDE_PART quadratic density_from(double s, double x)
 {
-    return 2 * ((2 - s) * x * x + s * (1 - x) * (1 - x));
+    return (quadratic){
+        {2 * ((2 - s) * x * x + s * (1 - x) * (1 - x)), 4 * ((2 - s) * x - s * (1 - x)), 4}};
 }
 
-static double slope_bracket(double s, double x)
+WIDE_PART quadratic slope_from(double s, double x)
 {
-    return -8 * (x - 1) * (x - s);
+    return (quadratic){{-8 * (x - 1) * (x - s), -8 * (2 * x - 1 - s), -8}};
+}
+
+WIDE_PART quadratic bend_from(double s, double x)
+{
+    return (quadratic){
+        {8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s), 8 * (4 * x - 2 * (2 + s)), 16}};
 }
 
 /* Some wavenumbers of a source at a depth, as many as the first cache holds. */
@@ -127,7 +140,7 @@ static void energy_shape(const wt_energy_source *source, const batch *b, double 
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
     for (size_t i = 0; i < b->n; i++)
-        value[i] = b->q[i] * (plain ? 2 : density_bracket(1 - b->r, b->q[i] * b->depth));
+        value[i] = b->q[i] * (plain ? 2 : density_from(1 - b->r, b->q[i] * b->depth).c[0]);
 }
 
 /* exp(2 q z) int_z^inf g */
@@ -140,61 +153,69 @@ static void tail_shape(const wt_energy_source *source, const batch *b, double *v
     }
 }
 
-static double lesser(double a, double b)
+WIDE_PART double lesser(double a, double b)
 {
     return a < b ? a : b;
 }
 
-/* Largest |exp(-2 t) (a + b t + c t^2)| for 0 <= t <= width. */
-static double largest_remainder(double a, double b, double c, double width)
+/* Largest |exp(-2 t) (c[0] + c[1] t + c[2] t^2)| for 0 <= t <= width. */
+WIDE_PART double largest_of(quadratic of, double width)
 {
     static const double inverse_square = 0.13533528323661269; /* exp(-2) */
-    return fabs(a) + fabs(b) * lesser(width, 0.5 / M_E) +
-           fabs(c) * lesser(width * width, inverse_square);
+    return fabs(of.c[0]) + fabs(of.c[1]) * lesser(width, 0.5 / M_E) +
+           fabs(of.c[2]) * lesser(width * width, inverse_square);
 }
 
-/* exp(2 x) times the largest |g'| / q^2 and |g''| / q^3 from x to x + width. */
-static double largest_slope(double s, double x, double width)
-{
-    return largest_remainder(slope_bracket(s, x), -8 * (2 * x - 1 - s), -8, width);
-}
-
-static double largest_bend(double s, double x, double width)
-{
-    return largest_remainder(8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s),
-                             8 * (4 * x - 2 * (2 + s)), 16, width);
-}
-
-/* A way so short that its ends cancel is integrated by Gauss-Legendre, exact to 1e-16 there. */
+/* Ways so short that their ends cancel, by series in y = -2 l: of l^(k+1) y^j / (j! (k+1+j)) the
+ * first that is left out, j = 7, is below 1e-16. */
 static const double short_way = 0.01;
+/* At the end of a longer one nothing is left, exp(-800): its square must be a number. */
+static const double longest_way = 400;
 
-static double short_integral(double (*bracket)(double s, double x), double s, double x, double l)
+/* int_0^l t^k exp(-2 t) dt; gone: exp(-2 l) - 1. */
+WIDE_PART quadratic moments(double l, double gone)
 {
-    static const double node = 0.7745966692414834; /* sqrt(3/5) */
-    const double first = 0.5 * l * (1 - node), last = 0.5 * l * (1 + node);
-    return l *
-           (5 * bracket(s, x + first) * exp(-2 * first) + 8 * bracket(s, x + 0.5 * l) * exp(-l) +
-            5 * bracket(s, x + last) * exp(-2 * last)) /
-           18;
+    const double y = -2 * l, way = lesser(l, longest_way), left = 1 + gone;
+    const double first =
+        l *
+        (1 + y * (1 / 2.0 +
+                  y * (1 / 6.0 + y * (1 / 24.0 + y * (1 / 120.0 + y * (1 / 720.0 + y / 5040.0))))));
+    const double second =
+        l * l *
+        (1 / 2.0 +
+         y * (1 / 3.0 +
+              y * (1 / 8.0 + y * (1 / 30.0 + y * (1 / 144.0 + y * (1 / 840.0 + y / 5760.0))))));
+    const double third =
+        l * l * l *
+        (1 / 3.0 +
+         y * (1 / 4.0 +
+              y * (1 / 10.0 + y * (1 / 36.0 + y * (1 / 168.0 + y * (1 / 960.0 + y / 6480.0))))));
+    const double j0 = -0.5 * gone;
+    const double j1 = 0.5 * (j0 - way * left);
+    const double j2 = j1 - 0.5 * way * way * left;
+    return (quadratic){
+        {l < short_way ? first : j0, l < short_way ? second : j1, l < short_way ? third : j2}};
+}
+
+WIDE_PART double integral_of(quadratic of, quadratic moment)
+{
+    return of.c[0] * moment.c[0] + of.c[1] * moment.c[1] + of.c[2] * moment.c[2];
 }
 
 /* exp(2 q z) int_z^(z+length) g */
+WIDE_REGISTERS
 static void gain_shape(const wt_energy_source *source, const batch *b, double *value)
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
-    const double r = b->r;
-    for (size_t i = 0; i < b->n; i++) {
-        const double x = b->q[i] * b->depth, l = b->q[i] * b->length;
-        const double here = 1 + 2 * x * (x + r), left = 1 + b->gone[i];
-        /* the bracket of the tail at x + l, less `here` */
-        const double grown = 2 * l * (2 * x + l + r);
-        const double gain = -b->gone[i] * here - (left > 0 ? left * grown : 0);
-        value[i] = plain ? -b->gone[i] : gain > 0 ? gain : 0;
+    const double s = 1 - b->r, depth = b->depth, length = b->length;
+    for (size_t i = 0; plain && i < b->n; i++)
+        value[i] = -b->gone[i];
+    for (size_t i = 0; !plain && i < b->n; i++) {
+        const double q = b->q[i];
+        const double gain =
+            integral_of(density_from(s, q * depth), moments(q * length, b->gone[i]));
+        value[i] = gain > 0 ? gain : 0;
     }
-    for (size_t i = 0; !plain && i < b->n; i++)
-        if (b->q[i] * b->length < short_way)
-            value[i] =
-                short_integral(density_bracket, 1 - r, b->q[i] * b->depth, b->q[i] * b->length);
 }
 
 /* Over exp(-2 q_min depth). */
@@ -225,24 +246,46 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
     return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
 }
 
+/* The sum of those with power: without it a wavenumber may be any. */
+WIDE_REGISTERS
+static double total_of(const double *value, const double *power, size_t n)
+{
+    double sum[WIDE] = {0};
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE)
+        for (size_t k = 0; k < WIDE; k++)
+            sum[k] += power[i + k] > 0 ? value[i + k] : 0;
+    for (; i < n; i++)
+        sum[0] += power[i] > 0 ? value[i] : 0;
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Tail and density of both profiles, of a batch. */
+WIDE_REGISTERS
+static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
+{
+    const double r = b->r, depth = b->depth;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = b->power[i], x = q * depth;
+        value[0][i] = power;
+        value[1][i] = power * q * 2;
+        value[2][i] = power * (1 + 2 * x * (x + r));
+        value[3][i] = power * q * density_from(1 - r, x).c[0];
+    }
+}
+
 static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
                          double sum[ENERGY_BOTH])
 {
-    static shape_fn *const of[] = {tail_shape, energy_shape};
-    wt_energy_source as[2] = {*source, *source};
-    double value[BATCH];
+    double value[ENERGY_BOTH][BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth};
-    as[0].profile = WT_PROFILE_PERSSON;
-    as[1].profile = WT_PROFILE_INCOMPRESSIBLE;
     for (size_t k = 0; k < ENERGY_BOTH; k++)
         sum[k] = 0;
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
-        for (size_t k = 0; k < ENERGY_BOTH; k++) {
-            of[k % 2](&as[k / 2], &b, value);
-            for (size_t i = 0; i < b.n; i++)
-                sum[k] += b.power[i] * value[i];
-        }
+        terms_of_both(&b, value);
+        for (size_t k = 0; k < ENERGY_BOTH; k++)
+            sum[k] += total_of(value[k], b.power, b.n);
     }
 }
 
@@ -268,46 +311,58 @@ double energy_falling(const wt_energy_source *source)
     return !energy_falls(source) && energy_range(source, &q_min, &q_max) ? last / q_min : 0;
 }
 
-/* One wavenumber of the incompressible profile; left: exp(-2 q length). */
-static void course_add(energy_course *sum, const batch *b, size_t i, double left, double reach)
+/* What the wavenumbers of a batch add to a course of the incompressible profile. */
+typedef struct course_terms {
+    double value[BATCH], slope[BATCH], curvature[BATCH];
+} course_terms;
+
+/* Of the density itself. */
+WIDE_REGISTERS
+static void density_terms(const batch *b, double reach, course_terms *t)
 {
-    const double power = b->power[i], q = b->q[i], s = 1 - b->r;
-    const double x = q * b->depth, width = q * reach, l = q * b->length;
-    if (l == 0) {
-        sum->value += power * q * density_bracket(s, x);
-        sum->slope += power * q * q * slope_bracket(s, x);
-        sum->curvature += power * q * q * q * largest_bend(s, x, width);
-        return;
+    const double s = 1 - b->r, depth = b->depth;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = q * b->power[i], x = q * depth;
+        t->value[i] = power * density_from(s, x).c[0];
+        t->slope[i] = power * q * slope_from(s, x).c[0];
+        t->curvature[i] = power * q * q * largest_of(bend_from(s, x), q * reach);
     }
-    const double apart =
-        largest_slope(s, x, width) + (left > 0 ? left * largest_slope(s, x + l, width) : 0);
-    const double slope =
-        l < short_way ? short_integral(slope_bracket, s, x, l)
-                      : (left > 0 ? left * density_bracket(s, x + l) : 0) - density_bracket(s, x);
-    sum->slope += power * q * slope;
-    sum->curvature += power * q * q * lesser(apart, l * largest_bend(s, x, width + l));
 }
 
-energy_course energy_course_at(const wt_energy_source *source, double depth, double length,
-                               double reach)
+/* Of its integral over a length. */
+WIDE_REGISTERS
+static void gain_terms(const batch *b, double reach, course_terms *t)
 {
-    double q_min = 0, q_max, value[BATCH], x[BATCH], left[BATCH];
-    (void)energy_range(source, &q_min, &q_max);
+    const double s = 1 - b->r, depth = b->depth, length = b->length;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = b->power[i], x = q * depth, width = q * reach;
+        const double l = q * length, gone = b->gone[i], way = lesser(l, longest_way);
+        const quadratic over = moments(l, gone);
+        const double gain = integral_of(density_from(s, x), over);
+        const double apart = largest_of(slope_from(s, x), width) +
+                             (1 + gone) * largest_of(slope_from(s, x + way), width);
+        const double along = l * largest_of(bend_from(s, x), width + l);
+        t->value[i] = power * (gain > 0 ? gain : 0);
+        t->slope[i] = power * q * integral_of(slope_from(s, x), over);
+        t->curvature[i] = power * q * q * lesser(apart, along);
+    }
+}
+
+energy_course energy_course_at(const wt_energy_source *source, double q_min, double depth,
+                               double length, double reach)
+{
     batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
+    course_terms t;
     energy_course sum = {.log_scale = -2 * q_min * depth};
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
         if (length > 0)
-            gain_shape(source, &b, value);
-        for (size_t i = 0; i < b.n; i++)
-            x[i] = -2 * b.q[i] * length;
-        exponential(x, b.n, left);
-        for (size_t i = 0; i < b.n; i++) {
-            if (!(b.power[i] > 0))
-                continue;
-            course_add(&sum, &b, i, left[i], reach);
-            sum.value += length > 0 ? b.power[i] * value[i] : 0;
-        }
+            gain_terms(&b, reach, &t);
+        else
+            density_terms(&b, reach, &t);
+        sum.value += total_of(t.value, b.power, b.n);
+        sum.slope += total_of(t.slope, b.power, b.n);
+        sum.curvature += total_of(t.curvature, b.power, b.n);
     }
     return sum;
 }

@@ -34,12 +34,13 @@ bool energy_falls(const wt_energy_source *source);
 double energy_falling(const wt_energy_source *source);
 
 /* int_z^(z+length) w, or w itself for length 0, at a depth, with its slope there and a bound of its
- * second derivative from there to `reach` deeper; all to be multiplied by exp(log_scale). */
+ * second derivative from there to `reach` deeper; all to be multiplied by exp(log_scale). q_min:
+ * the smallest wavenumber with power. */
 typedef struct energy_course {
     double log_scale;
     double value, slope, curvature;
 } energy_course;
-energy_course energy_course_at(const wt_energy_source *source, double depth, double length,
-                               double reach);
+energy_course energy_course_at(const wt_energy_source *source, double q_min, double depth,
+                               double length, double reach);
 
 #endif

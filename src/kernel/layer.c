@@ -174,8 +174,9 @@ double rates_log_gain(const layer_rates *rates, double depth, double length)
 
 energy_course rates_course(const layer_rates *rates, double depth, double length, double reach)
 {
-    return rates->activated != NULL ? activation_course(rates->activated, depth, length, reach)
-                                    : energy_course_at(rates->source, depth, length, reach);
+    return rates->activated != NULL
+               ? activation_course(rates->activated, depth, length, reach)
+               : energy_course_at(rates->source, rates->q_min, depth, length, reach);
 }
 
 double layer_formation(const layer_rates *rates, double thickness)

@@ -130,6 +130,7 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
 {
     const double floor = 1e-12 / d->q_max;
     double high = range.high, length = 0.5 * high;
+    bool halved = false;
     while (high > range.low) {
         const double low = fmax(high - length, range.low);
         length = high - low;
@@ -141,6 +142,7 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
         const bool turns = fabs(c.slope) < length * c.curvature;
         if (turns && !(most <= DBL_EPSILON) && length > fmax(floor, least_stretch * high)) {
             length *= 0.5;
+            halved = true;
             continue;
         }
         if (best != NULL && here > 0) {
@@ -151,7 +153,8 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
             return true;
         }
         high = low;
-        length *= 2;
+        length *= halved ? 1 : 2; /* twice as long was too long here just now */
+        halved = false;
     }
     return false;
 }
@@ -187,6 +190,7 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
 {
     const double floor = 1e-12 / d->q_max;
     double high = from, length = 0.5 * high;
+    bool halved = false;
     while (high > 0) {
         const double low = fmax(high - length, 0);
         length = high - low;
@@ -197,6 +201,7 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
         if (turns && !(least > 0 && log(least) + excess >= 0) &&
             length > fmax(floor, least_stretch * high)) {
             length *= 0.5;
+            halved = true;
             continue;
         }
         if (log(c.value) + excess < 0) {
@@ -204,7 +209,8 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
             return true;
         }
         high = low;
-        length *= 2;
+        length *= halved ? 1 : 2; /* twice as long was too long here just now */
+        halved = false;
     }
     return false;
 }

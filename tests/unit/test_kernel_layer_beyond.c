@@ -353,13 +353,14 @@ static bool check_second_maximum(const case_line *line)
         return false;
     for (size_t i = 1; i + 1 < line->n; i += 2) {
         const double ratio = line->value[i], depth = line->value[i + 1], step = 1e-5;
+        const double q_min = fmin(1, line->value[0]);
         wt_energy_source s = {.profile = WT_PROFILE_INCOMPRESSIBLE,
                               .n = 2,
                               .wavenumber = (double[]){1, line->value[0]},
                               .power = (double[]){1, ratio}};
-        const energy_course here = energy_course_at(&s, depth, 0, 0);
-        const energy_course above = energy_course_at(&s, depth - step, 0, 0);
-        const energy_course below = energy_course_at(&s, depth + step, 0, 0);
+        const energy_course here = energy_course_at(&s, q_min, depth, 0, 0);
+        const energy_course above = energy_course_at(&s, q_min, depth - step, 0, 0);
+        const energy_course below = energy_course_at(&s, q_min, depth + step, 0, 0);
         assert_near_abs(here.slope, 0, 1e-10 * here.value);
         assert_near_abs(exp(above.log_scale) * above.slope - exp(below.log_scale) * below.slope, 0,
                         1e-4 * line->value[0] * line->value[0] * step * exp(here.log_scale) *
