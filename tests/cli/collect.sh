@@ -54,6 +54,11 @@ fi
 ! "$program" table --keys study.h5 ratio_pairs | grep 'would settle'
 "$program" collect -q --equivalence-margin 0.001 HC-*.h5 HS-*.h5 -o fine.h5
 "$program" table --keys fine.h5 ratio_pairs | grep -q 'settle the nearest of them, severe: HC against HS'
+# the number is that of an interval beside 1, which 0.1 % leave no room for
+"$program" table fine.h5 ratio_pairs >fine.tsv
+needed=$(awk -F '\t' '$1 == "severe" { half = (log($6) - log($5)) / 2; off = log($4)
+  n = (half / (off < 0 ? -off : off)) ^ 2; if (n < 2) n = 2; printf "%.0f", int(n) + (n > int(n)) }' fine.tsv)
+"$program" table --keys fine.h5 ratio_pairs | grep -q "about $needed times as many spots"
 # every row of the cases, and a figure that draws them
 "$program" table study.h5 collection --as csv | cut -d , -f 1,2,6 >cases.csv
 printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv
