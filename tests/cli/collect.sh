@@ -79,6 +79,13 @@ constants narrow.h5 | grep -q 'all cases  cannot say'
 "$program" table beside.h5 collected_force | sed 1d | cut -f 2,3,4 | sort -u >places.tsv
 printf 'HC\t\tsilica\nHC\tmild\tbulk\nHC\tmild\tmild\nHS\t\tsilica\nHS\tmild\tbulk\nHS\tmild\tmild\n' |
   diff - places.tsv
+# without a group, or of one that another has, it is named by its file and not drawn as bulk
+"$program" indent -q --curves median --tip pyramid:half-angle=20deg,radius=20nm \
+  HC-mild/bulk-1.jpk-force-map -o filler.h5
+cp silica.h5 again.h5
+"$program" collect -q HC-mild.h5 silica.h5 again.h5 filler.h5 -o named.h5
+"$program" table named.h5 collected_force | sed 1d | cut -f 4 | sort -u >named.tsv
+printf 'bulk\nbulk of filler.h5\nmild\nsilica of again.h5\nsilica of silica.h5\n' | diff - named.tsv
 "$program" report beside.h5 -o beside >/dev/null 2>&1
 grep -q "title 'silica'" beside/plots/collected_force.gp
 status=0
