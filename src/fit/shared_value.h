@@ -17,12 +17,11 @@ typedef struct shared_deviation {
     double value, low, high;
 } shared_deviation;
 
-/* Of n >= 2 values with their errors and degrees of freedom. The covariances [n n], whose diagonals
- * are not read, may be NULL: `certain` is what they surely have in common, which goes into the
- * test; `possible` what they may have, which goes into the error of the shared value. deviation:
- * [n]. WT_E_ARG if an error is not above 0 or the covariances are none. */
-wt_status shared_value_fit(const wt_log_ratio *of, const double *certain, const double *possible,
-                           size_t n, shared_value *to, shared_deviation *deviation,
+/* Of n >= 2 values with their errors and degrees of freedom. covariance [n n], whose diagonal is
+ * not read, may be NULL: the most that they may have in common. The test and the intervals hold
+ * with none of it, too. deviation: [n]. WT_E_ARG if an error is not above 0. */
+wt_status shared_value_fit(const wt_log_ratio *of, const double *covariance, size_t n,
+                           shared_value *to, shared_deviation *deviation,
                            wt_error *err) WT_NODISCARD;
 
 #endif

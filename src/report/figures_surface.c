@@ -44,7 +44,7 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
                          drawn_scan scans[MOST_SCANS])
 {
     const table_view *t = d->table;
-    size_t n = 0, end = 0;
+    size_t n = 0, end = 0, undrawn = 0;
     for (size_t row = 0; row < t->n_rows && n < MOST_SCANS && d->status == WT_OK; row = end) {
         const double number = view_number(t, t->schema, row, scan);
         while (end < t->n_rows && view_number(t, t->schema, end, scan) == number)
@@ -57,8 +57,13 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
                                 .y = SPAN_EMPTY,
                                 .height = SPAN_EMPTY};
         take(d, row, end, &scans[n]);
+        undrawn += scans[n].section < 0;
         n += scans[n].section >= 0 ? 1 : 0;
     }
+    if (undrawn > 0 && n > 0 && d->status == WT_OK)
+        text_format(&d->caption,
+                    " Not drawn: %zu of the scans, whose points are no grid or have no height.",
+                    undrawn);
     if (end < t->n_rows && d->status == WT_OK)
         text_format(&d->caption, " Of more scans the first %zu.", n);
     return d->status == WT_OK ? n : 0;

@@ -54,6 +54,11 @@ fi
 ! "$program" table --keys study.h5 ratio_pairs | grep 'would settle'
 "$program" collect -q --equivalence-margin 0.001 HC-*.h5 HS-*.h5 -o fine.h5
 "$program" table --keys fine.h5 ratio_pairs | grep -q 'settle the nearest of them, severe: HC against HS'
+# the number is that of an interval beside 1, which 0.1 % leave no room for
+"$program" table fine.h5 ratio_pairs >fine.tsv
+needed=$(awk -F '\t' '$1 == "severe" { half = (log($6) - log($5)) / 2; off = log($4)
+  n = (half / (off < 0 ? -off : off)) ^ 2; if (n < 2) n = 2; printf "%.0f", int(n) + (n > int(n)) }' fine.tsv)
+"$program" table --keys fine.h5 ratio_pairs | grep -q "about $needed times as many spots"
 # every row of the cases, and a figure that draws them
 "$program" table study.h5 collection --as csv | cut -d , -f 1,2,6 >cases.csv
 printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv
@@ -74,6 +79,13 @@ constants narrow.h5 | grep -q 'all cases  cannot say'
 "$program" table beside.h5 collected_force | sed 1d | cut -f 2,3,4 | sort -u >places.tsv
 printf 'HC\t\tsilica\nHC\tmild\tbulk\nHC\tmild\tmild\nHS\t\tsilica\nHS\tmild\tbulk\nHS\tmild\tmild\n' |
   diff - places.tsv
+# without a group, or of one that another has, it is named by its file and not drawn as bulk
+"$program" indent -q --curves median --tip pyramid:half-angle=20deg,radius=20nm \
+  HC-mild/bulk-1.jpk-force-map -o filler.h5
+cp silica.h5 again.h5
+"$program" collect -q HC-mild.h5 silica.h5 again.h5 filler.h5 -o named.h5
+"$program" table named.h5 collected_force | sed 1d | cut -f 4 | sort -u >named.tsv
+printf 'bulk\nbulk of filler.h5\nmild\nsilica of again.h5\nsilica of silica.h5\n' | diff - named.tsv
 "$program" report beside.h5 -o beside >/dev/null 2>&1
 grep -q "title 'silica'" beside/plots/collected_force.gp
 status=0

@@ -14,7 +14,7 @@ static void test_two(void **state)
     const wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {1.3, 0.2, (double)NAN}};
     shared_value found;
     shared_deviation d[2];
-    assert_int_equal(shared_value_fit(of, NULL, NULL, 2, &found, d, NULL), WT_OK);
+    assert_int_equal(shared_value_fit(of, NULL, 2, &found, d, NULL), WT_OK);
     assert_near(found.value, (1 / 0.01 + 1.3 / 0.04) / 125, 1e-12);
     assert_near(found.error, sqrt(1.0 / 125), 1e-12);
     assert_near(found.chi_squared, 0.09 / 0.05, 1e-12);
@@ -26,7 +26,7 @@ static void test_two(void **state)
                 1e-12);
 }
 
-/* What both share leaves their distance as it is and does not average out. */
+/* What both may share may widen the mean and makes neither the test nor the distances sharper. */
 static void test_common(void **state)
 {
     (void)state;
@@ -34,27 +34,58 @@ static void test_common(void **state)
     const wt_log_ratio of[] = {{2, sqrt(0.1), (double)NAN}, {2.2, sqrt(0.1), (double)NAN}};
     shared_value found;
     shared_deviation d[2];
-    assert_int_equal(shared_value_fit(of, shared, shared, 2, &found, d, NULL), WT_OK);
+    assert_int_equal(shared_value_fit(of, shared, 2, &found, d, NULL), WT_OK);
     assert_near(found.value, 2.1, 1e-12);
     assert_near(found.error, sqrt(0.09 + 0.01 / 2), 1e-12);
-    assert_near(found.chi_squared, 0.04 / 0.02, 1e-9);
-    /* possible alone: the test is that of errors of their own */
-    assert_int_equal(shared_value_fit(of, NULL, shared, 2, &found, d, NULL), WT_OK);
     assert_near(found.chi_squared, 0.04 / 0.2, 1e-9);
-    assert_near(found.error, sqrt(0.09 + 0.01 / 2), 1e-12);
+    assert_near(d[1].high - d[1].value, gsl_cdf_ugaussian_Qinv(0.0125) * sqrt(0.05), 1e-12);
+}
+
+/* Two of three share all of their error: that they agree among one another makes the third no more
+ * different than one of them would. */
+static void test_third(void **state)
+{
+    (void)state;
+    const double shared[] = {0, 1, 0, 1, 0, 0, 0, 0, 0},
+                 chain[] = {0, 1, 0, 1, 0, 1, 0, 1, 0}; /* which is no covariance as a whole */
+    const wt_log_ratio of[] = {{0, 1, (double)NAN}, {0, 1, (double)NAN}, {2, 0.1, (double)NAN}};
+    shared_value found;
+    shared_deviation d[3];
+    assert_int_equal(shared_value_fit(of, shared, 3, &found, d, NULL), WT_OK);
+    assert_near(found.chi_squared, 4 / 1.01, 1e-4);
+    assert_int_equal(shared_value_fit(of, chain, 3, &found, d, NULL), WT_OK);
+    assert_true(found.p > 0 && found.p < 1);
+}
+
+/* The distance of a normal value from the mean of it and one of few spots has these' freedom, too:
+ * by Satterthwaite of the parts. */
+static void test_freedom(void **state)
+{
+    (void)state;
+    const double df = 5; /* weighted by the errors */
+    const wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {1, 0.1, df}};
+    shared_value found;
+    shared_deviation d[2];
+    assert_int_equal(shared_value_fit(of, NULL, 2, &found, d, NULL), WT_OK);
+    /* half of either, so that half of the variance is of the second */
+    for (int i = 0; i < 2; i++)
+        assert_near(d[i].high - d[i].value, gsl_cdf_tdist_Qinv(0.0125, 4 * df) * sqrt(0.005),
+                    1e-12);
 }
 
 static void test_refused(void **state)
 {
     (void)state;
-    const double too_much[] = {0, 0.02, 0.02, 0};
+    const double all[] = {0, 0.01, 0.01, 0};
     wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {2, 0.1, (double)NAN}};
     shared_value found;
     shared_deviation d[2];
-    assert_int_equal(shared_value_fit(of, NULL, NULL, 1, &found, d, NULL), WT_E_ARG);
-    assert_int_equal(shared_value_fit(of, too_much, NULL, 2, &found, d, NULL), WT_E_ARG);
+    assert_int_equal(shared_value_fit(of, NULL, 1, &found, d, NULL), WT_E_ARG);
+    /* errors that are all shared fail nothing */
+    assert_int_equal(shared_value_fit(of, all, 2, &found, d, NULL), WT_OK);
+    assert_near(found.chi_squared, 1 / 0.02, 1e-9);
     of[0].standard_error = 0;
-    assert_int_equal(shared_value_fit(of, NULL, NULL, 2, &found, d, NULL), WT_E_ARG);
+    assert_int_equal(shared_value_fit(of, NULL, 2, &found, d, NULL), WT_E_ARG);
 }
 
 /* Means of a few values each that scatter by different amounts: how often the interval holds the
@@ -77,7 +108,7 @@ static void count(int each)
                 square += (x[k] - mean) * (x[k] - mean) / (each - 1);
             of[g] = (wt_log_ratio){mean, sqrt(square / each), each - 1};
         }
-        assert_int_equal(shared_value_fit(of, NULL, NULL, GROUPS, &found, d, NULL), WT_OK);
+        assert_int_equal(shared_value_fit(of, NULL, GROUPS, &found, d, NULL), WT_OK);
         held += found.low <= 3 && found.high >= 3;
         different += found.p < 0.05;
     }
@@ -98,10 +129,9 @@ static void test_few_degrees(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two),
-        cmocka_unit_test(test_common),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_few_degrees),
+        cmocka_unit_test(test_two),     cmocka_unit_test(test_common),
+        cmocka_unit_test(test_third),   cmocka_unit_test(test_freedom),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_few_degrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

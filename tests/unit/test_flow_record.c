@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define RECORDS WT_SOURCE_DIR "/fixtures/record/"
 #define FIXTURES WT_SOURCE_DIR "/fixtures/formats/"
@@ -107,6 +108,41 @@ static void test_two_directions(void **state)
     assert_near(number_cell(t.record, 0, "normal_force"), 100.2 * 9.80665e-3, 1e-9);
     assert_true(number_cell(t.record, 0, "difference") < 1e-6);
     wt_record_tables_clear(&t);
+}
+
+/* Mass and area of one run are one measurement of its wear: two runs that are alike do not scatter,
+ * though each is known no better than its mass and its area agree. */
+static void test_wear_of_runs(void **state)
+{
+    (void)state;
+    char again[] = "/tmp/weartrack-run-XXXXXX";
+    static char bytes[1 << 20];
+    FILE *in = fopen(RECORDS "disc.csv", "rb"), *out = fdopen(mkstemp(again), "wb");
+    assert_true(in != NULL && out != NULL);
+    const size_t n = fread(bytes, 1, sizeof bytes, in);
+    assert_true(n < sizeof bytes && fwrite(bytes, 1, n, out) == n);
+    assert_int_equal(fclose(in), 0);
+    assert_int_equal(fclose(out), 0);
+    wt_record_job job = disc_job();
+    job.load.standard_error = 0;
+    job.track_area = (wt_estimate){3e-11, 3e-16, 0, "m^2"};
+    job.mass_loss = (wt_estimate){3e-9, 3e-14, 0, "kg"};
+    job.density.value = 1150;
+    wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
+    const double apart = fabs(number_cell(t.wear, 0, "specific_wear_rate") -
+                              number_cell(t.wear, 1, "specific_wear_rate"));
+    assert_near(key_estimate(t.wear, "specific_wear_rate").standard_error, apart / 2, 1e-6);
+    assert_near(key_estimate(t.wear, "specific_wear_rate_df").value, 1, 0);
+    wt_record_tables_clear(&t);
+    wt_error err = WT_ERROR_INIT;
+    const char *const both[] = {RECORDS "disc.csv", again};
+    if (make(&job, both, 2, NULL, &t, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    assert_int_equal(wt_table_n_rows(t.wear), 4);
+    assert_near(key_estimate(t.wear, "specific_wear_rate").standard_error, apart / 2 / sqrt(2),
+                1e-6);
+    wt_record_tables_clear(&t);
+    unlink(again);
 }
 
 /* k = V / (F s) by all ways, and the ball. */
@@ -423,6 +459,7 @@ int main(void)
         cmocka_unit_test(test_steps),
         cmocka_unit_test(test_two_directions),
         cmocka_unit_test(test_wear),
+        cmocka_unit_test(test_wear_of_runs),
         cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_length_by_laps),
         cmocka_unit_test(test_rotation_alone),

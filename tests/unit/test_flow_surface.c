@@ -615,6 +615,30 @@ static void test_errors_of_numbers(void **state)
     unlink(narrowest);
 }
 
+/* All profiles of the surface one behind the other. */
+static void write_long_profile(const char *to)
+{
+    enum { EACH = 250, PROFILES = 8 };
+    static const char head[] = "Gwyddion Simple Field 1.0\nXRes = 2000\nYRes = 1\n"
+                               "XReal = 0.0015625\nYReal = 7.8125e-07\nXYUnits = m\nZUnits = m\n";
+    static const char fill[4] = {0};
+    FILE *out = fopen(to, "wb");
+    assert_non_null(out);
+    fputs(head, out);
+    assert_int_equal(fwrite(fill, 1, 4 - strlen(head) % 4, out), 4 - strlen(head) % 4);
+    for (int i = 1; i <= PROFILES; i++) {
+        char name[256], bytes[4096];
+        (void)snprintf(name, sizeof name, SURFACE "profile-%d.gsf", i);
+        FILE *in = fopen(name, "rb");
+        assert_non_null(in);
+        const size_t n = fread(bytes, 1, sizeof bytes, in), data = EACH * sizeof(float);
+        assert_true(n > data && n < sizeof bytes);
+        assert_int_equal(fwrite(bytes + n - data, 1, data, out), data);
+        assert_int_equal(fclose(in), 0);
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
 /* What profiles are beside height maps: of one surface, of one that is as rough as three times of
  * it, which is not taken for a scatter of places, of other waves, and where places differ. */
 static void test_profiles_beside(void **state)
@@ -660,6 +684,15 @@ static void test_profiles_beside(void **state)
     assert_string_equal(wt_table_key(m.tables.power_spectrum, "profiles"),
                         "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
                         "the height maps");
+    clear(&m);
+    /* of one place each none knows how they differ, however much they do */
+    write_long_profile(twice);
+    make(&m, (const char *const[]){low, twice}, 2);
+    assert_int_equal(m.status, WT_OK);
+    assert_non_null(strstr(wt_table_key(m.tables.power_spectrum, "profiles"),
+                           "cannot be said whether they agree"));
+    assert_null(strstr(wt_table_key(m.tables.power_spectrum, "profiles"), "disagree"));
+    assert_false(said(&m, "the profiles and the height maps disagree"));
     clear(&m);
     unlink(low);
     unlink(twice);

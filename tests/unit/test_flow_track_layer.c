@@ -77,6 +77,7 @@ static void test_bound(void **state)
     assert_true(isnan(key_of(t, "thickness_high")) && isnan(key_of(t, "thickness")));
     assert_true(key_of(t, "both_low") > 2e-6 && key_of(t, "both_high") < 4e-6);
     assert_true(isnan(key_of(t, "over_high")));
+    assert_string_equal(text_cell(t, wt_table_n_rows(t) - 1, "curve"), "layer as given");
     wt_table_free(t);
     t = track_layer(&as_it_is, low / 3, 0.1 * low / 3);
     begins(t, "agree", "no: ");

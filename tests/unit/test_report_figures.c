@@ -676,7 +676,19 @@ static void repeat_curves(wt_table *curves)
     }
 }
 
-/* Every n-th point is drawn, and the caption says so. */
+/* One more scan, of three points, which are no grid. */
+static void add_ragged(wt_table *map)
+{
+    for (int i = 0; i < 3; i++) {
+        fixture_check(wt_table_add_row(map, NULL));
+        fixture_put(map, "scan", 99);
+        fixture_put(map, "x", i % 2 * 1e-6);
+        fixture_put(map, "y", i / 2 * 1e-6);
+        fixture_put(map, "height", 1e-9);
+    }
+}
+
+/* Every n-th point is drawn, and the caption says so, as it does of what cannot be drawn. */
 static void test_crowds_are_thinned(void **state)
 {
     (void)state;
@@ -685,10 +697,12 @@ static void test_crowds_are_thinned(void **state)
                                              {"force_displacement", .finish = repeat_curves},
                                              {"force_indentation", .finish = repeat_curves},
                                              {"indentation/bulk", .finish = repeat_curves},
-                                             {"indentation/track", .finish = repeat_curves}};
-    wt_result *result = fixture_changed(fixture_produced(), changes, 5);
+                                             {"indentation/track", .finish = repeat_curves},
+                                             {"height_map", .finish = add_ragged}};
+    wt_result *result = fixture_changed(fixture_produced(), changes, 6);
     write_report(result, "crowd", NULL);
     check_caption("crowd", "friction", " Less than 0.1 % of the hysteresis part comes");
+    check_caption("crowd", "height_map", " Not drawn: 1 of the scans, whose points are no grid");
     static const struct {
         const char *figure, *words;
         size_t left;

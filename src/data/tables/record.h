@@ -118,6 +118,9 @@
     X(WEAR_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 /* The mean of several, with their scatter. */
 #define WEAR_KEYS(X)                                                                               \
-    X(WEAR_KEY_RATE, "specific_wear_rate", SI(WEAR_RATE), HEADLINE("Specific wear rate"), OPTIONAL)
+    X(WEAR_KEY_RATE, "specific_wear_rate", SI(WEAR_RATE), HEADLINE("Specific wear rate"),          \
+      OPTIONAL)                                                                                    \
+    X(WEAR_KEY_RATE_DF, "specific_wear_rate_df", NUMBER, LABEL("Degrees of freedom of its error"), \
+      OPTIONAL)
 
 #endif

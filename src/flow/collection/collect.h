@@ -28,21 +28,30 @@ wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt
 
 typedef enum shared_constant { SHARED_WEAR, SHARED_SHEAR, SHARED_RATE, SHARED_N } shared_constant;
 
+/* What an error is of that files bring in, which cases may share. */
+typedef enum shared_files {
+    SHARED_MATERIAL, /* the DMA, and scatter of the scans */
+    SHARED_LAW,
+    SHARED_ROUGHNESS,
+    SHARED_SOFTENING,
+    SHARED_FILES_N
+} shared_files;
+
 /* A value of a constant in a case; `group`: of the moduli, or NULL. */
 typedef struct case_value {
     shared_constant constant;
     const collected_case *of;
     const char *group;
-    wt_log_ratio log; /* of its logarithm */
-    double material;  /* variance of it by the DMA and the scans of the surface */
+    wt_log_ratio log;                /* of its logarithm */
+    double by_files[SHARED_FILES_N]; /* variance of it by these */
+    const char *lacks;               /* what its error does not hold, or NULL */
 } case_value;
 
 typedef struct case_values {
     case_value *of;
     size_t n;
-    char
-        left_out[400]; /* values without an error that can be used, in words; "" if there is none */
-    size_t unnamed;    /* of them that it has no room for */
+    char left_out[1000]; /* values that cannot be used and why, in words; "" if there is none */
+    size_t unnamed;      /* of them that it has no room for */
 } case_values;
 
 /* "specific wear rate", and the case of a value: "HC, mild, bulk". */
@@ -53,11 +62,23 @@ void shared_name(const case_value *v, char *text, size_t size);
  * after a failure. */
 wt_status shared_values_of(const collected_case *cases, size_t n, case_values *to,
                            wt_error *err) WT_NODISCARD;
-/* Covariance of two values of one constant by files that both cases have: what is certain (sure),
- * or what is possible. */
-double shared_covariance(const case_value *a, const case_value *b, bool sure);
 
-/* Tables "shared_constants" and "shared_members"; NULL if no two cases tell one constant. */
+/* Have two cases a file of some roles in common? */
+typedef enum files_common {
+    FILES_APART,
+    FILES_OF_ONE_SIZE, /* no digest tells them apart */
+    FILES_OF_ONE_NAME, /* nor does the path */
+    FILES_COMMON
+} files_common;
+files_common files_in_common(const collected_case *a, const collected_case *b,
+                             const char *const *roles, size_t n_roles);
+/* The part of the source of an error of a record that files bring in; SHARED_FILES_N: none. */
+shared_files shared_files_of(const char *source);
+/* The most that two values of one constant have in common by files that both cases have. */
+double shared_covariance(const case_value *a, const case_value *b);
+
+/* Tables "shared_constants" and "shared_members"; NULL if no two cases tell one constant, the first
+ * only if no value was left out either. */
 wt_status collect_constants(const collected_case *cases, size_t n, double margin,
                             wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 

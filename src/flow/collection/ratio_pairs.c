@@ -80,16 +80,23 @@ static const char *own_name(const pair *q, const collected_case *c)
     return q->of_sample ? c->condition : c->sample;
 }
 
-/* How many times the spots of today, for an interval as narrow as the difference, or the margin
- * where that is more, calls for. */
+/* By how much narrower the interval of a pair must be, its middle as it is: within the margin, or
+ * beside 0. */
+static double needed_of(const pair *q, double margin)
+{
+    const double half = (q->difference.high - q->difference.low) / 2,
+                 off = fabs(q->difference.value), room = log1p(margin) - off;
+    return fmin(room > 0 ? half / room : (double)INFINITY, half / off);
+}
+
+/* How many times the spots of today. */
 static void ask_for_more(const pair_list *list, double margin, char *text, size_t size)
 {
     const pair *nearest = NULL;
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
         const pair *q = &list->pairs[i];
-        const double half = (q->difference.high - q->difference.low) / 2;
-        const double needed = half / fmax(fabs(q->difference.value), log1p(margin));
+        const double needed = needed_of(q, margin);
         if (q->differ == open_ && needed * needed < least) {
             least = needed * needed;
             nearest = q;

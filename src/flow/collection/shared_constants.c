@@ -128,22 +128,30 @@ static wt_status fit_row(shared_row *row, wt_error *err)
 {
     const size_t n = row->n;
     wt_log_ratio *of = malloc(n * sizeof *of);
-    double *sure = malloc(2 * n * n * sizeof *sure), *possible = sure + n * n;
+    double *common = malloc(n * n * sizeof *common);
     wt_status status = WT_OK;
-    if (of == NULL || sure == NULL)
+    if (of == NULL || common == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         of[i] = row->members[i]->log;
-        for (size_t k = 0; k < n; k++) {
-            sure[i * n + k] = shared_covariance(row->members[i], row->members[k], true);
-            possible[i * n + k] = shared_covariance(row->members[i], row->members[k], false);
-        }
+        for (size_t k = 0; k < n; k++)
+            common[i * n + k] = shared_covariance(row->members[i], row->members[k]);
     }
     if (status == WT_OK)
-        status = shared_value_fit(of, sure, possible, n, &row->found, row->deviation, err);
+        status = shared_value_fit(of, common, n, &row->found, row->deviation, err);
     free(of);
-    free(sure);
+    free(common);
     return status;
+}
+
+/* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
+ */
+static const case_value *partly_known(const shared_row *row)
+{
+    for (size_t i = 0; i < row->n; i++)
+        if (row->members[i]->lacks != NULL && row->members[i]->lacks[0] != '\0')
+            return row->members[i];
+    return NULL;
 }
 
 /* Is all that it is of within the margin? */
@@ -167,7 +175,10 @@ static wt_status judge(shared_rows *list, wt_error *err)
     for (size_t i = 0; i < list->n; i++) {
         shared_row *row = &list->rows[i];
         row->holm_p = p[list->n + i];
-        row->suffices = row->holm_p < level ? differs : is_within(row, list->margin) ? one : open_;
+        row->suffices = partly_known(row) != NULL      ? open_
+                        : row->holm_p < level          ? differs
+                        : is_within(row, list->margin) ? one
+                                                       : open_;
     }
     free(p);
     return WT_OK;
@@ -175,15 +186,34 @@ static wt_status judge(shared_rows *list, wt_error *err)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* By how much smaller errors would settle a row. */
+/* By how much smaller errors would settle a row, its values as they are: all of them within the
+ * margin, or one beside 0. */
 static double needed_of(const shared_row *row, double margin)
 {
-    double most = 1;
+    double within = 0, beside = (double)INFINITY;
     for (size_t i = 0; i < row->n; i++) {
         const shared_deviation *d = &row->deviation[i];
-        most = fmax(most, (d->high - d->low) / 2 / fmax(fabs(d->value), log1p(margin)));
+        const double half = (d->high - d->low) / 2, room = log1p(margin) - fabs(d->value);
+        within = fmax(within, room > 0 ? half / room : (double)INFINITY);
+        beside = fmin(beside, half / fabs(d->value));
     }
-    return most;
+    return fmin(within, beside);
+}
+
+static void ask_for_errors(const shared_rows *list, char *text, size_t size)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const case_value *v = partly_known(&list->rows[i]);
+        char name[256];
+        if (v == NULL)
+            continue;
+        shared_name(v, name, sizeof name);
+        clocale_append(text, size,
+                       "%sthe error of the %s of %s is not whole before that of %s is "
+                       "known",
+                       text[0] != '\0' ? "; " : "", shared_words[v->constant], name, v->lacks);
+        return;
+    }
 }
 
 static void ask_for_more(const shared_rows *list, char *text, size_t size)
@@ -191,36 +221,35 @@ static void ask_for_more(const shared_rows *list, char *text, size_t size)
     const shared_row *nearest = NULL;
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
-        const double needed = needed_of(&list->rows[i], list->margin);
-        if (list->rows[i].suffices == open_ && needed < least) {
+        const shared_row *row = &list->rows[i];
+        const double needed = needed_of(row, list->margin);
+        if (row->suffices == open_ && partly_known(row) == NULL && needed < least) {
             least = needed;
-            nearest = &list->rows[i];
+            nearest = row;
         }
     }
     if (nearest != NULL)
         clocale_print(
             text, size,
-            "errors smaller by a factor of %.2g, of each case, would settle the nearest of "
+            "errors smaller by a factor of about %.2g, of each case, would settle the nearest of "
             "them, the %s of %s%s%s",
             fmax(1.1, least), shared_words[nearest->constant], common_words[nearest->common],
             nearest->of[0] != '\0' ? " " : "", nearest->of);
+    ask_for_errors(list, text, size);
 }
 
 static void say_left_out(const case_values *values, char *text, size_t size)
 {
-    if (values->left_out[0] == '\0')
-        return;
     clocale_print(text, size, "%s", values->left_out);
     if (values->unnamed > 0)
         clocale_append(text, size, "; and %zu more", values->unnamed);
-    clocale_append(text, size, ": no error is stated, or the interval reaches zero");
 }
 
 static wt_status list_constants(const shared_rows *list, const case_values *values,
                                 wt_table **table, wt_error *err)
 {
-    char left_out[600] = "";
-    char settled_by[320] = "";
+    char left_out[sizeof values->left_out + 32] = ""; /* and how many more */
+    char settled_by[900] = "";
     double different = 0, undecided = 0;
     table_writer w = table_begin(&shared_constants_schema, err);
     for (size_t i = 0; i < list->n; i++) {
@@ -237,8 +266,9 @@ static wt_status list_constants(const shared_rows *list, const case_values *valu
     ask_for_more(list, settled_by, sizeof settled_by);
     say_left_out(values, left_out, sizeof left_out);
     TABLE_SET(shared_constants, &w, (double)list->n, different, undecided,
-              "what those of the cases include, an error by a DMA or by scans of a surface that "
-              "cases share as one; not what else they share, such as a load cell",
+              "what those of the cases include, and that an error by a DMA with its shift law, by "
+              "strain sweeps or by scans of a surface that cases share may be one; not what else "
+              "they share, such as a load cell",
               left_out, settled_by, list->margin);
     return table_end(&w, table);
 }
@@ -274,7 +304,7 @@ wt_status collect_constants(const collected_case *cases, size_t n, double margin
         status = fit_row(&list.rows[i], err);
     if (status == WT_OK)
         status = judge(&list, err);
-    if (status == WT_OK && list.n > 0)
+    if (status == WT_OK && (list.n > 0 || (n > 1 && values.left_out[0] != '\0')))
         status = list_constants(&list, &values, &tables->shared_constants, err);
     if (status == WT_OK && list.n > 0)
         status = list_members(&list, &tables->shared_members, err);

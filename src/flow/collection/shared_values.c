@@ -32,26 +32,62 @@ void shared_name(const case_value *v, char *text, size_t size)
              v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
 }
 
-static void leave_out(case_values *from, const case_value *v)
+static void leave_out(case_values *from, const case_value *v, const char *why)
 {
     char name[256];
     const size_t used = strlen(from->left_out);
     shared_name(v, name, sizeof name);
-    const int length = snprintf(NULL, 0, "; %s of %s", shared_words[v->constant], name);
+    const char *between = used > 0 ? "; " : "";
+    const int length =
+        snprintf(NULL, 0, "%s%s of %s: %s", between, shared_words[v->constant], name, why);
     if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
         from->unnamed++;
     else
-        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s",
-                 used > 0 ? "; " : "", shared_words[v->constant], name);
+        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s: %s", between,
+                 shared_words[v->constant], name, why);
 }
 
-/* One without an error tells nothing of what is common, nor does one whose interval reaches 0. */
+/* Is it of what was measured for a value that was taken before? Then it counts once. */
+static bool counts_already(case_values *to, const case_value *value)
+{
+    const char *const roles[SHARED_N] = {
+        [SHARED_WEAR] = "record", [SHARED_SHEAR] = "record", [SHARED_RATE] = value->group};
+    for (size_t i = 0; i < to->n; i++) {
+        const case_value *v = &to->of[i];
+        const bool alike =
+            v->constant == value->constant &&
+            (value->group == NULL || (v->group != NULL && strcmp(v->group, value->group) == 0));
+        const files_common files =
+            alike ? files_in_common(v->of, value->of, &roles[value->constant], 1) : FILES_APART;
+        char name[256], why[400];
+        if (files < FILES_OF_ONE_NAME)
+            continue;
+        shared_name(v, name, sizeof name);
+        snprintf(why, sizeof why,
+                 files == FILES_COMMON ? "its files are those of %s, which count once"
+                                       : "its files have names and sizes of those of %s and no "
+                                         "digest tells them apart (--no-provenance)",
+                 name);
+        leave_out(to, value, why);
+        return true;
+    }
+    return false;
+}
+
+/* Known of its logarithm; one that is not above 0, or whose interval reaches it, has none. */
 static wt_status add_value(case_values *to, case_value value, wt_error *err)
 {
-    if (!isfinite(value.log.value))
+    const char *why = NULL;
+    if (isnan(value.log.value) || counts_already(to, &value))
         return WT_OK;
-    if (!(value.log.standard_error > 0) || !isfinite(value.log.standard_error)) {
-        leave_out(to, &value);
+    if (isinf(value.log.value))
+        why = "it is not above zero";
+    else if (isinf(value.log.standard_error))
+        why = "its interval reaches zero";
+    else if (!(value.log.standard_error > 0))
+        why = "no error is stated";
+    if (why != NULL) {
+        leave_out(to, &value, why);
         return WT_OK;
     }
     case_value *grown = array_grow(to->of, to->n, sizeof *grown);
@@ -62,6 +98,12 @@ static wt_status add_value(case_values *to, case_value value, wt_error *err)
     return WT_OK;
 }
 
+/* Infinite: there is none. */
+static double logarithm(double value)
+{
+    return isnan(value) || value > 0 ? log(value) : (double)INFINITY;
+}
+
 static wt_status add_wear(const collected_case *c, case_values *to, wt_error *err)
 {
     table_view wear;
@@ -69,48 +111,53 @@ static wt_status add_wear(const collected_case *c, case_values *to, wt_error *er
     if (status != WT_OK)
         return status;
     const wt_estimate k = wear_value(&wear, WEAR_KEY_RATE);
-    return add_value(to,
-                     (case_value){.constant = SHARED_WEAR,
-                                  .of = c,
-                                  .log = {log(k.value), k.standard_error / k.value, (double)NAN}},
-                     err);
+    const double df = wear_value(&wear, WEAR_KEY_RATE_DF).value,
+                 reach = k.standard_error * (isnan(df) ? NORMAL_95 : students_t_quantile(df)),
+                 error = reach >= k.value ? (double)INFINITY : k.standard_error / k.value;
+    return add_value(
+        to, (case_value){.constant = SHARED_WEAR, .of = c, .log = {logarithm(k.value), error, df}},
+        err);
 }
 
-/* Of the variance of the shear stress the share that the DMA and the scans have. */
-static wt_status material_share(const collected_case *c, double *share, wt_error *err)
+/* The variance of the shear stress by files, which other cases may have, too. */
+static wt_status find_parts(const collected_case *c, double variance, double parts[SHARED_FILES_N],
+                            wt_error *err)
 {
     table_view sources;
     const wt_status status = bind(c, &validation_sources_schema, "", &sources, err);
-    *share = 0;
     for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
         const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
-        if (of > 0 && strncmp(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE),
-                              VALIDATION_OF_MATERIAL, strlen(VALIDATION_OF_MATERIAL)) == 0)
-            *share += of;
+        const shared_files k =
+            shared_files_of(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE));
+        if (of > 0 && k < SHARED_FILES_N)
+            parts[k] += of * variance;
     }
     return status;
 }
 
-/* An interval that reaches 0 has no logarithm. */
+/* What the error of the shear stress lacks; that of the one used is no part of it. */
+static const char *lacks_of(const collected_case *c)
+{
+    const char *lacks = friction_words(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
+    return lacks != NULL && strcmp(lacks, "shear stress") != 0 ? lacks : NULL;
+}
+
 static wt_status add_shear(const collected_case *c, case_values *to, wt_error *err)
 {
     table_view record;
-    double share = 0;
     wt_status status = bind(c, &validation_schema, "", &record, err);
-    if (status == WT_OK)
-        status = material_share(c, &share, err);
     if (status != WT_OK)
         return status;
     const double value = validation_value(&record, VALIDATION_KEY_NEEDED).value,
                  low = validation_value(&record, VALIDATION_KEY_NEEDED_LOW).value,
                  high = validation_value(&record, VALIDATION_KEY_NEEDED_HIGH).value,
-                 error = low > 0 ? log(high / low) / (2 * NORMAL_95) : (double)NAN;
-    return add_value(to,
-                     (case_value){.constant = SHARED_SHEAR,
-                                  .of = c,
-                                  .log = {log(value), error, (double)NAN},
-                                  .material = error * error * share},
-                     err);
+                 error = low <= 0 ? (double)INFINITY : log(high / low) / (2 * NORMAL_95);
+    case_value v = {.constant = SHARED_SHEAR,
+                    .of = c,
+                    .log = {logarithm(value), error, (double)NAN},
+                    .lacks = lacks_of(c)};
+    status = find_parts(c, error * error, v.by_files, err);
+    return status == WT_OK ? add_value(to, v, err) : status;
 }
 
 /* ---- moduli against rate --------------------------------------------------------------------- */
@@ -197,76 +244,6 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
     return status;
 }
 
-/* ---- files in common ------------------------------------------------------------------------- */
-
-static bool has_input(const table_view *inputs, const char *role, const char *sha256)
-{
-    for (size_t row = 0; row < inputs->n_rows; row++)
-        if (strcmp(inputs_text(inputs, row, INPUTS_ROLE), role) == 0 &&
-            strcmp(inputs_text(inputs, row, INPUTS_SHA256), sha256) == 0)
-            return true;
-    return false;
-}
-
-/* Files of some roles: all, those that the other case has, too, and those without a digest, of
- * which that is not known. */
-typedef struct input_count {
-    size_t all, common, unknown;
-} input_count;
-
-static void count_inputs(const table_view *a, const table_view *b, const char *role,
-                         input_count *to)
-{
-    for (size_t row = 0; row < a->n_rows; row++) {
-        const char *sha256 = inputs_text(a, row, INPUTS_SHA256);
-        if (strcmp(inputs_text(a, row, INPUTS_ROLE), role) != 0)
-            continue;
-        to->all++;
-        to->unknown += sha256[0] == '\0';
-        to->common += sha256[0] != '\0' && has_input(b, role, sha256);
-    }
-}
-
-static bool inputs_of(const collected_case *c, table_view *inputs)
-{
-    return table_bind_of(c->result, &inputs_schema, "", inputs, NULL) == WT_OK;
-}
-
-static input_count in_common(const collected_case *a, const collected_case *b,
-                             const char *const *roles, size_t n_roles)
-{
-    table_view of_a, of_b;
-    input_count count = {0, 0, 0};
-    if (!inputs_of(a, &of_a) || !inputs_of(b, &of_b))
-        return count;
-    for (size_t i = 0; i < n_roles; i++) {
-        count_inputs(&of_a, &of_b, roles[i], &count);
-        count_inputs(&of_b, &of_a, roles[i], &count);
-    }
-    return count;
-}
-
-double shared_covariance(const case_value *a, const case_value *b, bool sure)
-{
-    static const char *const roles[] = {"dma", "material", "topography", "roughness"};
-    const double most = sqrt(a->material * b->material);
-    if (!(most > 0))
-        return 0;
-    const input_count files = in_common(a->of, b->of, roles, COUNT_OF(roles));
-    const bool common =
-        sure ? files.all > 0 && files.common == files.all : files.common > 0 || files.unknown > 0;
-    return common ? most : 0;
-}
-
-/* Curves that an earlier case has, too, count once. */
-static bool counts_already(const collected_case *cases, size_t i, const char *group)
-{
-    for (size_t k = 0; k < i; k++)
-        if (in_common(&cases[k], &cases[i], &group, 1).common > 0)
-            return true;
-    return false;
-}
-
 wt_status shared_values_of(const collected_case *cases, size_t n, case_values *to, wt_error *err)
 {
     static const char *const groups[] = {"bulk", "track"};
@@ -278,7 +255,6 @@ wt_status shared_values_of(const collected_case *cases, size_t n, case_values *t
         status = add_shear(&cases[i], to, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         for (size_t g = 0; status == WT_OK && g < COUNT_OF(groups); g++)
-            if (!counts_already(cases, i, groups[g]))
-                status = add_rates(&cases[i], groups[g], to, err);
+            status = add_rates(&cases[i], groups[g], to, err);
     return status;
 }

@@ -122,6 +122,7 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
         const wt_estimate *given = &job->layer_thickness;
         const double reach = NORMAL_95 * given->standard_error;
         to->from = "what is given";
+        to->given = true;
         to->thickness = (wt_interval){given->value, given->standard_error, given->value - reach,
                                       given->value + reach};
         return WT_OK;
@@ -226,7 +227,8 @@ static wt_status make_table(const depth_group group[2], const track_findings *f,
             layer_rows(&t, says == WT_ALLOWS_THICKER ? "thinnest layer" : "thickest layer", f, bulk,
                        says == WT_ALLOWS_THICKER ? f->profile.thickness.low
                                                  : f->profile.thickness.high);
-        layer_rows(&t, "layer of the theory", f, bulk, f->other.thickness.value);
+        layer_rows(&t, f->other.given ? "layer as given" : "layer of the theory", f, bulk,
+                   f->other.thickness.value);
     }
     return table_end(&t, table);
 }

@@ -11,6 +11,7 @@ typedef struct track_other {
     wt_interval thickness;
     const char *from;  /* where from, in words; "" = nowhere */
     const char *lacks; /* of what its error lacks, or NULL */
+    bool given;        /* by the user; else by the theory */
 } track_other;
 
 typedef struct track_findings {

@@ -205,8 +205,8 @@ typedef struct together {
 typedef struct writers {
     table_writer record, cycles, wear;
     together all;
-    bool has_wear; /* asked for, or stored beside a record */
-    several rates; /* of it */
+    bool has_wear;    /* asked for, or stored beside a record */
+    wear_rates rates; /* of it */
     size_t n_files;
 } writers;
 
@@ -310,9 +310,12 @@ static void count_stored(void *user, const table_view *v, size_t row)
 
 static void count_stored_wear(void *user, const table_view *v, size_t row)
 {
+    wear_rates *const rates = user;
+    if (row > 0 && strcmp(wear_text(v, row, WEAR_FILE), wear_text(v, row - 1, WEAR_FILE)) != 0)
+        wear_rates_end_run(rates);
     const double rate = wear_get(v, row, WEAR_RATE);
     if (!isnan(rate))
-        several_add(user,
+        several_add(&rates->run,
                     (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
 }
 
@@ -342,6 +345,7 @@ static wt_status take_stored(const wt_job *work, const flow_file *file, writers 
         begin_wear(w, all);
         status =
             stored_record_rows(result, &wear_schema, &w->wear, count_stored_wear, &w->rates, err);
+        wear_rates_end_run(&w->rates);
     }
     wt_result_free(result);
     if (status != WT_OK)
@@ -405,8 +409,10 @@ static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made
     record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
     if (w->all.friction.n > 0 && w->all.alike)
         record_set(&w->record, RECORD_KEY_FRICTION, several_mean(&w->all.friction, "1"));
-    if (w->has_wear && w->rates.n > 0)
-        wear_set(&w->wear, WEAR_KEY_RATE, several_mean(&w->rates, "m^2/N"));
+    if (w->has_wear && w->rates.all.n > 0) {
+        wear_set(&w->wear, WEAR_KEY_RATE, wear_rates_mean(&w->rates));
+        wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_freedom(&w->rates), 0, 0);
+    }
     const wt_status written[] = {table_end(&w->record, &made->record),
                                  table_end(&w->cycles, &made->record_cycles),
                                  w->has_wear ? table_end(&w->wear, &made->wear) : WT_OK};

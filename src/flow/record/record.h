@@ -27,6 +27,17 @@ typedef struct several {
 void several_add(several *s, wt_estimate e);
 /* NaN of nothing. */
 wt_estimate several_mean(const several *s, const char *unit);
+/* Degrees of freedom of its error where that is of the scatter, else NaN. */
+double several_freedom(const several *s);
+
+/* Rates of wear: what tells that of one run, such as mass and area, is one measurement. */
+typedef struct wear_rates {
+    several run, all; /* the run that is not ended yet; those before */
+    double freedom;   /* of the last of those */
+} wear_rates;
+void wear_rates_end_run(wear_rates *rates);
+wt_estimate wear_rates_mean(const wear_rates *rates);
+double wear_rates_freedom(const wear_rates *rates);
 
 /* Whether anything of the wear was given. */
 bool wear_is_asked(const wt_record_job *job);
@@ -35,9 +46,9 @@ wt_record_job wear_left_out(wt_record_job job);
 wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
                                 wt_error *err);
 /* Rows of a file for the table of the wear. `radius` [m] of the track, NaN: not known. Their rates
- * are added to `rates`. */
+ * are added to `rates` as one run. */
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
-                   wt_estimate radius, const char *file, table_writer *t, several *rates,
+                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err);
 
 /* Whether a file is a result of weartrack: a text stream or HDF5. */

@@ -199,7 +199,7 @@ typedef struct wear_rows {
     wt_estimate load;
     bool strokes;
     table_writer *t;
-    several *rates;
+    wear_rates *rates;
 } wear_rows;
 
 static void put(wear_rows *rows, const char *of, wt_estimate volume)
@@ -213,7 +213,8 @@ static void put(wear_rows *rows, const char *of, wt_estimate volume)
     set_rate(r, rows->load, rows->strokes, large ? "the contact is large against the ball" : "");
     wear_add_row(rows->t, r);
     if (!isnan(r->rate.value))
-        several_add(rows->rates, (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
+        several_add(&rows->rates->run,
+                    (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
 }
 
 static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_estimate length)
@@ -225,7 +226,7 @@ static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_est
 }
 
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
-                   wt_estimate radius, const char *file, table_writer *t, several *rates,
+                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err)
 {
     const double none = (double)NAN;
@@ -256,5 +257,6 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
             volume_of_depth(r->depth, job->ball_radius.value, length));
     else if (status == WT_OK && !given(job->mass_loss) && !given(job->track_area))
         put(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
+    wear_rates_end_run(rates);
     return status;
 }

@@ -50,14 +50,13 @@ double surface_place_error(const wt_surface_spectrum *s)
 }
 
 /* What places give ln C of scans of one kind; where those do not tell, what one place of the others
- * has. That the kinds differ is what is asked, and no scatter. */
+ * has; where neither do, NaN. That the kinds differ is what is asked, and no scatter. */
 static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
 {
     if (!isnan(s->place_error))
         return surface_place_error(s);
-    return others->place_scatter > 0
-               ? others->place_scatter * students_t_quantile(others->place_freedom) / NORMAL_95
-               : 0;
+    const double one = others->place_scatter;
+    return one > 0 ? one * students_t_quantile(others->place_freedom) / NORMAL_95 : one;
 }
 
 /* C by the profiles over that by the maps, the mean over the bins of both; NaN without any. */
@@ -157,6 +156,12 @@ void surface_print_profiles(const surface_whole *w, char *to, size_t size)
     if (isnan(r->value))
         clocale_print(to + used, size - used, "%sthey share no waves with the height maps",
                       used > 0 ? "; " : "");
+    else if (isnan(r->standard_error))
+        clocale_print(to + used, size - used,
+                      "%swhere both tell, C by them is %.2g of that by the height maps; it cannot "
+                      "be said whether they agree, for how places differ is not known: a second "
+                      "map or profile would tell",
+                      used > 0 ? "; " : "", r->value);
     else
         clocale_print(to + used, size - used,
                       "%swhere both tell, C by them is %.2g (95 %%: %.2g to %.2g) of that by the "

@@ -222,7 +222,7 @@ static const char *included(const surface_whole *w, bool places)
 static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
                                wt_error *err)
 {
-    char law[256], directions[256], profiles[256], option[256], anisotropy[256];
+    char law[256], directions[256], profiles[400], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
     const bool places = !isnan(s->place_scatter);
     const double nan = (double)NAN;

@@ -1,0 +1,245 @@
+/* Constants that cases have in common, of results that are made here: what they share, what counts
+ * once, and of what no verdict can be had. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "near.h"
+
+#include "data/tables/tables.h"
+#include "weartrack/flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a case tells; NaN or NULL: it does not. */
+typedef struct told {
+    const char *condition;
+    double wear, wear_error, wear_df;
+    double shear, shear_error; /* that of its logarithm */
+    const char *source;        /* of all of its error */
+    const char *lacks;
+    const char *file, *role, *digest; /* of 100 bytes */
+} told;
+
+static void add(wt_result *to, wt_table *table)
+{
+    assert_int_equal(wt_result_add(to, table, NULL), WT_OK);
+}
+
+static void add_validation(const told *of, wt_result *to)
+{
+    wt_table *record = NULL, *sources = NULL, *friction = NULL;
+    static const validation_key words[] = {VALIDATION_KEY_VERDICT, VALIDATION_KEY_WITHOUT,
+                                           VALIDATION_KEY_JUDGED,  VALIDATION_KEY_TEST,
+                                           VALIDATION_KEY_STEPS,   VALIDATION_KEY_LEFT_OUT};
+    table_writer v = table_begin(&validation_schema, NULL);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        validation_set_text(&v, words[i], "1"); /* not read */
+    validation_set_value(&v, VALIDATION_KEY_NEEDED, of->shear, 0, 0);
+    validation_set_value(&v, VALIDATION_KEY_NEEDED_LOW,
+                         of->shear * exp(-1.959964 * of->shear_error), 0, 0);
+    validation_set_value(&v, VALIDATION_KEY_NEEDED_HIGH,
+                         of->shear * exp(1.959964 * of->shear_error), 0, 0);
+    assert_int_equal(table_end(&v, &record), WT_OK);
+    add(to, record);
+    table_writer s = table_begin(&validation_sources_schema, NULL);
+    table_row(&s);
+    validation_sources_put_text(&s, VALIDATION_SOURCES_SOURCE, of->source);
+    validation_sources_put_text(&s, VALIDATION_SOURCES_REMEDY, "");
+    for (validation_sources_column c = VALIDATION_SOURCES_ERROR; c <= VALIDATION_SOURCES_PULL_ERROR;
+         c++)
+        validation_sources_put(&s, c, c == VALIDATION_SOURCES_NEEDED_SHARE ? 1 : (double)NAN);
+    validation_sources_set_text(&s, VALIDATION_SOURCES_KEY_ADVICE, "");
+    assert_int_equal(table_end(&s, &sources), WT_OK);
+    add(to, sources);
+    if (of->lacks == NULL)
+        return;
+    table_writer f = table_begin(&friction_schema, NULL);
+    for (friction_key k = FRICTION_KEY_PRESSURE; k <= FRICTION_KEY_REPLICATES; k++)
+        if (k != FRICTION_KEY_ERROR_LACKS)
+            friction_set_text(&f, k, "1"); /* not read */
+    friction_set_text(&f, FRICTION_KEY_ERROR_LACKS, of->lacks);
+    assert_int_equal(table_end(&f, &friction), WT_OK);
+    add(to, friction);
+}
+
+static wt_result *result_of(const told *of)
+{
+    wt_result *to = wt_result_new();
+    wt_table *answer = NULL, *wear = NULL, *inputs = NULL;
+    table_writer a = table_begin(&answer_schema, NULL);
+    answer_set_text(&a, ANSWER_KEY_CASE_SAMPLE, "HC");
+    answer_set_text(&a, ANSWER_KEY_CASE_CONDITION, of->condition);
+    assert_int_equal(table_end(&a, &answer), WT_OK);
+    add(to, answer);
+    if (!isnan(of->wear)) {
+        table_writer w = table_begin(&wear_schema, NULL);
+        wear_set_value(&w, WEAR_KEY_RATE, of->wear, of->wear_error, 0);
+        wear_set_value(&w, WEAR_KEY_RATE_DF, of->wear_df, 0, 0);
+        assert_int_equal(table_end(&w, &wear), WT_OK);
+        add(to, wear);
+    }
+    if (!isnan(of->shear))
+        add_validation(of, to);
+    table_writer i = table_begin(&inputs_schema, NULL);
+    if (of->file != NULL) {
+        table_row(&i);
+        inputs_put_text(&i, INPUTS_PATH, of->file);
+        inputs_put_text(&i, INPUTS_ROLE, of->role);
+        inputs_put_text(&i, INPUTS_FORMAT, "csv");
+        inputs_put(&i, INPUTS_BYTES, 100);
+        inputs_put_text(&i, INPUTS_SHA256, of->digest);
+    }
+    assert_int_equal(table_end(&i, &inputs), WT_OK);
+    add(to, inputs);
+    return to;
+}
+
+static wt_collection_tables collected(const told *first, const told *second)
+{
+    const wt_collect_job job = wt_collect_job_defaults();
+    wt_collection_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_result *results[] = {result_of(first), result_of(second)};
+    const wt_collected cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
+    if (wt_collect(cases, 2, &job, &tables, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    wt_result_free(results[0]);
+    wt_result_free(results[1]);
+    return tables;
+}
+
+static const told wear = {.condition = "a",
+                          .wear = 1e-12,
+                          .wear_error = 1e-14,
+                          .wear_df = (double)NAN,
+                          .shear = (double)NAN},
+                  shear = {.condition = "a",
+                           .wear = (double)NAN,
+                           .shear = 1e6,
+                           .shear_error = 0.05,
+                           .source = "roughness",
+                           .file = "road.gsf",
+                           .role = "topography",
+                           .digest = "d"};
+
+static void check(told first, told second, const char *suffices, const char *key, const char *words)
+{
+    first.condition = "a";
+    second.condition = "b";
+    wt_collection_tables t = collected(&first, &second);
+    assert_non_null(t.shared_constants);
+    if (suffices == NULL)
+        assert_int_equal(wt_table_n_rows(t.shared_constants), 0);
+    else
+        assert_string_equal(text_cell(t.shared_constants, 0, "suffices"), suffices);
+    const char *said = wt_table_key(t.shared_constants, key);
+    if (words != NULL && (said == NULL || strstr(said, words) == NULL))
+        fail_msg("%s: %s", key, said != NULL ? said : "not said");
+    wt_collection_tables_clear(&t);
+}
+
+/* What scans are off by is one error of the two, and no reason to call them two: with none of it in
+ * common they are four of their errors of 0.07 apart, or one and a half. */
+static void test_shared_file(void **state)
+{
+    (void)state;
+    told other = shear;
+    other.shear = 1.33e6;
+    check(shear, other, "differs", "includes", "scans of a surface");
+    other.shear = 1.11e6;
+    check(shear, other, "one", "includes", "strain sweeps");
+    /* the error of the shared value holds that what is common does not average out */
+    other.shear = shear.shear;
+    other.condition = "b";
+    static const char *const sources[] = {"roughness", "shift law", "softening with strain",
+                                          "material, and scatter of the measured spectrum"},
+                             *const roles[] = {"topography", "dma", "softening", "dma"};
+    for (size_t i = 0; i < 4; i++) {
+        told one = shear;
+        one.source = other.source = sources[i];
+        one.role = other.role = roles[i];
+        wt_collection_tables t = collected(&one, &other);
+        assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 1e6), 0.05 * 1.959964,
+                    1e-5);
+        wt_collection_tables_clear(&t);
+        other.digest = "another";
+        t = collected(&one, &other);
+        assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 1e6),
+                    0.05 * 1.959964 / sqrt(2), 1e-5);
+        wt_collection_tables_clear(&t);
+        other.digest = shear.digest;
+    }
+}
+
+static void test_partly_known(void **state)
+{
+    (void)state;
+    told other = shear;
+    other.shear = 2e6;
+    other.lacks = "roughness";
+    check(shear, other, "cannot say", "settled_by", "before that of roughness is known");
+    other.shear = shear.shear;
+    check(other, shear, "cannot say", "settled_by", "shear stress of HC, a");
+}
+
+/* One record of two cases counts once, and that is said; without digests by names and sizes. */
+static void test_counts_once(void **state)
+{
+    (void)state;
+    told one = wear, other = wear;
+    one.file = other.file = "slide.csv";
+    one.role = other.role = "record";
+    one.digest = other.digest = "d";
+    check(one, other, NULL, "left_out",
+          "specific wear rate of HC, b: its files are those of HC, a");
+    one.digest = other.digest = "";
+    check(one, other, NULL, "left_out", "no digest tells them apart");
+    other.file = "other.csv";
+    check(one, other, "one", "includes", "");
+}
+
+/* What has no logarithm, and of few runs an interval that is Student's. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    told other = wear;
+    other.wear_error = 0.6e-12;
+    check(wear, other, NULL, "left_out", "HC, b: its interval reaches zero");
+    other.wear = -1e-12;
+    check(wear, other, NULL, "left_out", "HC, b: it is not above zero");
+    other.wear = 1e-12;
+    other.wear_error = (double)NAN;
+    check(wear, other, NULL, "left_out", "HC, b: no error is stated");
+    other.wear_error = 0.1e-12; /* 12.7 of which are more than all of it */
+    other.wear_df = 1;
+    check(wear, other, NULL, "left_out", "HC, b: its interval reaches zero");
+}
+
+/* Of two values with errors of 20 % the intervals reach 0.317 to either side: over what ln 1.5
+ * leaves, or over the distance from the mean, whichever is less. */
+static void test_settled(void **state)
+{
+    (void)state;
+    told one = wear, other = wear;
+    one.wear_error = 0.2e-12;
+    other.wear = 1e-12 * exp(0.2);
+    other.wear_error = 0.2 * other.wear;
+    check(one, other, "cannot say", "settled_by", "by a factor of about 1.1,");
+    other.wear = 1e-12 * exp(0.55); /* 0.317 over ln 1.5 - 0.275, and over 0.275 */
+    other.wear_error = 0.2 * other.wear;
+    check(one, other, "cannot say", "settled_by", "by a factor of about 1.2,");
+    one.wear_error = 0.4e-12; /* 0.634 over 0.405 - 0.15, and over 0.15 */
+    other.wear = 1e-12 * exp(0.3);
+    other.wear_error = 0.4 * other.wear;
+    check(one, other, "cannot say", "settled_by", "by a factor of about 2.5,");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shared_file), cmocka_unit_test(test_partly_known),
+        cmocka_unit_test(test_counts_once), cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_settled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
