@@ -266,7 +266,9 @@ typedef struct wt_curve_depth {
                        others: nothing is said */
     double bend_share, loss_share; /* of the variance of the change */
 } wt_curve_depth;
-/* Fewer than 12 curves cannot say. The intervals hold what a bend that the baselines have in common
+/* As many degrees of freedom of scatter as cosines of the residual. */
+enum { WT_DEPTH_LEAST_CURVES = 2 * WT_CURVE_WAVES };
+/* Fewer curves cannot say. The intervals hold what a bend that the baselines have in common
  * does if it goes on in contact, and the error of the memory that stands for loss. */
 WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_ratio,
                                      const wt_depth_curve *curve, size_t n, wt_curve_depth *depth,
@@ -279,6 +281,7 @@ WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poiss
 enum { WT_LAYER_STEPS = 96 };
 typedef enum wt_layer_allows {
     WT_ALLOWS_UNKNOWN, /* curves of track or bulk: nothing is known */
+    WT_ALLOWS_BEYOND,  /* a thick layer of that ratio is one of which the law is not known */
     WT_ALLOWS_ANY,     /* every thickness down to `least` is allowed */
     WT_ALLOWS_THICKER, /* there is a lower end alone */
     WT_ALLOWS_THINNER, /* there is an upper end alone */
@@ -290,6 +293,7 @@ typedef struct wt_layer_profile {
     size_t n[2], n_units[2];      /* curves and units of bulk and track */
     double depth, contact_radius; /* mean of the track at the largest indentation [m] */
     double least;                 /* thickness to which the law of a layer reaches [m] */
+    bool below;                   /* nothing is known of thinner ones, which are allowed then */
     /* Interval of 95 % [m]: low 0, high infinity: no such end; value NaN but between two ends. */
     wt_interval thickness;
     size_t n_steps; /* from thick to thin: */
@@ -313,7 +317,8 @@ WT_API double wt_layer_modulus(const wt_layer_profile *profile, double ratio, do
  * constants that are known to no better than their order. */
 #define WT_LAYER_MARGIN 2.0
 typedef struct wt_layer_agreement {
-    double low, high; /* interval of 95 % of the thickness that both allow [m]; NaN: none */
+    /* Interval of 95 % of the thickness that both allow [m]; 0, infinity: no end; NaN: none. */
+    double low, high;
     double ratio_low, ratio_high; /* of that by the curves over the other; 0, infinity: no end */
     bool differ, agree;           /* p < 0.01; the whole ratio is within the margin */
 } wt_layer_agreement;

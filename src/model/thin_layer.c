@@ -7,12 +7,13 @@
 
 #include <math.h>
 
-/* As far as it is within 2 % of the solutions. */
-static const double least_ratio = 0.3, largest_ratio = 3.0, largest_x = 6.0;
+/* As far as it is within 2 % of the solutions, as in the ratio. */
+static const double largest_x = 6.0;
 
 bool thin_layer_holds(double ratio, double x)
 {
-    return ratio >= least_ratio && ratio <= largest_ratio && x >= 0.0 && x < largest_x;
+    return ratio >= THIN_LAYER_LEAST_RATIO && ratio <= THIN_LAYER_LARGEST_RATIO && x >= 0.0 &&
+           x < largest_x;
 }
 
 double thin_layer_apparent(double ratio, double x)

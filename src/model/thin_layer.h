@@ -8,6 +8,10 @@
 
 #include <stdbool.h>
 
+/* Of the moduli, between which the law is within 2 % of what it was fitted to. */
+#define THIN_LAYER_LEAST_RATIO 0.3
+#define THIN_LAYER_LARGEST_RATIO 3.0
+
 /* What a homogeneous model makes of one point, over E1: ratio = E1/E2, x = contact radius of the
  * homogeneous half-space at that depth over h. Within 2 % where thin_layer_holds. */
 double thin_layer_apparent(double ratio, double x);

@@ -59,8 +59,18 @@ static void begins(const wt_table *t, const char *key, const char *words)
         fail_msg("%s: %s", key, said != NULL ? said : "not said");
 }
 
+/* Below 0.3 of the bulk, where no law of a layer reaches. */
+static void soften(wt_table *copy, size_t row)
+{
+    static const char *const columns[] = {"modulus", "spectrum_factor"};
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        if (wt_table_find(copy, columns[i]) >= 0)
+            fixture_put(copy, columns[i], 0.15 * number_cell(copy, row, columns[i]));
+}
+
 static const fixture_change as_it_is = {.table = "indentation/track"},
                             layered = {.table = "indentation/track", .edit = add_waves},
+                            soft = {.table = "indentation/track", .edit = soften},
                             few = {.table = "indentation/track", .keep = is_early},
                             old = {.table = "indentation/track", .without = "misfit_wave_1"};
 
@@ -103,6 +113,7 @@ static void test_both_ends(void **state)
     wt_table_free(t);
     t = track_layer(&layered, 250e-9, (double)NAN);
     begins(t, "agree", "cannot say: the error of");
+    begins(t, "settled_by", "a standard error of the thickness by what is given");
     wt_table_free(t);
 }
 
@@ -115,6 +126,7 @@ static void test_silence(void **state)
     wt_table_free(t);
     t = track_layer(&old, 3e-6, 0.3e-6);
     begins(t, "allowed", "cannot say: the tables of bulk and track say nothing of depth");
+    begins(t, "settled_by", "the same curves once more");
     wt_table_free(t);
     /* of two tables that say nothing nothing is made unless a thickness is given */
     wt_compare_job job = wt_compare_job_defaults();
@@ -128,6 +140,45 @@ static void test_silence(void **state)
     assert_null(none);
     wt_table_free(bulk);
     wt_table_free(track);
+}
+
+/* The layer of the fixture has 0.64 of the bulk; 0.15 of that is none of the law. */
+static void test_beyond_the_law(void **state)
+{
+    (void)state;
+    wt_table *t = track_layer(&soft, 3e-6, 0.3e-6);
+    begins(t, "allowed", "cannot say: the law of a layer is known for moduli of 0.3 to 3 times");
+    begins(t, "agree", "cannot say: the curves do not tell");
+    begins(t, "settled_by", "a section across the track");
+    assert_true(isnan(key_of(t, "thickness_low")) && isnan(key_of(t, "thickness_high")));
+    assert_null(wt_table_key(t, "both_low"));
+    wt_table_free(t);
+}
+
+/* Where the law ends and the layer may be thinner, no thinner one is excluded; where it changes too
+ * much, all are. */
+static void test_below_the_law(void **state)
+{
+    (void)state;
+    const double end = 100e-9, error = 0.1;
+    wt_layer_profile p = {
+        .says = WT_ALLOWS_THINNER, .n_steps = WT_LAYER_STEPS, .below = true, .least = end};
+    for (size_t i = 0; i < p.n_steps; i++) {
+        p.log_thickness[i] = log(end) + 4 - 4 * (double)i / (double)(p.n_steps - 1);
+        p.deviate[i] = 3 + (p.log_thickness[i] - log(end)) / error;
+    }
+    const wt_interval thinner = {end / 2, 0, 0.4 * end, 0.6 * end};
+    wt_layer_agreement a = wt_layer_compare(&p, thinner);
+    assert_true(!a.differ && !a.agree);
+    assert_near(a.high, 0.6 * end, 0.05);
+    assert_true(a.ratio_low == 0);
+    p.below = false;
+    assert_true(wt_layer_compare(&p, thinner).differ);
+    /* of another source without a lower end, and curves that tell nothing, there is none */
+    for (size_t i = 0; i < p.n_steps; i++)
+        p.deviate[i] = 0;
+    a = wt_layer_compare(&p, (wt_interval){end, 0, -end, 3 * end});
+    assert_true(a.low == 0 && isfinite(a.high) && a.high > end);
 }
 
 /* A profile that is a straight line in ln of the thickness is a normal error of 10 %. */
@@ -180,7 +231,8 @@ static int set_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bound), cmocka_unit_test(test_both_ends),
-        cmocka_unit_test(test_silence), cmocka_unit_test(test_agreement)};
+        cmocka_unit_test(test_bound),          cmocka_unit_test(test_both_ends),
+        cmocka_unit_test(test_silence),        cmocka_unit_test(test_agreement),
+        cmocka_unit_test(test_beyond_the_law), cmocka_unit_test(test_below_the_law)};
     return cmocka_run_group_tests_name("track layer", tests, set_up, tear_down);
 }

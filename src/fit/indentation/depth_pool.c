@@ -252,7 +252,7 @@ void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisso
         if (!isnan(curve[i].loss_error))
             sorted[d->n++] = curve[i];
     d->n_lossy = n - d->n;
-    if (memory->failed || d->n < DEPTH_LEAST_CURVES || d->n_lossy >= d->n)
+    if (memory->failed || d->n < WT_DEPTH_LEAST_CURVES || d->n_lossy >= d->n)
         return;
     qsort(sorted, d->n, sizeof *sorted, by_spot);
     d->n_units = 1;

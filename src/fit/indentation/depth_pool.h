@@ -10,9 +10,6 @@
 #include "fit/indentation/depth_waves.h"
 #include "fit/students_t.h"
 
-enum {
-    DEPTH_LEAST_CURVES = 2 * CURVE_WAVES, /* as many degrees of freedom of scatter as cosines */
-};
 /* Of the error of a memory, at no depth more than at the whole one. */
 #define DEPTH_MORE_SHALLOW 1.5
 

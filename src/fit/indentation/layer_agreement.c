@@ -27,12 +27,15 @@ static double square_off(const other_source *o, double x)
     return isinf(error) ? 0.0 : off * off / (error * error);
 }
 
-/* Of the curves, on a line between steps; beyond the last ones as there. */
+/* Of the curves, on a line between steps; of thicker layers as of the first. Where the law of a
+ * layer ends before one is too thin, the curves say nothing of thinner ones. */
 static double square_of_curves(const wt_layer_profile *p, double x)
 {
     size_t i = 1;
     if (x >= p->log_thickness[0])
         return p->deviate[0] * p->deviate[0];
+    if (p->below && x < p->log_thickness[p->n_steps - 1])
+        return 0.0;
     while (i + 1 < p->n_steps && x < p->log_thickness[i])
         i++;
     const double step = p->log_thickness[i] - p->log_thickness[i - 1],
@@ -62,8 +65,8 @@ static void find_both(const double x[POINTS], const double of_curves[POINTS], co
             low = fmin(low, x[i]);
             high = fmax(high, x[i]);
         }
-    to->low = exp(low);
-    to->high = exp(high);
+    to->low = low > x[0] ? exp(low) : 0.0;
+    to->high = high < x[POINTS - 1] ? exp(high) : (double)INFINITY;
 }
 
 static void find_ratio(const double x[POINTS], const double of_curves[POINTS],

@@ -149,16 +149,18 @@ static void add_allowed(const double x[2], const double z[2], double limit, doub
     }
 }
 
-/* Where the deviate goes through 0; NaN: nowhere. */
+/* Where the deviate goes through 0, or is the nearest to it. */
 static double root_of(const wt_layer_profile *p)
 {
+    size_t nearest = 0;
     for (size_t i = 1; i < p->n_steps; i++) {
         const double z0 = p->deviate[i - 1], z1 = p->deviate[i];
+        nearest = fabs(z1) < fabs(p->deviate[nearest]) ? i : nearest;
         if ((z0 > 0) != (z1 > 0))
             return p->log_thickness[i - 1] +
                    z0 / (z0 - z1) * (p->log_thickness[i] - p->log_thickness[i - 1]);
     }
-    return (double)NAN;
+    return p->log_thickness[nearest];
 }
 
 /* Thinner layers change more over the depth, a soft one upwards; so a layer at the thin end that is
@@ -174,6 +176,7 @@ static void judge(wt_layer_profile *p, double log_ratio)
     const bool too_much = soft ? p->deviate[last] < -limit : p->deviate[last] > limit;
     const bool open_below =
         fabs(p->deviate[last]) <= limit || (!too_much && soft == (p->deviate[0] > 0));
+    p->below = open_below;
     const bool open_above = fabs(p->deviate[0]) <= limit, any = range[1] >= range[0];
     p->thickness = (wt_interval){.value = (double)NAN,
                                  .standard_error = (double)NAN,
@@ -207,6 +210,8 @@ static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
         t->step[0].fit = line; /* as good as without end */
         p->n_steps = 1;
     }
+    if (p->n_steps == 1 && isnan(layer_log_ratio(t->log_ratio.value, 0.0)))
+        p->says = WT_ALLOWS_BEYOND;
     double excess = line.excess;
     for (size_t i = 1; p->n_steps == i && i < WT_LAYER_STEPS; i++) {
         p->log_thickness[i] = top + ratio * (double)i;

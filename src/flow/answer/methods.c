@@ -243,6 +243,23 @@ static void say_archard(telling *t, const table_view *table)
          words_of_estimate(rate).text);
 }
 
+static bool tells_depth(const table_view *table)
+{
+    return isfinite(track_layer_value(table, TRACK_LAYER_KEY_LEAST).value);
+}
+
+static void say_track_layer(telling *t, const table_view *table)
+{
+    const wt_estimate depth = track_layer_value(table, TRACK_LAYER_KEY_DEPTH),
+                      least = track_layer_value(table, TRACK_LAYER_KEY_LEAST);
+    tell(t,
+         "Which thickness of a layer on the bulk the curves of the track allow was tested for each "
+         "one from %s on by the change of the modulus over an indentation of %s",
+         words_of_value(least).text, words_of_value(depth).text);
+    tell(t, ", with the ratio of the moduli, beside the change of the bulk, at 5 %%, by a contact "
+            "law fitted to the integral equation for a bonded layer on a half-space.");
+}
+
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static const method methods[] = {
@@ -286,6 +303,8 @@ static const method methods[] = {
      "B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789", "10.1088/0953-8984/18/32/025"},
     {"formation of the modified layer", &layer_schema, NULL, say_layer,
      "M. Mokhtari, thesis, University of Twente (2015)", "10.3990/1.9789036540018"},
+    {"layer on a half-space", &track_layer_schema, tells_depth, say_track_layer,
+     "D. M. Burmister, J. Appl. Phys. 16 (1945) 89", "10.1063/1.1707558"},
     {"Archard's law of wear", &layer_schema, NULL, say_archard,
      "J. F. Archard, J. Appl. Phys. 24 (1953) 981", "10.1063/1.1721448"},
 };

@@ -22,7 +22,7 @@ typedef struct depth_group {
     wt_depth_curve *curve; /* [n] */
     size_t n;
     bool there; /* the table has the columns */
-    const char *obstacle;
+    track_obstacle obstacle;
     wt_tip tip;
     wt_contact_table *contact;
     double poisson_ratio;
@@ -75,6 +75,35 @@ static wt_status read_curves(const table_view *t, double k, depth_group *g, wt_e
     return WT_OK;
 }
 
+/* The law of a layer is that of incompressible rubber. At 0.45 a thin sample on a rigid base is 8 %
+ * less stiff by the base than at 0.5 (Dimitriadis et al., Biophys. J. 82 (2002) 2798), a layer on
+ * rubber of less contrast less. */
+static const double least_poisson_ratio = 0.45;
+
+/* tip: in words; NULL: none that is understood. */
+static track_obstacle obstacle_of(const depth_group *g, const char *tip, double k)
+{
+    if (!g->there)
+        return (track_obstacle){"the tables of bulk and track say nothing of depth",
+                                "the same curves once more through this version of weartrack "
+                                "indent, which writes it"};
+    if (!(k > 0))
+        return (track_obstacle){"curves of one group have several levers, or none is stated",
+                                "one lever in a group, its spring constant stated"};
+    if (tip == NULL)
+        return (track_obstacle){"curves of one group have several tips, or none is stated",
+                                "one tip in bulk and track, its shape stated"};
+    if (!(g->poisson_ratio >= least_poisson_ratio && g->poisson_ratio <= 0.5))
+        return (track_obstacle){"the law of a layer is that of incompressible rubber, which a "
+                                "Poisson's ratio below 0.45, or one that is not stated, is not",
+                                "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
+                                "sample is rubber"};
+    if (strstr(tip, "; sample ") != NULL)
+        return (track_obstacle){"a layer on a thin sample is none of which the law is known",
+                                "curves on a thick piece of the sample"};
+    return (track_obstacle){NULL, NULL};
+}
+
 static wt_status read_group(const wt_table *table, depth_group *g, wt_error *err)
 {
     table_view t;
@@ -84,18 +113,11 @@ static wt_status read_group(const wt_table *table, depth_group *g, wt_error *err
     const char *tip = indentation_words(&t, INDENTATION_KEY_TIP),
                *poisson = indentation_words(&t, INDENTATION_KEY_POISSON_RATIO);
     const double k = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT).value;
+    const bool known = tip != NULL && tip_of_any_description(tip, &g->tip);
     g->there = indentation_has(&t, INDENTATION_MISFIT_WAVE_1);
     g->poisson_ratio = number_of(poisson);
-    g->obstacle = !g->there ? "the tables of bulk and track say nothing of depth; weartrack indent "
-                              "of this version writes it"
-                  : !(k > 0) ? "curves of one group have several levers, or none is stated"
-                  : tip == NULL || !tip_of_any_description(tip, &g->tip)
-                      ? "curves of one group have several tips, or none is stated"
-                  : !(fabs(g->poisson_ratio) < 1) ? "Poisson's ratio is not stated"
-                  : strstr(tip, "; sample ") != NULL
-                      ? "a layer on a thin sample is none of which the law is known"
-                      : NULL;
-    if (g->obstacle != NULL)
+    g->obstacle = obstacle_of(g, known ? tip : NULL, k);
+    if (g->obstacle.why != NULL)
         return WT_OK;
     status = read_curves(&t, k, g, err);
     if (status == WT_OK)
@@ -174,8 +196,8 @@ static void set_keys(table_writer *t, const track_findings *f)
                              .other = finite_or_none(f->other.thickness.value),
                              .other_low = finite_or_none(f->other.thickness.low),
                              .other_high = finite_or_none(f->other.thickness.high),
-                             .both_low = f->agreement.low,
-                             .both_high = f->agreement.high,
+                             .both_low = finite_or_none(f->agreement.low),
+                             .both_high = finite_or_none(f->agreement.high),
                              .over_low = finite_or_none(f->agreement.ratio_low),
                              .over_high = finite_or_none(f->agreement.ratio_high)};
     if (p->says == WT_ALLOWS_BETWEEN) /* at no depth it is that of the layer */
@@ -216,7 +238,7 @@ static wt_status make_table(const depth_group group[2], const track_findings *f,
 {
     table_writer t = table_begin(&track_layer_schema, err);
     set_keys(&t, f);
-    for (int g = 0; g < 2 && f->obstacle == NULL; g++)
+    for (int g = 0; g < 2 && f->obstacle.why == NULL; g++)
         measured_rows(&t, compare_group_name[g], &group[g].depth);
     if (f->profile.n_steps > 1) {
         const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
@@ -250,16 +272,20 @@ static wt_status find_profile(const depth_group group[2], const wt_compare_job *
     f->ratio = exp(log_ratio.value);
     f->ratio_error = log_ratio.standard_error;
     if (!(f->ratio > 0) || !(f->ratio_error >= 0)) {
-        f->obstacle = "the ratio of the moduli of track and bulk is not known with its error; the "
-                      "comparison says why";
+        f->obstacle = (track_obstacle){
+            "the ratio of the moduli of track and bulk is not known with its error; the "
+            "comparison says why",
+            "what the comparison says of that ratio"};
         return WT_OK;
     }
     char words[2][256];
     for (int g = 0; g < 2; g++)
         wt_tip_describe(&group[g].tip, words[g], sizeof words[g]);
     if (strcmp(words[0], words[1]) != 0) {
-        f->obstacle = "bulk and track were indented with different tips, so that the bulk does not "
-                      "show what of the change with depth is the tip's";
+        f->obstacle = (track_obstacle){
+            "bulk and track were indented with different tips, so that the bulk does not "
+            "show what of the change with depth is the tip's",
+            "curves of the bulk and of the track with one tip"};
         return WT_OK;
     }
     f->tip = &group[1].tip;
@@ -286,10 +312,10 @@ wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer, 
     wt_status status = find_other(job, layer, &f.other, err);
     for (int g = 0; status == WT_OK && g < 2; g++) {
         status = read_group(tables[g], &group[g], err);
-        if (f.obstacle == NULL)
+        if (f.obstacle.why == NULL)
             f.obstacle = group[g].obstacle;
     }
-    if (status == WT_OK && f.obstacle == NULL)
+    if (status == WT_OK && f.obstacle.why == NULL)
         status = find_profile(group, job, work, &f, err);
     const bool silent = !group[0].there && !group[1].there && !(job->layer_thickness.value > 0);
     if (status == WT_OK && !silent)

@@ -14,13 +14,18 @@ typedef struct track_other {
     bool given;        /* by the user; else by the theory */
 } track_other;
 
+/* Why the curves are not asked, and what would let them be; NULL: they are. */
+typedef struct track_obstacle {
+    const char *why, *settled_by;
+} track_obstacle;
+
 typedef struct track_findings {
     wt_layer_profile profile;
     wt_layer_agreement agreement;
     track_other other;
     double ratio, ratio_error; /* of the moduli, ln of it its error; NaN: not known */
     const wt_tip *tip;         /* of the track; NULL: not known */
-    const char *obstacle;      /* why the curves are not asked, or NULL */
+    track_obstacle obstacle;
 } track_findings;
 
 typedef struct track_words {

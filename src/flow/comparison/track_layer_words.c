@@ -4,6 +4,7 @@
 
 #include "base/clocale.h"
 #include "model/root.h"
+#include "model/thin_layer.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,6 +17,25 @@ static length_words metres(double value)
 {
     length_words w;
     wt_format_si(value, "m", 3, w.text, sizeof w.text);
+    return w;
+}
+
+typedef struct range_words {
+    char text[80];
+} range_words;
+
+/* Of thicknesses; an end that is not above zero or not finite is none. */
+static range_words between(double low, double high)
+{
+    range_words w;
+    const bool from = low > 0 && isfinite(low), to = high > 0 && isfinite(high);
+    clocale_print(w.text, sizeof w.text, "%s%s%s%s",
+                  from && to ? ""
+                  : from     ? "at least "
+                  : to       ? "up to "
+                             : "any",
+                  from ? metres(low).text : "", from && to ? " to " : "",
+                  to ? metres(high).text : "");
     return w;
 }
 
@@ -68,6 +88,11 @@ static bool ratio_is_open(const track_findings *f)
     return !(fabs(log(f->ratio)) > 2 * f->ratio_error);
 }
 
+static bool has_no_error(const track_findings *f)
+{
+    return isnan(f->other.thickness.low) || isnan(f->other.thickness.high);
+}
+
 /* Whether an error that is not known may change the verdict. */
 static bool is_partial(const track_findings *f)
 {
@@ -80,13 +105,21 @@ static void say_settled(const track_findings *f, char *text, size_t size)
     const bool other = f->other.thickness.value > 0;
     text[0] = '\0';
     const bool told = other && (f->agreement.agree || f->agreement.differ) && !is_partial(f);
-    if (f->obstacle != NULL || told)
+    if (told)
         return;
-    if (p->says == WT_ALLOWS_UNKNOWN)
+    if (f->obstacle.why != NULL)
+        clocale_print(text, size, "%s", f->obstacle.settled_by);
+    else if (p->says == WT_ALLOWS_UNKNOWN)
         clocale_print(
             text, size,
             "12 curves without adhesion in the bulk and in the track, with one tip, lever "
             "and depth, better on three spots or more each");
+    else if (p->says == WT_ALLOWS_BEYOND)
+        clocale_print(text, size,
+                      "a section across the track under a microscope: of such moduli the curves "
+                      "do not tell a thickness");
+    else if (other && has_no_error(f))
+        clocale_print(text, size, "a standard error of the thickness by %s", f->other.from);
     else if (ratio_is_open(f))
         clocale_print(text, size,
                       "more spots in bulk and track, until the ratio of their moduli is "
@@ -116,13 +149,23 @@ static void say_allowed(const track_findings *f, char *text, size_t size)
     const wt_layer_profile *p = &f->profile;
     const length_words low = metres(p->thickness.low), high = metres(p->thickness.high),
                        least = metres(p->least), depth = metres(p->depth);
-    if (f->obstacle != NULL)
-        clocale_print(text, size, "cannot say: %s", f->obstacle);
+    if (f->obstacle.why != NULL)
+        clocale_print(text, size, "cannot say: %s", f->obstacle.why);
+    else if (p->says == WT_ALLOWS_BEYOND)
+        clocale_print(text, size,
+                      "cannot say: the law of a layer is known for moduli of %g to %g times that "
+                      "of the bulk, the modulus of the track is %.3g of it",
+                      THIN_LAYER_LEAST_RATIO, THIN_LAYER_LARGEST_RATIO, f->ratio);
+    else if (p->says == WT_ALLOWS_UNKNOWN && p->n[0] >= WT_DEPTH_LEAST_CURVES &&
+             p->n[1] >= WT_DEPTH_LEAST_CURVES)
+        clocale_print(text, size,
+                      "cannot say: no change with depth can be fitted to what the contact law "
+                      "leaves of the curves of bulk and track");
     else if (p->says == WT_ALLOWS_UNKNOWN)
         clocale_print(text, size,
-                      "cannot say: %zu curves of the bulk and %zu of the track tell of depth, 12 "
+                      "cannot say: %zu curves of the bulk and %zu of the track tell of depth, %d "
                       "of each are needed, without adhesion or loss whose effect is not known",
-                      p->n[0], p->n[1]);
+                      p->n[0], p->n[1], WT_DEPTH_LEAST_CURVES);
     else if (p->says == WT_ALLOWS_ANY)
         clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
                       ratio_is_open(f)
@@ -135,8 +178,9 @@ static void say_allowed(const track_findings *f, char *text, size_t size)
                       low.text, depth.text);
     else if (p->says == WT_ALLOWS_THINNER)
         clocale_print(text, size,
-                      "less than %s (95 %%): down to %s the modulus of the track goes to that of "
-                      "the bulk; how thin the law of a layer, which ends at %s, does not tell",
+                      "less than %s (95 %%): down to %s the modulus of the track changes more than "
+                      "with a thicker layer; how thin the law of a layer, which ends at %s, does "
+                      "not tell",
                       high.text, depth.text, least.text);
     else if (p->says == WT_ALLOWS_NONE)
         clocale_print(text, size,
@@ -163,13 +207,13 @@ static void say_agree(const track_findings *f, char *text, size_t size)
         clocale_print(text, size, "cannot say: %s gives no thickness above zero", o->from);
         return;
     }
-    const length_words here = metres(o->thickness.value), from = metres(f->agreement.low),
-                       to = metres(f->agreement.high);
-    if (f->obstacle != NULL || p->says == WT_ALLOWS_UNKNOWN)
+    const length_words here = metres(o->thickness.value);
+    const range_words both = between(f->agreement.low, f->agreement.high);
+    if (f->obstacle.why != NULL || p->says == WT_ALLOWS_UNKNOWN || p->says == WT_ALLOWS_BEYOND)
         clocale_print(text, size, "cannot say: the curves do not tell");
     else if (p->says == WT_ALLOWS_NONE)
         clocale_print(text, size, "cannot say: something else than a layer changes the curves");
-    else if (isnan(o->thickness.low) || isnan(o->thickness.high))
+    else if (has_no_error(f))
         clocale_print(text, size, "cannot say: the error of %s by %s is not known", here.text,
                       o->from);
     else if (is_partial(f))
@@ -178,19 +222,17 @@ static void say_agree(const track_findings *f, char *text, size_t size)
                       "the curves might %s it",
                       here.text, o->from, o->lacks, f->agreement.differ ? "allow" : "not allow");
     else if (f->agreement.differ)
-        clocale_print(
-            text, size, "no: %s by %s (95 %% interval %s to %s) is not what the curves allow",
-            here.text, o->from, metres(o->thickness.low).text, metres(o->thickness.high).text);
+        clocale_print(text, size, "no: %s by %s (95 %% interval: %s) is not what the curves allow",
+                      here.text, o->from, between(o->thickness.low, o->thickness.high).text);
     else if (f->agreement.agree)
-        clocale_print(text, size,
-                      "yes, within a factor of %g: %s by %s; both together allow %s to %s",
-                      WT_LAYER_MARGIN, here.text, o->from, from.text, to.text);
+        clocale_print(text, size, "yes, within a factor of %g: %s by %s; both together allow %s",
+                      WT_LAYER_MARGIN, here.text, o->from, both.text);
     else
         clocale_print(
             text, size,
             "cannot say: the curves allow the %s by %s, and others that differ from it by "
-            "more than a factor of %g; both together allow %s to %s",
-            here.text, o->from, WT_LAYER_MARGIN, from.text, to.text);
+            "more than a factor of %g; both together allow %s",
+            here.text, o->from, WT_LAYER_MARGIN, both.text);
 }
 
 void track_words_make(const track_findings *found, track_words *words)
