@@ -684,7 +684,7 @@ typedef struct wt_compare_job {
     bool rates;               /* default true: table of the modulus against rate */
     bool groups_only;         /* no comparison of the two groups */
     wt_estimate
-        layer_thickness; /* known otherwise [m]; NaN (default): that of the theory, if any */
+        expected_thickness; /* known otherwise [m]; NaN (default): that of the theory, if any */
 } wt_compare_job;
 WT_API wt_compare_job wt_compare_job_defaults(void);
 WT_API const wt_params *wt_compare_job_params(void);

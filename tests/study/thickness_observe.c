@@ -150,8 +150,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
              s->other_error * other / nanometre);
     const char *compared = trial_file(t, "layer.tsv");
     const char *const arguments[] = {
-        "compare", made[0], made[1],  "--layer-thickness", told, "--indentation-temperature",
-        "23degC",  "-o",    compared, "--no-provenance",   NULL};
+        "compare", made[0], made[1],  "--expected-thickness", told, "--indentation-temperature",
+        "23degC",  "-o",    compared, "--no-provenance",      NULL};
     if (trial_run(t, arguments))
         read_layer(compared, s, t);
 }

@@ -39,7 +39,7 @@ static wt_table *track_layer(const fixture_change *of_track, double other, doubl
     wt_table *const track = fixture_copy(given, of_track);
     job.bulk = wt_result_find(fixture_case, "indentation/bulk");
     job.track = track;
-    job.layer_thickness = (wt_estimate){other, error, 0, "m"};
+    job.expected_thickness = (wt_estimate){other, error, 0, "m"};
     if (wt_track_layer_make(&job, NULL, &work, &made, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_table_free(track);

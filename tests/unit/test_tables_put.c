@@ -507,7 +507,7 @@ static void test_layer_by_curves(void **state)
     wt_table *const track = fixture_copy(wt_result_find(result, "indentation/track"), &layered);
     job.bulk = wt_result_find(result, "indentation/bulk");
     job.track = track;
-    job.layer_thickness = (wt_estimate){3e-7, 2e-8, 0, "m"};
+    job.expected_thickness = (wt_estimate){3e-7, 2e-8, 0, "m"};
     assert_int_equal(wt_track_layer_make(&job, NULL, &common, &table, NULL), WT_OK);
     see(table);
     wt_table_free(table);

@@ -234,7 +234,7 @@ wt_compare_job wt_compare_job_defaults(void)
                             .track_temperature = unset,
                             .temperature_slope = {(double)NAN, (double)NAN, 0, "1/K"},
                             .margin = 0.2,
-                            .layer_thickness = {(double)NAN, (double)NAN, 0, "m"},
+                            .expected_thickness = {(double)NAN, (double)NAN, 0, "m"},
                             .rates = true};
 }
 
@@ -264,8 +264,8 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
      .help = "each place of a map is a spot of its own; else a map whose spots are not named is "
              "one, for its places are near to each other"},
-    {PARAM("layer-thickness", wt_compare_job, layer_thickness, WT_Q_LENGTH, ABOVE(0)), .value = "D",
-     .unset = "that of the theory, where the case has a layer",
+    {PARAM("expected-thickness", wt_compare_job, expected_thickness, WT_Q_LENGTH, ABOVE(0)),
+     .value = "D", .unset = "that of the theory, where the case has a layer",
      .help = "thickness of the layer known otherwise, such as \"3um +- 20%\" of a section, for the "
              "comparison with what the curves allow"},
     EQUIVALENCE_MARGIN(wt_compare_job),

@@ -140,8 +140,8 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
     const double none = (double)NAN;
     finding_tables tables = {0};
     *to = (track_other){.thickness = {none, none, none, none}, .from = ""};
-    if (job->layer_thickness.value > 0) {
-        const wt_estimate *given = &job->layer_thickness;
+    if (job->expected_thickness.value > 0) {
+        const wt_estimate *given = &job->expected_thickness;
         const double reach = NORMAL_95 * given->standard_error;
         to->from = "what is given";
         to->given = true;
@@ -317,7 +317,7 @@ wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer, 
     }
     if (status == WT_OK && f.obstacle.why == NULL)
         status = find_profile(group, job, work, &f, err);
-    const bool silent = !group[0].there && !group[1].there && !(job->layer_thickness.value > 0);
+    const bool silent = !group[0].there && !group[1].there && !(job->expected_thickness.value > 0);
     if (status == WT_OK && !silent)
         status = make_table(group, &f, table, err);
     group_clear(&group[0]);
