@@ -104,10 +104,16 @@ bool recorded_is_joined(const recorded *r, double until)
     return length_of(count_until(r, until)) > 1;
 }
 
+size_t recorded_means(const recorded *r, double until)
+{
+    const size_t n = count_until(r, until);
+    return n > 0 ? n / length_of(n) : 0;
+}
+
 wt_status recorded_series(const recorded *r, double until, course_series *s, wt_error *err)
 {
     const size_t cycles = count_until(r, until), length = cycles > 0 ? length_of(cycles) : 1;
-    const wt_status status = course_series_new(cycles / length, s, err);
+    const wt_status status = course_series_new(recorded_means(r, until), s, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < s->n; i++) {

@@ -24,6 +24,8 @@ void recorded_free(recorded *runs, size_t n);
 /* The cycles up to a time, as means of equal numbers of them. */
 wt_status recorded_series(const recorded *r, double until, course_series *s,
                           wt_error *err) WT_NODISCARD;
+/* How many means those are. */
+size_t recorded_means(const recorded *r, double until);
 /* Whether such means hold more than one cycle. */
 bool recorded_is_joined(const recorded *r, double until);
 
