@@ -1,11 +1,15 @@
-/* What several running-ins say together, of runs that are made by hand.
+/* What several running-ins say together, of runs that are made by hand, and what is told of the
+ * bundled one as its case and its record are changed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
 #include "base/normal.h"
 #include "flow/validation/running_in.h"
+#include "weartrack/flow.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cells.h"
@@ -230,6 +234,150 @@ static void test_short_change(void **state)
     course_run_clear(&r);
 }
 
+/* ---- the bundled case ------------------------------------------------------------------------ */
+
+static const char case_path[] = "test_flow_running_in.xml", csv_path[] = "test_flow_running_in.csv";
+static wt_result *result;
+static const wt_table *runs;
+
+static char *text_of(const char *path)
+{
+    FILE *const in = fopen(path, "rb");
+    assert_non_null(in);
+    char *const text = calloc(1, 1 << 16);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 16) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+static void change_case(const char *from, const char *to)
+{
+    char *const text = text_of(WT_SOURCE_DIR "/fixtures/growth/case.xml");
+    const char *const pairs[][2] = {{from, to}, {"record.csv", csv_path}};
+    FILE *const out = fopen(case_path, "wb");
+    assert_non_null(out);
+    const char *rest = text;
+    for (size_t i = 0; i < 2; i++) {
+        const char *const place = strstr(rest, pairs[i][0]);
+        assert_non_null(place);
+        fprintf(out, "%.*s%s", (int)(place - rest), rest, pairs[i][1]);
+        rest = place + strlen(pairs[i][0]);
+    }
+    fputs(rest, out);
+    fclose(out);
+    free(text);
+}
+
+/* The record behind `rest` rows at rest, `still` of its own at rest, without friction in `blank`.
+ */
+static void change_record(size_t rest, size_t still, size_t blank)
+{
+    static const double each = 10.4712688; /* [s] */
+    char *const text = text_of(WT_SOURCE_DIR "/fixtures/growth/record.csv");
+    FILE *const out = fopen(csv_path, "wb");
+    assert_non_null(out);
+    char *line = strtok(text, "\n");
+    fprintf(out, "%s\n", line);
+    for (size_t i = 0; i < rest; i++)
+        fprintf(out, "%.9g,0,0,0.001\n", each * (double)i);
+    for (size_t i = 0; (line = strtok(NULL, "\n")) != NULL; i++) {
+        double time, laps, velocity, friction;
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf", &time, &laps, &velocity, &friction), 4);
+        time += each * (double)rest;
+        if (i < still)
+            fprintf(out, "%.9g,0,0,0.001\n", time);
+        else if (i < still + blank)
+            fprintf(out, "%.9g,%g,%g,\n", time, laps, velocity);
+        else
+            fprintf(out, "%.9g,%g,%g,%.9g\n", time, laps, velocity, friction);
+    }
+    fclose(out);
+    free(text);
+}
+
+static void run_case(size_t draws)
+{
+    wt_case *read = NULL;
+    wt_run_options few = wt_run_defaults();
+    size_t failed = 0;
+    wt_error err = WT_ERROR_INIT;
+    few.replicates = draws;
+    if (wt_case_read(case_path, &read, &err) != WT_OK ||
+        wt_case_ask(read, "validation_running_in wear", &err) != WT_OK ||
+        wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    wt_case_free(read);
+    runs = wt_result_find(result, "validation_running_in");
+    assert_non_null(runs);
+}
+
+static void case_end(void)
+{
+    wt_result_free(result);
+    (void)remove(case_path);
+    (void)remove(csv_path);
+}
+
+static const char energy[] = "<critical-energy>2e+10J/m^3 +- 5%</critical-energy>";
+
+/* Without draws no interval and no agreement is stated, and no error is 0. */
+static void test_without_draws(void **state)
+{
+    static const char *const unknown[] = {"settled_measured_standard_error",
+                                          "settled_measured_low",
+                                          "settled_measured_high",
+                                          "time_ratio_standard_error",
+                                          "time_ratio_low",
+                                          "time_ratio_high",
+                                          "change_predicted_standard_error",
+                                          "change_ratio_standard_error",
+                                          "change_ratio_low",
+                                          "change_ratio_high"};
+    (void)state;
+    change_case(energy, energy);
+    change_record(0, 0, 0);
+    run_case(0);
+    check(wt_table_key(runs, "verdict"), "cannot say: the prediction has no errors");
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++)
+        assert_true(isnan(number_cell(runs, 0, unknown[i])));
+    assert_true(number_cell(runs, 0, "time_ratio") > 0);
+    assert_null(wt_table_key(runs, "wear_agrees"));
+    assert_null(wt_table_key(runs, "time_ratio_low"));
+    assert_null(wt_table_key(runs, "specific_wear_rate_needed_high"));
+    assert_non_null(wt_table_key(runs, "specific_wear_rate_needed"));
+    case_end();
+}
+
+/* What the case says where the record does not; and what the wear rate agrees with. */
+static void test_taken_for_granted(void **state)
+{
+    (void)state;
+    change_case(energy, energy);
+    change_record(0, 0, 0);
+    run_case(20);
+    const char *const remarks = wt_table_key(runs, "remarks");
+    check(remarks, "the temperature of every step: that of the case");
+    check(remarks, "the nominal pressure of every step: that of the case");
+    check_not(remarks, "the velocity of every step");
+    check(wt_table_key(runs, "wear_agrees"), "agrees within the errors");
+    case_end();
+}
+
+/* Of the activated closure no k is asked for, as U_c belongs to it. */
+static void test_activated(void **state)
+{
+    (void)state;
+    change_case(energy, "<closure>activated</closure><barrier>1.5e-19J +- 1%</barrier>"
+                        "<activation-volume>1e-27m^3</activation-volume>");
+    change_record(0, 0, 0);
+    run_case(20);
+    assert_null(wt_table_key(runs, "specific_wear_rate_needed"));
+    assert_null(wt_table_key(runs, "wear_agrees"));
+    assert_true(number_cell(runs, 0, "time_ratio") > 0);
+    case_end();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,6 +385,8 @@ int main(void)
         cmocka_unit_test(test_open_second),   cmocka_unit_test(test_open_agrees),
         cmocka_unit_test(test_bare),          cmocka_unit_test(test_share_of_variance),
         cmocka_unit_test(test_change_untold), cmocka_unit_test(test_short_change),
+        cmocka_unit_test(test_without_draws), cmocka_unit_test(test_taken_for_granted),
+        cmocka_unit_test(test_activated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
