@@ -378,6 +378,28 @@ static void test_activated(void **state)
     case_end();
 }
 
+/* Samples at rest before sliding are no friction, whether laps run on under them or not; of cycles
+ * that have no friction the count of the laps tells that they slid. */
+static void test_before_the_first_friction(void **state)
+{
+    static const size_t changed[][3] = {{5, 0, 0}, {40, 0, 0}, {0, 5, 0}, {0, 0, 20}};
+    (void)state;
+    for (size_t i = 0; i < sizeof changed / sizeof *changed; i++) {
+        change_case(energy, energy);
+        change_record(changed[i][0], changed[i][1], changed[i][2]);
+        run_case(40);
+        check(wt_table_key(runs, "verdict"), "explains: ");
+        const double ratio = number_cell(runs, 0, "time_ratio");
+        assert_true(ratio > 0.8 && ratio < 1.1);
+        case_end();
+    }
+    change_case(energy, energy);
+    change_record(0, 0, 60);
+    run_case(40);
+    check(wt_table_key(runs, "verdict"), "cannot say: ");
+    case_end();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -386,7 +408,7 @@ int main(void)
         cmocka_unit_test(test_bare),          cmocka_unit_test(test_share_of_variance),
         cmocka_unit_test(test_change_untold), cmocka_unit_test(test_short_change),
         cmocka_unit_test(test_without_draws), cmocka_unit_test(test_taken_for_granted),
-        cmocka_unit_test(test_activated),
+        cmocka_unit_test(test_activated),     cmocka_unit_test(test_before_the_first_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

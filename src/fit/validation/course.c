@@ -59,7 +59,7 @@ wt_status course_series_new(size_t n, course_series *s, wt_error *err)
 
 void course_series_place(course_series *s)
 {
-    double begin = 0;
+    double begin = s->begin;
     for (size_t i = 0; i < s->n; i++) {
         const double step = (s->end[i] - begin) / COURSE_WITHIN;
         for (int k = 0; k < COURSE_WITHIN; k++)
