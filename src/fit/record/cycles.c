@@ -13,6 +13,9 @@
 static const double most_spans = 1000;
 /* They hold the samples of all of the record but its longest pauses. */
 static const double pauses = 0.01;
+/* Of the fastest sample of a cycle: below, the others stand still but for the noise of the speed.
+ */
+static const double at_rest = 0.01;
 
 /* ---- friction of every sample ---------------------------------------------------------------- */
 
@@ -170,6 +173,25 @@ static wt_status choose(const wt_record *record, wt_cycle_kind wanted, double ra
     return status;
 }
 
+/* Before sliding begins and after it ends there is no friction of sliding: a cycle is what slides
+ * in it. Strokes come to rest where they turn. */
+static cycle_span sliding_part(const wt_record *record, wt_cycle_kind kind, cycle_span s)
+{
+    const double *const x = record->channel[WT_RECORD_VELOCITY] != NULL
+                                ? record->channel[WT_RECORD_VELOCITY]
+                                : record->channel[WT_RECORD_ROTATION];
+    double fastest = 0;
+    if (x == NULL || kind == WT_CYCLE_STROKE)
+        return s;
+    for (size_t i = s.first; i < s.end; i++)
+        fastest = fmax(fastest, fabs(x[i]));
+    while (s.first + 1 < s.end && fabs(x[s.first]) < at_rest * fastest)
+        s.first++;
+    while (s.first + 1 < s.end && fabs(x[s.end - 1]) < at_rest * fastest)
+        s.end--;
+    return s;
+}
+
 /* ---- means ----------------------------------------------------------------------------------- */
 
 static double mean_of(const double *x, cycle_span s)
@@ -320,8 +342,9 @@ static void fill(const wt_record *record, double radius, double load, const doub
 {
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
-        set_friction(record, friction, cycles->kind, spans->span[k], c);
-        set_cycle(record, radius, load, spans->span[k], cycles->kind, c);
+        const cycle_span s = sliding_part(record, cycles->kind, spans->span[k]);
+        set_friction(record, friction, cycles->kind, s, c);
+        set_cycle(record, radius, load, s, cycles->kind, c);
         if (isnan(c->coefficient))
             continue;
         cycles->has_zero = cycles->has_zero || !isnan(c->zero);

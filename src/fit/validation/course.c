@@ -108,7 +108,7 @@ static void fill_column(const course_series *s, const course_sums *m, double hei
                         double log_factor, double *column)
 {
     const double faster = exp(-log_factor);
-    double begin = 0, before = 0;
+    double begin = faster * s->begin, before = course_sum(m, begin);
     for (size_t i = 0; i < s->n; i++) {
         const double end = faster * s->end[i], sum = course_sum(m, end);
         column[i] = (sum - before) / ((end - begin) * height);

@@ -24,6 +24,7 @@ double course_settled(const course *c, double share);
 /* Means over equal numbers of cycles. */
 typedef struct course_series {
     size_t n;
+    double begin;     /* of the first; 0 unless what was before it is not known */
     double *end;      /* [n] from the start on; each begins where the one before ends */
     double *friction; /* [n] */
 } course_series;

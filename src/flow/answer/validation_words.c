@@ -36,22 +36,20 @@ static const double mm3_per_n_m = 1e9;
 
 void tell_wear_needed(telling *t, const table_view *v)
 {
-    const double wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value;
+    const double wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value,
+                 low = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
+                 high = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value;
     if (isnan(wear))
         return;
-    tell(t,
-         "the running-in time asks for k = %.3g mm^3/(N m) (95 %%: %.3g to %.3g) with U_c = %s "
-         "(95 %%: %s to %s), the thickness as predicted",
-         mm3_per_n_m * wear,
-         mm3_per_n_m * validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
-         mm3_per_n_m * validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value,
-         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY).value, "J/m^3")
-             .text,
-         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
-                  "J/m^3")
-             .text,
-         words_of(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value,
-                  "J/m^3")
+    tell(t, "the running-in time asks for k = %.3g mm^3/(N m)", mm3_per_n_m * wear);
+    if (isnan(low) || isnan(high))
+        tell(t, " (error not known)");
+    else
+        tell(t, " (95 %%: %.3g to %.3g)", mm3_per_n_m * low, mm3_per_n_m * high);
+    tell(t, " with U_c = %s, the thickness as predicted",
+         words_between(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY),
+                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
+                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value)
              .text);
 }
 

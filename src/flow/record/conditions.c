@@ -78,12 +78,21 @@ static size_t nearer(const wt_cycle *cycles, size_t i, size_t n, condition which
     return i;
 }
 
+static bool rests(const wt_cycle *c)
+{
+    return c->velocity == 0 || (isnan(c->velocity) && c->rotation == 0);
+}
+
 size_t conditions_step(const wt_cycle *cycles, size_t n)
 {
     spread before[CONDITIONS] = {{0}};
     size_t end = 1;
     while (end < n && cycles[end].step == cycles[0].step)
         end++;
+    /* what stands still before sliding begins is a step, however short */
+    for (size_t still = 0; still < end && rests(&cycles[still]); still++)
+        if (still + 1 < end && !rests(&cycles[still + 1]))
+            return still + 1;
     for (size_t i = 0; i < end; i++) {
         const size_t next = i + LASTING < end ? LASTING : end - i;
         for (condition c = VELOCITY; c < CONDITIONS && i >= FEWEST && next >= FEWEST; c++) {

@@ -68,18 +68,25 @@ static void join_flicker(measured *m)
         }
 }
 
-void measured_remark(measured *m, const char *words)
+static void add_remark(char *remarks, size_t size, const char *words)
 {
-    const size_t used = strlen(m->remarks);
-    snprintf(m->remarks + used, sizeof m->remarks - used, "%s%s", used > 0 ? "; " : "", words);
+    const size_t used = strlen(remarks);
+    snprintf(remarks + used, size - used, "%s%s", used > 0 ? "; " : "", words);
 }
 
-static void say_remarks(measured *m, const table_view *record)
+void measured_remark(measured *m, const char *words)
+{
+    add_remark(m->remarks, sizeof m->remarks, words);
+}
+
+void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size)
 {
     bool velocity = false, temperature = false, pressure = false;
     double lightest = (double)INFINITY, heaviest = 0;
     for (size_t i = 0; i < record->n_rows; i++) {
         const double load = record_get(record, i, RECORD_NORMAL_FORCE);
+        if (first_steps && record_get(record, i, RECORD_STEP) != 1)
+            continue;
         velocity |= isnan(record_get(record, i, RECORD_VELOCITY));
         temperature |= isnan(record_get(record, i, RECORD_TEMPERATURE));
         pressure |= isnan(record_get(record, i, RECORD_PRESSURE));
@@ -87,17 +94,19 @@ static void say_remarks(measured *m, const table_view *record)
         heaviest = fmax(heaviest, load);
     }
     if (velocity)
-        measured_remark(m, "the record does not say the velocity of every step: that of the case");
+        add_remark(remarks, size,
+                   "the record does not say the velocity of every step: that of the case");
     if (temperature)
-        measured_remark(m,
-                        "the record does not say the temperature of every step: that of the case");
+        add_remark(remarks, size,
+                   "the record does not say the temperature of every step: that of the case");
     if (pressure)
-        measured_remark(m,
-                        "the record does not say the nominal pressure of every step: that of the "
-                        "case");
+        add_remark(remarks, size,
+                   "the record does not say the nominal pressure of every step: that of the "
+                   "case");
     if (pressure && heaviest > same_load * lightest)
-        measured_remark(m, "the load changes between the steps, and the pressure with it: what the "
-                           "steps of another load say is not of the theory alone");
+        add_remark(remarks, size,
+                   "the load changes between the steps, and the pressure with it: what the "
+                   "steps of another load say is not of the theory alone");
 }
 
 measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding)
@@ -140,7 +149,7 @@ wt_status measured_make(const table_view *record, const wt_sliding *sliding, mea
         *s = measured_step_of(record, i, sliding);
         m->n += is_used(s);
     }
-    say_remarks(m, record);
+    measured_taken(record, false, m->remarks, sizeof m->remarks);
     join_flicker(m);
     qsort(m->step, m->n_all, sizeof *m->step, by_condition);
     if (m->n == 0) {

@@ -27,6 +27,9 @@ measured_step measured_step_of(const table_view *record, size_t row, const wt_sl
 /* Its pressure and temperature, with the errors of the case. */
 void measured_conditions(const measured_step *step, wt_sliding *sliding);
 
+/* What the record does not say and the case does, in words; of the first steps alone, or of all. */
+void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size);
+
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
                         wt_error *err) WT_NODISCARD;
 /* One more in the key remarks. */

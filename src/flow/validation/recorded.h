@@ -6,10 +6,12 @@
 #include "fit/validation/course.h"
 #include "flow/validation/measured.h"
 
-/* The first step of a record, of a surface without a layer: those that follow begin with one. */
+/* The first step of a record in which anything slides, of a surface without a layer: those that
+ * follow begin with one. */
 typedef struct recorded {
     measured_step at;
-    size_t n;
+    size_t n, step;   /* of its file, from 1 on */
+    double begin;     /* of the first that has a friction, from the start of sliding on [s] */
     double *end;      /* [n] of the cycles, from the start of the step on [s] */
     double *friction; /* [n] */
     const char *note; /* why it is not compared, or "" */
@@ -24,6 +26,8 @@ void recorded_free(recorded *runs, size_t n);
 /* The cycles up to a time, as means of equal numbers of them. */
 wt_status recorded_series(const recorded *r, double until, course_series *s,
                           wt_error *err) WT_NODISCARD;
+/* How many means those are. */
+size_t recorded_means(const recorded *r, double until);
 /* Whether such means hold more than one cycle. */
 bool recorded_is_joined(const recorded *r, double until);
 

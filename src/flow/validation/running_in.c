@@ -32,7 +32,7 @@ typedef struct running_in_task {
     growth *growth;  /* [n] those of a condition of their own */
     bool *own;       /* [n] whether there is one */
     size_t n, n_compared;
-    char remarks[320];
+    char remarks[640]; /* what was taken for granted of the record */
 } running_in_task;
 
 /* ---- predictions and fits -------------------------------------------------------------------- */
@@ -95,6 +95,8 @@ static wt_status begin(running_in_task *task, wt_error *err)
     if (status == WT_OK)
         status = table_bind(task->job->cycles, &record_cycles_schema, "", &cycles, err);
     if (status == WT_OK)
+        measured_taken(&record, true, task->remarks, sizeof task->remarks);
+    if (status == WT_OK)
         status = recorded_read(&record, &cycles, task->job->sliding, &task->rec, &task->n, err);
     if (status != WT_OK)
         return status;
@@ -128,12 +130,17 @@ TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
           wt_interval settled, time_ratio, change_ratio; wt_estimate predicted, change;
           const char *note, *file;)
 
+/* Standard error of a number of a run; NaN without draws, which an interval must hold. */
+static double error_of(const course_run *run, run_number number)
+{
+    return hypot(sqrt(course_run_own(run, number)), course_run_spread(run, number));
+}
+
 /* exp of a number of a run; an end that the record does not tell is NaN. */
 static wt_interval factor_of(const course_run *run, run_number number)
 {
-    const double spread = course_run_spread(run, number), value = course_run_value(run, 0, number),
-                 error = sqrt(course_run_own(run, number) + (isnan(spread) ? 0 : spread * spread));
-    wt_interval i = validation_factor(value, error, (double)INFINITY);
+    wt_interval i = validation_factor(course_run_value(run, 0, number), error_of(run, number),
+                                      (double)INFINITY);
     if (isnan(run->fit.low))
         i.low = (double)NAN;
     if (isnan(run->fit.high))
@@ -145,10 +152,7 @@ static wt_interval factor_of(const course_run *run, run_number number)
 
 static wt_interval ratio_of_run(const course_run *run)
 {
-    const double spread = course_run_spread(run, RUN_RATIO),
-                 value = course_run_value(run, 0, RUN_RATIO),
-                 error =
-                     sqrt(course_run_own(run, RUN_RATIO) + (isnan(spread) ? 0 : spread * spread)),
+    const double value = course_run_value(run, 0, RUN_RATIO), error = error_of(run, RUN_RATIO),
                  half = agreement_quantile((double)INFINITY) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
@@ -171,8 +175,8 @@ static wt_estimate change_of(const growth *g)
             n++;
         }
     }
-    const double variance = n > 1 ? (squares - sum * sum / n) / (n - 1) : (double)NAN;
-    return (wt_estimate){value, sqrt(fmax(variance, 0)), (double)NAN, NULL};
+    const double variance = n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : (double)NAN;
+    return (wt_estimate){value, sqrt(variance), (double)NAN, NULL};
 }
 
 static void add_run(const course_run *run, const wt_sliding *sliding, table_writer *t)
@@ -203,6 +207,15 @@ static void add_run(const course_run *run, const wt_sliding *sliding, table_writ
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
+/* Where the prediction has no errors the record's alone are no interval of the number. */
+static wt_interval level_of(const run_set *all, run_number number)
+{
+    wt_interval i = run_level_interval(&all->level[number]);
+    if (all->without_errors != NULL)
+        i.standard_error = i.low = i.high = (double)NAN;
+    return i;
+}
+
 static wt_interval exponential_of(wt_interval i)
 {
     const double value = exp(i.value);
@@ -214,6 +227,8 @@ static void set_interval(table_writer *t, validation_running_in_key key, wt_inte
     if (isnan(i.value))
         return;
     validation_running_in_set_value(t, key, i.value, i.standard_error, (double)NAN);
+    if (isnan(i.low) || isnan(i.high))
+        return;
     /* the ends stand behind it, see KEY_ENDS */
     validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, (double)NAN,
                                     (double)NAN);
@@ -226,8 +241,8 @@ static wt_status set_agreement(const running_in_task *task, const run_set *all, 
                                wt_error *err)
 {
     table_view wear = {0};
-    const wt_interval needed = run_level_interval(&all->level[RUN_WEAR]);
-    if (task->job->wear == NULL || isnan(needed.value))
+    const wt_interval needed = level_of(all, RUN_WEAR);
+    if (task->job->wear == NULL || isnan(needed.standard_error))
         return WT_OK;
     const wt_status status = table_bind(task->job->wear, &wear_schema, "", &wear, err);
     if (status != WT_OK)
@@ -259,15 +274,18 @@ static wt_status set_agreement(const running_in_task *task, const run_set *all, 
 static void set_remarks(const running_in_task *task, table_writer *t)
 {
     const double duty = task->job->layer->duty;
+    const char *const words = task->remarks, *const join = words[0] != '\0' ? "; " : "";
     if (duty < 1)
         validation_running_in_set_print(
             t, VALIDATION_RUNNING_IN_KEY_REMARKS,
-            "a place of the rubber is in contact for %.3g of the time, as the case says", duty);
+            "%s%sa place of the rubber is in contact for %.3g of the time, as the case says", words,
+            join, duty);
     else
-        validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_REMARKS,
-                                       "the rubber is in contact all the time, as the case has no "
-                                       "duty below 1: a track that a pin passes once in a lap is "
-                                       "not");
+        validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_REMARKS,
+                                        "%s%sthe rubber is in contact all the time, as the case "
+                                        "has no duty below 1: a track that a pin passes once in a "
+                                        "lap is not",
+                                        words, join);
 }
 
 /* What the prediction of the first run that has one holds. */
@@ -293,16 +311,15 @@ static wt_status set_keys(const running_in_task *task, const run_set *all, const
     if (said->settled_by[0] != '\0')
         validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_SETTLED_BY, said->settled_by);
     set_interval(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO,
-                 exponential_of(run_level_interval(&all->level[RUN_TIME_RATIO])));
-    set_interval(t, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO,
-                 run_level_interval(&all->level[RUN_RATIO]));
+                 exponential_of(level_of(all, RUN_TIME_RATIO)));
+    set_interval(t, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, level_of(all, RUN_RATIO));
+    wt_status status = WT_OK;
     if (task->job->layer->closure == WT_CLOSURE_ENERGY) {
-        set_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR,
-                     exponential_of(run_level_interval(&all->level[RUN_WEAR])));
+        set_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR, exponential_of(level_of(all, RUN_WEAR)));
         set_interval(t, VALIDATION_RUNNING_IN_KEY_ENERGY,
-                     exponential_of(run_level_interval(&all->level[RUN_ENERGY])));
+                     exponential_of(level_of(all, RUN_ENERGY)));
+        status = set_agreement(task, all, t, err);
     }
-    const wt_status status = set_agreement(task, all, t, err);
     validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_RUNS, "%zu", task->n_compared);
     validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES, errors_of(task));
     set_remarks(task, t);

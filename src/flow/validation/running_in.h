@@ -37,6 +37,8 @@ wt_status course_run_fit(course_run *run, double margin, wt_error *err) WT_NODIS
 void course_run_clear(course_run *run);
 /* It has a time that the record tells to both sides. */
 bool course_run_is_closed(const course_run *run);
+/* Whether the record tells this number of it. */
+bool course_run_tells(const course_run *run, run_number number);
 double course_run_value(const course_run *run, size_t k, run_number number);
 /* Variance by the record alone, and what its draws scatter. */
 double course_run_own(const course_run *run, run_number number);

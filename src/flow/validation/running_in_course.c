@@ -40,7 +40,8 @@ static void add_row(const course_run *run, const course_series *s, size_t first,
     const course_fit *const fit = &run->fit;
     const course c = growth_course(run->growth, 0);
     const size_t n = end - first;
-    const double from = first > 0 ? s->end[first - 1] : 0, time = 0.5 * (from + s->end[end - 1]),
+    const double from = first > 0 ? s->end[first - 1] : s->begin,
+                 time = 0.5 * (from + s->end[end - 1]),
                  error = sqrt(fit->scatter * scatter_of_mean(fit->law, n));
     double mean = 0;
     for (size_t i = first; i < end; i++)

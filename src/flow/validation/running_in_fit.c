@@ -59,7 +59,8 @@ static wt_status fit_values(course_run *run, wt_error *err)
     for (int look = 1; status == WT_OK && look < LOOKS; look++) {
         const double factor = run->fit.seen ? exp(run->fit.log_factor) : 1,
                      shorter = lengths_kept * factor * settled;
-        if (!(shorter < 0.5 * until) || !recorded_is_joined(run->rec, until))
+        if (!(shorter < 0.5 * until) || !recorded_is_joined(run->rec, until) ||
+            recorded_means(run->rec, shorter) < COURSE_FEWEST) /* what is fitted stands */
             break;
         until = shorter;
         status = fit_until(run, until, expected, err);
@@ -201,7 +202,7 @@ double course_run_spread(const course_run *run, run_number number)
 
 /* ---- several runs ---------------------------------------------------------------------------- */
 
-static bool tells(const course_run *run, run_number number)
+bool course_run_tells(const course_run *run, run_number number)
 {
     if (number == RUN_PREDICTED) /* of which the record says nothing */
         return false;
@@ -228,7 +229,7 @@ static wt_status arrays_make(const course_run *runs, size_t n, run_number number
         a->common == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
-        if (!tells(&runs[i], number))
+        if (!course_run_tells(&runs[i], number))
             continue;
         a->of[a->n] = &runs[i];
         a->place[a->n] = log10(runs[i].rec->at.velocity);

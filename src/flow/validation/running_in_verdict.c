@@ -25,18 +25,35 @@ static bool contradicts_at_one_end(const course_run *run, double margin)
                                 : at + hypot(run->fit.high - at, spread) < -log1p(margin);
 }
 
-static agreement_verdict judge_time(const run_set *all)
+/* The first run that contradicts at the one end that it tells; NULL. */
+static const course_run *contradicting(const run_set *all)
 {
-    const run_level *const level = &all->level[RUN_TIME_RATIO];
-    if (level->fit.n > 0) {
-        agreement judged = level->fit;
-        agreement_judge(&judged, log1p(all->margin));
-        return judged.verdict;
-    }
     for (size_t i = 0; i < all->n; i++)
         if (contradicts_at_one_end(&all->runs[i], all->margin))
-            return AGREEMENT_NO;
-    return AGREEMENT_OPEN;
+            return &all->runs[i];
+    return NULL;
+}
+
+/* The first compared run of which the record does not tell both ends of the time; NULL. */
+static const course_run *first_open(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (all->runs[i].value != NULL && !course_run_is_closed(&all->runs[i]))
+            return &all->runs[i];
+    return NULL;
+}
+
+/* What a run leaves open no other run tells: of it the time may be any. */
+static agreement_verdict judge_time(const run_set *all)
+{
+    agreement judged = all->level[RUN_TIME_RATIO].fit;
+    if (contradicting(all) != NULL)
+        return AGREEMENT_NO;
+    if (judged.n == 0)
+        return AGREEMENT_OPEN;
+    agreement_judge(&judged, log1p(all->margin));
+    return judged.verdict == AGREEMENT_YES && first_open(all) != NULL ? AGREEMENT_OPEN
+                                                                      : judged.verdict;
 }
 
 /* Both ends of the margin are tests of their own, as the change predicted may be near none. */
@@ -51,50 +68,68 @@ static agreement_verdict judge_change(const run_set *all)
 
 /* ---- words ----------------------------------------------------------------------------------- */
 
+static void tell_open(const course_run *run, char *text, size_t size)
+{
+    const course_fit *const fit = &run->fit;
+    if (!fit->seen)
+        clocale_print(
+            text, size,
+            "no change of friction as the layer makes it stands out of the scatter of the "
+            "cycles");
+    else if (isnan(fit->low) && isnan(fit->high))
+        clocale_print(text, size,
+                      "friction changes, and the record tells neither the least nor the most time "
+                      "that it takes");
+    else if (isnan(fit->high))
+        clocale_print(text, size,
+                      "the record ends before friction is steady, after %.3g times the time "
+                      "predicted at least",
+                      exp(fit->low));
+    else
+        clocale_print(text, size,
+                      "friction is steady within the first cycles, after %.3g times the time "
+                      "predicted at most",
+                      exp(fit->high));
+}
+
+/* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
 static void tell_time(const run_set *all, char *text, size_t size)
 {
     const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
-    for (size_t k = 0; isnan(i.value) && k < all->n; k++) {
-        const course_run *const run = &all->runs[k];
-        if (run->value == NULL)
-            continue;
-        if (run->fit.seen && isnan(run->fit.high) && !isnan(run->fit.low))
-            clocale_print(text, size,
-                          "the record ends before friction is steady, after %.3g times "
-                          "the time predicted at least",
-                          exp(run->fit.low));
-        else if (run->fit.seen && !isnan(run->fit.high))
-            clocale_print(text, size,
-                          "friction is steady within the first cycles, after %.3g times "
-                          "the time predicted at most",
-                          exp(run->fit.high));
-        else
-            clocale_print(text, size,
-                          "no change of friction as the layer makes it stands out of the "
-                          "scatter of the cycles");
+    const course_run *const against = contradicting(all), *const open = first_open(all);
+    if (against != NULL || isnan(i.value)) {
+        tell_open(against != NULL ? against : open, text, size);
         return;
     }
     clocale_print(text, size,
-                  "friction is steady after %.3g times the time predicted (95 %%: %.3g "
-                  "to %.3g)",
-                  exp(i.value), exp(i.low), exp(i.high));
+                  "friction is steady after %.3g times the time predicted (95 %%: %.3g to %.3g)%s",
+                  exp(i.value), exp(i.low), exp(i.high),
+                  open != NULL ? ", which not every record tells" : "");
+}
+
+static void tell_change(const run_set *all, char *text, size_t size)
+{
+    const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
+    if (isnan(ratio.low) || isnan(ratio.high))
+        snprintf(text, size, "how much it changes is not told");
+    else
+        clocale_print(text, size, "its change is %.3g times that predicted (95 %%: %.3g to %.3g)",
+                      ratio.value, ratio.low, ratio.high);
 }
 
 static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
 {
-    const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
-    char time[160];
+    char time[160], change[120];
     tell_time(all, time, sizeof time);
-    clocale_print(text, size,
-                  "%s: %s; its change is %.3g times that predicted (95 %%: %.3g to %.3g), and %.3g "
-                  "to %.3g is asked for",
-                  validation_verdict(verdict), time, ratio.value, ratio.low, ratio.high,
-                  1 / (1 + all->margin), 1 + all->margin);
+    tell_change(all, change, sizeof change);
+    clocale_print(text, size, "%s: %s; %s, and %.3g to %.3g is asked for",
+                  validation_verdict(verdict), time, change, 1 / (1 + all->margin),
+                  1 + all->margin);
 }
 
 /* ---- what would settle it -------------------------------------------------------------------- */
 
-/* The draw that a number of the first run goes with most, and its share of the variance. */
+/* The draw that a number of a run goes with most, and its share of the variance; 0: not known. */
 static double largest_line(const course_run *run, uint64_t seed, run_number number, size_t *line)
 {
     double most = 0;
@@ -108,13 +143,13 @@ static double largest_line(const course_run *run, uint64_t seed, run_number numb
             slope += off * flow_draw_normal(seed, k - 1, run->growth->line[u]);
             n++;
         }
-        slope /= n;
+        slope = n > 0 ? slope / n : 0;
         if (slope * slope > most) {
             most = slope * slope;
             *line = u;
         }
     }
-    return most / (all * all);
+    return all > 0 ? most / (all * all) : 0;
 }
 
 static const course_run *first_compared(const run_set *all)
@@ -125,17 +160,31 @@ static const course_run *first_compared(const run_set *all)
     return NULL;
 }
 
+static const char *close_of(const course_fit *fit)
+{
+    if (fit->seen && isnan(fit->high))
+        return "a record that goes on until friction is steady";
+    return fit->seen && isnan(fit->low) ? "shorter cycles at the start, or a slower record"
+                                        : "a longer record, or more of them, of a fresh surface";
+}
+
+/* The first run that tells a number; NULL. */
+static const course_run *first_telling(const run_set *all, run_number number)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (course_run_tells(&all->runs[i], number))
+            return &all->runs[i];
+    return NULL;
+}
+
 static void advise(const run_set *all, run_number number, char *text, size_t size)
 {
-    const course_run *const run = first_compared(all);
+    const course_run *const open = number == RUN_TIME_RATIO ? first_open(all) : NULL,
+                            *const run = first_telling(all, number);
     const run_level *const level = &all->level[number];
     size_t line = 0;
-    if (level->fit.n == 0) {
-        const bool seen = run->fit.seen, longer = seen && isnan(run->fit.high);
-        snprintf(text, size, "%s",
-                 longer ? "a record that goes on until friction is steady"
-                 : seen ? "shorter cycles at the start, or a slower record"
-                        : "a longer record, or more of them, of a fresh surface");
+    if (open != NULL || run == NULL) {
+        snprintf(text, size, "%s", close_of(open != NULL ? &open->fit : &first_compared(all)->fit));
         return;
     }
     const double share = largest_line(run, all->seed, number, &line),
@@ -146,12 +195,24 @@ static void advise(const run_set *all, run_number number, char *text, size_t siz
                                         : "most of the error is that of the record");
         return;
     }
-    const char *remedy, *words = source_of_draw(run->growth->line[line], &remedy);
-    if (share < 0.5 || run->growth->n_lines == 0)
+    if (share < 0.5 || run->growth->n_lines == 0) {
         snprintf(text, size, "the prediction known better: material, roughness and layer together");
-    else
-        clocale_print(text, size, "%s known better: %s; %.0f %% of the variance is of it", words,
-                      remedy, 100 * share * of_common);
+        return;
+    }
+    const char *remedy, *words = source_of_draw(run->growth->line[line], &remedy);
+    clocale_print(text, size, "%s known better: %s; %.0f %% of the variance is of it", words,
+                  remedy, 100 * share * of_common);
+}
+
+/* Of a compared run the draws leave open whether there is a layer. */
+static bool may_be_bare(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++) {
+        const growth *const g = all->runs[i].growth;
+        if (all->runs[i].value != NULL && (double)g->n_bare > least_doubt * (double)g->n_draws)
+            return true;
+    }
+    return false;
 }
 
 /* ---- all ------------------------------------------------------------------------------------- */
@@ -174,7 +235,7 @@ static bool refuse(const run_set *all, run_verdict *w)
     } else if (all->without_errors != NULL) {
         why = all->without_errors;
         settles = "errors of the prediction, by replicates and without acts-back";
-    } else if ((double)run->growth->n_bare > least_doubt * (double)run->growth->n_draws) {
+    } else if (may_be_bare(all)) {
         why = "within the stated errors there may be no layer";
         settles = "specific wear rate and critical energy known better";
     }
