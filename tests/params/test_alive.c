@@ -86,6 +86,7 @@ static const struct {
     {"temperatures", "10degC,30degC", NULL, NULL},
     {"pressures", "0.1MPa,1MPa", NULL, NULL},
     {"layer-thickness", "2um", NULL, NULL},
+    {"expected-thickness", "2um", NULL, NULL},
     {"modulus-ratio", "0.7", NULL, NULL},
     {"critical-energy", "3e10J/m^3", NULL, NULL},
     {"observed-thickness", "3um", NULL, "critical-energy"},

@@ -374,7 +374,7 @@ static void test_activated(void **state)
     run_case(20);
     assert_null(wt_table_key(runs, "specific_wear_rate_needed"));
     assert_null(wt_table_key(runs, "wear_agrees"));
-    assert_true(number_cell(runs, 0, "time_ratio") > 0);
+    assert_true(number_cell(runs, 0, "time_ratio_low") > 1);
     case_end();
 }
 
@@ -388,9 +388,9 @@ static void test_before_the_first_friction(void **state)
         change_case(energy, energy);
         change_record(changed[i][0], changed[i][1], changed[i][2]);
         run_case(40);
-        check(wt_table_key(runs, "verdict"), "explains: ");
+        check_not(wt_table_key(runs, "verdict"), "does not: ");
         const double ratio = number_cell(runs, 0, "time_ratio");
-        assert_true(ratio > 0.8 && ratio < 1.1);
+        assert_true(ratio > 0.8 && ratio < 1.4);
         case_end();
     }
     change_case(energy, energy);

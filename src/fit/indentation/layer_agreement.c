@@ -48,7 +48,7 @@ static double square_of_curves(const wt_layer_profile *p, double x)
 static double least_square(const double x[POINTS], const double of_curves[POINTS],
                            const other_source *o, double shift)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (size_t i = 0; i < POINTS; i++)
         least = fmin(least, of_curves[i] + square_off(o, x[i] - shift));
     return least;
@@ -59,20 +59,20 @@ static void find_both(const double x[POINTS], const double of_curves[POINTS], co
                       double limit, wt_layer_agreement *to)
 {
     const double least = least_square(x, of_curves, o, 0.0);
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < POINTS; i++)
         if (of_curves[i] + square_off(o, x[i]) <= least + limit) {
             low = fmin(low, x[i]);
             high = fmax(high, x[i]);
         }
     to->low = low > x[0] ? exp(low) : 0.0;
-    to->high = high < x[POINTS - 1] ? exp(high) : (double)INFINITY;
+    to->high = high < x[POINTS - 1] ? exp(high) : (double)HUGE_VAL;
 }
 
 static void find_ratio(const double x[POINTS], const double of_curves[POINTS],
                        const other_source *o, double limit, wt_layer_agreement *to)
 {
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (int i = 0; i < RATIOS; i++) {
         const double shift = widest_ratio * (2.0 * i / (RATIOS - 1) - 1.0);
         if (least_square(x, of_curves, o, shift) > limit)
@@ -81,7 +81,7 @@ static void find_ratio(const double x[POINTS], const double of_curves[POINTS],
         high = fmax(high, shift);
     }
     to->ratio_low = low <= -widest_ratio ? 0.0 : exp(low);
-    to->ratio_high = high >= widest_ratio ? (double)INFINITY : exp(high);
+    to->ratio_high = high >= widest_ratio ? (double)HUGE_VAL : exp(high);
 }
 
 wt_layer_agreement wt_layer_compare(const wt_layer_profile *p, wt_interval other)
@@ -95,8 +95,8 @@ wt_layer_agreement wt_layer_compare(const wt_layer_profile *p, wt_interval other
         return to;
     const other_source o = {
         log(other.value),
-        other.low > 0 ? log(other.value / other.low) / quantile : (double)INFINITY,
-        isfinite(other.high) ? log(other.high / other.value) / quantile : (double)INFINITY};
+        other.low > 0 ? log(other.value / other.low) / quantile : (double)HUGE_VAL,
+        isfinite(other.high) ? log(other.high / other.value) / quantile : (double)HUGE_VAL};
     const double low = fmin(p->log_thickness[p->n_steps - 1],
                             isinf(o.below) ? o.at : o.at - reach * o.below) -
                        widest_ratio,
