@@ -168,7 +168,7 @@ static double root_of(const wt_layer_profile *p)
 static void judge(wt_layer_profile *p, double log_ratio)
 {
     const double limit = gsl_cdf_ugaussian_Pinv(0.975);
-    double range[2] = {INFINITY, -INFINITY};
+    double range[2] = {HUGE_VAL, -HUGE_VAL};
     const size_t last = p->n_steps - 1;
     for (size_t i = 1; i < p->n_steps; i++)
         add_allowed(&p->log_thickness[i - 1], &p->deviate[i - 1], limit, range);
