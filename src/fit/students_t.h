@@ -16,6 +16,7 @@ typedef struct t_error {
 
 moments moments_of(const double *x, size_t n);
 double students_t_of_normal(double z, double df); /* beyond it lies as much of the law */
+double normal_quantile(double part);              /* below it lies so large a part */
 double students_t_quantile(double df);            /* 97.5 % of Student's t */
 /* By Satterthwaite. */
 t_error t_error_sum(const t_error *parts, size_t n);

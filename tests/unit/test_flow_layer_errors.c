@@ -223,6 +223,37 @@ static void errors_are_slopes(void **state)
     wt_table_free(bands);
 }
 
+/* The edge depends on nothing but the product of wear rate and critical energy, whose normal error
+ * is known: the ends are the edges at the product's own ends, whichever draws a seed has; also of
+ * few, of which the outermost alone would be off by a tenth and more. */
+static void ends_do_not_hang_on_the_seed(void **state)
+{
+    (void)state;
+    const double of_each = 0.1, of_product = 1.959964 * sqrt(2) * of_each;
+    double edge[3];
+    for (int k = 0; k < 3; k++) {
+        set_up(0);
+        wt_layer_job job = job_of(0, 0);
+        job.severity_power = 1e4;
+        job.specific_wear_rate.value *= exp((1 - k) * of_product);
+        wt_table *exact = existence_of(&job, NULL);
+        edge[k] = key_number(exact, "to_velocity");
+        wt_table_free(exact);
+    }
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        set_up(seed % 2 ? 80 : 200);
+        work.seed = seed;
+        wt_layer_job job = job_of(of_each, of_each);
+        job.severity_power = 1e4;
+        wt_table *drawn = existence_of(&job, NULL);
+        const double value = key_number(drawn, "to_velocity");
+        assert_near(value, edge[1], 1e-6);
+        assert_near(log(value / key_number(drawn, "to_velocity_low")), log(value / edge[0]), 0.02);
+        assert_near(log(key_number(drawn, "to_velocity_high") / value), log(edge[2] / value), 0.02);
+        wt_table_free(drawn);
+    }
+}
+
 /* Near a fold the replicates do not agree, and far from it they do. */
 static void balances_that_may_be_others(void **state)
 {
@@ -325,6 +356,7 @@ int main(void)
         cmocka_unit_test(one_error_of_the_thickness),
         cmocka_unit_test(one_error_of_the_friction),
         cmocka_unit_test(errors_are_slopes),
+        cmocka_unit_test(ends_do_not_hang_on_the_seed),
         cmocka_unit_test(balances_that_may_be_others),
         cmocka_unit_test(edges_that_may_not_be_there),
         cmocka_unit_test(a_layer_that_may_not_come),

@@ -1,6 +1,7 @@
 /* Replicates of a layer: which of its errors are drawn, and the values of one replicate.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/layer/layer_draws.h"
+#include "flow/layer/replicate_ends.h"
 #include "flow/work/draws.h"
 
 #include "base/clocale.h"
@@ -8,7 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job)
 {
@@ -100,26 +100,7 @@ void layer_draws_clear(layer_draws *d)
     replicates_clear(&d->replicates);
 }
 
-/* So many that two lie beyond either end. */
-enum { LEAST_FOR_ENDS = 80 };
-static const double beyond = 0.025;
-
-static int by_value(const void *left, const void *right)
-{
-    const double *const a = left, *const b = right;
-    return (*a > *b) - (*a < *b);
-}
-
-/* Of n in order, the value below which so large a part of them is; NaN beyond the last of m that
- * are known. */
-static double quantile(const double *sorted, size_t m, size_t n, double part)
-{
-    const double at = fmax(part * (double)n - 0.5, 0);
-    const size_t i = (size_t)at;
-    if (i + 1 >= m)
-        return (double)NAN;
-    return sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]);
-}
+static const double beyond = 0.025; /* of 95 %, at either end */
 
 static size_t count_known(const replicates *r, size_t k)
 {
@@ -127,23 +108,6 @@ static size_t count_known(const replicates *r, size_t k)
     for (size_t i = 0; i < r->n; i++)
         known += isfinite(r->value[i * r->stride + k]) ? 1 : 0;
     return known;
-}
-
-/* The ends by the replicates themselves. */
-static wt_status find_ends(const replicates *r, size_t k, size_t known, wt_interval *interval)
-{
-    double *sorted = malloc((known + 1) * sizeof *sorted);
-    size_t n = 0;
-    if (sorted == NULL)
-        return WT_E_MEMORY;
-    for (size_t i = 0; i < r->n; i++)
-        if (isfinite(r->value[i * r->stride + k]))
-            sorted[n++] = r->value[i * r->stride + k];
-    qsort(sorted, n, sizeof *sorted, by_value);
-    interval->low = exp(quantile(sorted, n, r->n, beyond));
-    interval->high = exp(quantile(sorted, n, r->n, 1 - beyond));
-    free(sorted);
-    return WT_OK;
 }
 
 wt_interval layer_interval(const layer_draws *d, size_t k, double value)
@@ -154,8 +118,8 @@ wt_interval layer_interval(const layer_draws *d, size_t k, double value)
     wt_interval interval = {value, value * error, value / wide, value * wide};
     const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
     /* without memory for the ends there is no interval: what is left would be another one */
-    if (!whole ||
-        (isfinite(value) && r->n >= LEAST_FOR_ENDS && find_ends(r, k, known, &interval) != WT_OK))
+    if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_ENDS &&
+                   replicate_ends(r, k, beyond, &interval) != WT_OK))
         interval.low = interval.high = interval.standard_error = (double)NAN;
     return interval;
 }

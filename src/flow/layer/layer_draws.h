@@ -35,9 +35,9 @@ void layer_draws_clear(layer_draws *draws);
 enum { LAYER_ROW_REPLICATES = 64 };
 
 /* A number above 0 with its interval of 95 %, of which the replicates have the logarithm as their
- * number k: the ends are those of the replicates themselves, for what is asked for need not be
- * straight in what is drawn; of a few, as if the logarithm were normal. Where too many replicates
- * are without a number there is none. */
+ * number k: the ends are those of the replicates (replicate_ends), for what is asked for need not
+ * be straight in what is drawn; of a few, as if the logarithm were normal. Where too many
+ * replicates are without a number there is none. */
 wt_interval layer_interval(const layer_draws *draws, size_t k, double value);
 /* "yes: ...", or "cannot say: in 12 % of the replicates OTHER": `without` where the value is a
  * number and they have none, `with` where it is none. */

@@ -130,6 +130,8 @@ static void end_materials(replicates *r)
 
 /* ---- their scatter --------------------------------------------------------------------------- */
 
+enum { LINE_MOST = REPLICATES_MOST + 1 }; /* numbers of a line: a constant and slopes */
+
 /* The equations of a line through the finite values of number k; how many there are. */
 static size_t collect(const replicates *r, const double *z, size_t k, double *a, double *b)
 {
@@ -149,16 +151,28 @@ static size_t collect(const replicates *r, const double *z, size_t k, double *a,
     return n;
 }
 
+/* The line of number k, a constant and a slope for each draw, to b; false with too few replicates
+ * for it. */
+static bool find_line(const replicates *r, const double *z, size_t k, double *b, size_t *n)
+{
+    /* As many draws for each slope that what they scatter by is small against the rest. */
+    enum { FOR_EACH = 5 };
+    double a[LINE_MOST * LINE_MOST] = {0};
+    const size_t p = r->n_draws + 1;
+    memset(b, 0, LINE_MOST * sizeof *b);
+    *n = collect(r, z, k, a, b);
+    return *n >= FOR_EACH * p && cholesky_solve(a, p, p, 0, b);
+}
+
 /* Standard deviation of number k where the draws z [n * p] make lines: the squares of the slopes
  * and that of the rest. The squares of slopes that the rest scatters are too large by it, for
  * each its variance over n. */
 static double spread_about_lines(const replicates *r, const double *z, size_t k)
 {
-    /* As many draws for each slope that what they scatter by is small against the rest. */
-    enum { FOR_EACH = 5, MOST = REPLICATES_MOST + 1 };
-    double a[MOST * MOST] = {0}, b[MOST] = {0}, rest = 0, lines = 0;
-    const size_t p = r->n_draws + 1, n = collect(r, z, k, a, b);
-    if (n < FOR_EACH * p || !cholesky_solve(a, p, p, 0, b))
+    double b[LINE_MOST], rest = 0, lines = 0;
+    const size_t p = r->n_draws + 1;
+    size_t n;
+    if (!find_line(r, z, k, b, &n))
         return flow_spread(r->value + k, r->n, r->stride);
     for (size_t i = 0; i < r->n; i++) {
         double left = r->value[i * r->stride + k];
@@ -172,17 +186,45 @@ static double spread_about_lines(const replicates *r, const double *z, size_t k)
     return sqrt(lines + rest * (1 - (double)(p - 1) / (double)n));
 }
 
-static wt_status find_errors(replicates *r, wt_error *err)
+/* [n * p]: 1 and the draws of each replicate; NULL without memory. */
+static double *make_draws(const replicates *r)
 {
     const size_t p = r->n_draws + 1;
     double *const z = malloc((r->n + 1) * p * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < r->n; i++) {
+    for (size_t i = 0; z != NULL && i < r->n; i++) {
         z[i * p] = 1;
         for (size_t u = 1; u < p; u++)
             z[i * p + u] = flow_draw_normal(r->work->seed, i, r->draw[u - 1]);
     }
+    return z;
+}
+
+wt_status replicates_along_line(const replicates *r, size_t k, double *at, bool *known)
+{
+    double *const z = make_draws(r);
+    double b[LINE_MOST], square = 0;
+    const size_t p = r->n_draws + 1;
+    size_t n;
+    if (z == NULL)
+        return WT_E_MEMORY;
+    *known = find_line(r, z, k, b, &n);
+    for (size_t u = 1; *known && u < p; u++)
+        square += b[u] * b[u];
+    *known = *known && square > 0;
+    for (size_t i = 0; *known && i < r->n; i++) {
+        at[i] = 0;
+        for (size_t u = 1; u < p; u++)
+            at[i] += b[u] * z[i * p + u] / sqrt(square);
+    }
+    free(z);
+    return WT_OK;
+}
+
+static wt_status find_errors(replicates *r, wt_error *err)
+{
+    double *const z = make_draws(r);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < r->stride; k++)
         r->error[k] = spread_about_lines(r, z, k);
     free(z);

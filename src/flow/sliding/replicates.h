@@ -41,6 +41,11 @@ typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *ou
  * material and what is not straight. A replicate that has no solution is left out and counted. */
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err) WT_NODISCARD;
+/* Where each replicate lies along the line of number k, in standard deviations of the line: a
+ * standard normal number, of which the replicates have but a sample. at [n]; not known: too few for
+ * a line, or nothing that is drawn does anything. */
+wt_status replicates_along_line(const replicates *r, size_t k, double *at,
+                                bool *known) WT_NODISCARD;
 void replicates_clear(replicates *r);
 
 #endif
