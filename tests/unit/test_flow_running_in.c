@@ -388,9 +388,12 @@ static void test_before_the_first_friction(void **state)
         change_case(energy, energy);
         change_record(changed[i][0], changed[i][1], changed[i][2]);
         run_case(40);
-        check_not(wt_table_key(runs, "verdict"), "does not: ");
+        if (changed[i][2] == 0)
+            check(wt_table_key(runs, "verdict"), "explains: ");
+        else /* the ends of fewer cycles are wider */
+            check_not(wt_table_key(runs, "verdict"), "does not: ");
         const double ratio = number_cell(runs, 0, "time_ratio");
-        assert_true(ratio > 0.8 && ratio < 1.4);
+        assert_true(ratio > 0.8 && ratio < 1.2);
         case_end();
     }
     change_case(energy, energy);
