@@ -751,7 +751,8 @@ typedef struct wt_surface {
     double q0, qr, q1, hurst;   /* of the self-affine law; q0, q1 cut a spectrum (NaN = its ends) */
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
-    double *modes_error; /* [spectrum.n] standard errors of ln C, each by itself; NULL: not known */
+    double *modes_error; /* [spectrum.n] standard errors of ln C by its modes; NULL: not known */
+    double *modes_tie;   /* [spectrum.n] correlation of that with the next point's; NULL: none */
     double *law_error;   /* [spectrum.n] beyond what was measured, by the law, all together; NULL */
     /* [n_sizes * spectrum.n] Of scans of several sizes: the parts of c0.standard_error that ln C of
      * the points has by the places of the widest scans, then of the next, each of which is drawn

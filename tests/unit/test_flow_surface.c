@@ -390,6 +390,38 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
+/* What a window ties is drawn together: with the next point as stated, with no other. */
+static void test_ties_of_points(void **state)
+{
+    (void)state;
+    enum { DRAWS = 4000, POINTS = 4 };
+    double q[POINTS] = {1e5, 1e6, 1e7, 1e8}, density[POINTS] = {1e-24, 1e-27, 1e-31, 1e-34},
+           error[POINTS] = {0.1, 0.2, 0.3, 0.1}, tie[POINTS] = {0.5, 0.3, 0},
+           found[POINTS][POINTS] = {{0}};
+    wt_surface surface = {
+        .q0 = (double)NAN,
+        .q1 = (double)NAN,
+        .c0 = {1, 0, 0, "1"},
+        .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
+        .modes_error = error,
+        .modes_tie = tie};
+    for (size_t draw = 0; draw < DRAWS; draw++) {
+        double c[POINTS], z[POINTS];
+        wt_roughness *r = NULL;
+        assert_int_equal(flow_surface_draw(&surface, 1, 7, draw, &r, NULL), WT_OK);
+        r->law->density(r, q, POINTS, c);
+        wt_roughness_free(r);
+        for (size_t k = 0; k < POINTS; k++)
+            z[k] = log(c[k] / density[k]) / error[k];
+        for (size_t k = 0; k < POINTS; k++)
+            for (size_t l = 0; l <= k; l++)
+                found[k][l] += z[k] * z[l] / DRAWS;
+    }
+    for (size_t k = 0; k < POINTS; k++)
+        for (size_t l = 0; l <= k; l++)
+            assert_near_abs(found[k][l], k == l ? 1 : k == l + 1 ? tie[l] : 0, 0.06);
+}
+
 /* Places of three sizes are drawn each for itself: what is of one size alone goes its own way and
  * by its own error, and a bin between by both. */
 static void test_places_of_sizes(void **state)
@@ -891,6 +923,7 @@ int main(void)
         cmocka_unit_test(test_alone),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_ties_of_points),
         cmocka_unit_test(test_places_of_sizes),
         cmocka_unit_test(test_scatter_of_places),
         cmocka_unit_test(test_bad_places),

@@ -6,6 +6,9 @@
 
 #include "data/tables/ramp.h" /* NUMBER_AND_INTERVAL */
 
+/* The most that each of a chain of numbers can be tied to the next, and to no other. */
+#define POWER_SPECTRUM_MOST_TIE 0.5
+
 /* Wavenumber and density have the names by which a spectrum is read. */
 #define POWER_SPECTRUM_COLUMNS(X)                                                                  \
     X(POWER_SPECTRUM_WAVENUMBER, AS(wavenumber), "wavenumber q = 2 pi / wavelength",               \
@@ -14,7 +17,10 @@
                         "two-dimensional power spectrum C(q), with h_rms^2 = 2 pi int q C dq",     \
                         SI(POWER_SPECTRUM_2D), "C(q)", SHOWS(density))                             \
     X(POWER_SPECTRUM_MODES_ERROR, AS(modes_error),                                                 \
-      "standard error of ln C by the scatter of its modes, each row by itself", NUMBER, SPARSE)    \
+      "standard error of ln C by the scatter of its modes", NUMBER, SPARSE)                        \
+    X(POWER_SPECTRUM_MODES_TIE, AS(modes_tie),                                                     \
+      "correlation of that scatter with that of the next row, which share modes by the window",    \
+      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(POWER_SPECTRUM_LAW_ERROR, AS(law_error),                                                     \
       "of rows of the law: standard error of ln C by the constants of the law, all such rows "     \
       "together",                                                                                  \

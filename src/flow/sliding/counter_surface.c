@@ -19,6 +19,7 @@ void wt_surface_clear(wt_surface *surface)
         return;
     wt_power_spectrum_clear(&surface->spectrum);
     free(surface->modes_error);
+    free(surface->modes_tie);
     free(surface->law_error);
     free(surface->place_parts);
     *surface = (wt_surface){0};
@@ -164,8 +165,9 @@ static wt_status take_errors(const wt_table *table, const wt_table *places, wt_s
     if (!*taken)
         return WT_OK;
     surface->modes_error = column_errors(table, POWER_SPECTRUM_MODES_ERROR, s->n);
+    surface->modes_tie = column_errors(table, POWER_SPECTRUM_MODES_TIE, s->n);
     surface->law_error = column_errors(table, POWER_SPECTRUM_LAW_ERROR, s->n);
-    if (surface->modes_error == NULL || surface->law_error == NULL)
+    if (surface->modes_error == NULL || surface->modes_tie == NULL || surface->law_error == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
@@ -410,6 +412,20 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
     return spectrum_roughness(surface, factor, roughness, err);
 }
 
+/* Normal deviates of which each is correlated with the one before and the next alone: from
+ * independent ones by the Cholesky factor of their correlations. */
+typedef struct chain {
+    double tie, own, before; /* correlation with the next; part of, and the last independent one */
+} chain;
+
+static double chain_next(chain *c, double tie, double independent)
+{
+    const double shared = c->own > 0 ? c->tie / c->own : 0, own = sqrt(1 - shared * shared);
+    const double z = shared * c->before + own * independent;
+    *c = (chain){fmin(tie, POWER_SPECTRUM_MOST_TIE), own, independent};
+    return z;
+}
+
 wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t seed,
                             size_t replicate, wt_roughness **roughness, wt_error *err)
 {
@@ -420,13 +436,17 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    /* each point has a draw of its own, behind all others, the law that of one more point, and the
-     * places of each size but the first, which are drawn with the factor, that of another */
+    /* each point has a draw of its own, behind all others, of which it shares a part with the next;
+     * the law that of one more point, and the places of each size but the first, which are drawn
+     * with the factor, that of another */
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     const bool sizes = surface->place_parts != NULL;
     const double places = surface->c0.standard_error / surface->c0.value;
+    chain scatter = {0};
     for (size_t i = 0; i < s->n; i++) {
-        const double z = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i));
+        const double z =
+            chain_next(&scatter, surface->modes_tie != NULL ? surface->modes_tie[i] : 0,
+                       flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
         const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
         drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
     }

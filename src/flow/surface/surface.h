@@ -67,6 +67,9 @@ bool surface_profiles_disagree(const surface_whole *w);
 /* Of the reliable bins, to the end that the job asks for. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
+/* Correlation of the scatter of a bin with that of the next: a window ties modes to those of other
+ * bins. */
+double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin);
 /* Standard error of ln C of the law beyond what all of the spectrum has by its places. */
 double surface_law_error(const surface_whole *w, double wavenumber);
 /* What the places give all of the spectrum; with few of them it is hardly known itself: half an

@@ -155,17 +155,6 @@ static wt_status add_places(surface_whole *w, number_of *number, double value, d
     return status;
 }
 
-/* Correlation of the scatter of a bin with that of the next: a window ties modes to those of other
- * bins, as many of the next as of the one before. */
-static double tie_to_next(const wt_surface_spectrum *s, size_t bin)
-{
-    const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
-    const double most = 0.5; /* of a chain whose members are all tied alike */
-    const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
-                 beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
-    return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
-}
-
 /* Every bin is moved by its scatter, which is partly that of the next, all of the law beyond by
  * what its constants have, and all of them by that from place to place. */
 static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
@@ -180,7 +169,7 @@ static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate 
         status = move_knots(w, i, i + 1, NO_SIZE, number, &moved, err);
         square += (moved - value) * (moved - value);
         if (i > 0 && i < w->spectrum.n) /* a cut has the error of the bin that it cuts */
-            square += 2 * tie_to_next(&w->spectrum, i - 1) * before * (moved - value);
+            square += 2 * surface_tie_to_next(&w->spectrum, i - 1) * before * (moved - value);
         before = moved - value;
     }
     if (status == WT_OK && k->n > k->n_measured) {

@@ -21,7 +21,7 @@ bool surface_anisotropic(const wt_surface_anisotropy *directions)
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
-          double modes_error, law_error, self_affine, modes, scans; const char *source;)
+          double modes_error, modes_tie, law_error, self_affine, modes, scans; const char *source;)
 TABLE_ROW(place_errors, PLACE_ERRORS, size_t size, row; double wavenumber, error;)
 TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
@@ -72,6 +72,16 @@ double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
     return one_place(s) * surface_places_part(s, bin_of(s, knot));
 }
 
+/* As many modes are tied to those of the next bin as to those of the one before. */
+double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin)
+{
+    const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
+    const double most = POWER_SPECTRUM_MOST_TIE;
+    const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
+                 beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
+    return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
+}
+
 double surface_law_error(const surface_whole *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
@@ -104,6 +114,7 @@ static void add_rows(table_writer *t, const surface_whole *w)
                   : law ? of_law(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
+                  bin && i + 1 < w->spectrum.n ? surface_tie_to_next(&w->spectrum, i) : nan,
                   law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
                   bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
