@@ -228,12 +228,11 @@ static bool read_validation(const study_truth *truth, const char *result, const 
                             trial *t)
 {
     stream *found = take_table(result, PLACE_VALIDATION, path, t);
-    const char *said =
-        found != NULL ? stream_key(found, PLACE_VALIDATION, PLACE_VALIDATION_VERDICT) : NULL;
-    if (said != NULL) {
-        const bool wrong = strncmp(said, "does not", strlen("does not")) == 0,
-                   open = strncmp(said, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0;
-        const double stated = open ? (double)NAN : 0;
+    const verdict said =
+        found != NULL ? place_friction_verdict(found, PLACE_VALIDATION) : NO_VERDICT;
+    if (said != NO_VERDICT) {
+        const bool wrong = said == NO;
+        const double stated = said == CANNOT_SAY ? (double)NAN : 0;
         trial_add(t, Q_SAID_RECORD, wrong ? 1 : 0, (estimate){0, stated, stated});
         if (wrong)
             t->draw->verdict = NO;
@@ -241,7 +240,7 @@ static bool read_validation(const study_truth *truth, const char *result, const 
         trial_add(t, Q_NEEDED_SHEAR, truth->shear_stress, place_key(found, &place_needed_shear));
     }
     stream_free(found);
-    return said != NULL;
+    return said != NO_VERDICT;
 }
 
 static bool read_record(const study_truth *truth, int c, int k, const char *result,

@@ -201,24 +201,19 @@ int study_write_common(const study_prepared *p, random_source *random, const stu
 
 /* ---- contact --------------------------------------------------------------------------------- */
 
-static double drawn(double value, double error, random_source *random)
-{
-    return value * exp(error * random_normal(random));
-}
-
 study_truth study_draw(const collection_scene *s, const study_prepared *p, random_source *random)
 {
     enum { INTERVALS = 60, REFERENCE = 2 };
-    study_truth t = {.shear_stress = drawn(shear_stress, of_shear, random),
-                     .lever = drawn(lever, of_lever, random)};
+    study_truth t = {.shear_stress = random_about(shear_stress, of_shear, random),
+                     .lever = random_about(lever, of_lever, random)};
     double pressed[SEVERITIES];
     for (int k = 0; k < SEVERITIES; k++) {
-        t.wear_rate[k] = drawn(wear_rate[k], of_wear, random);
-        pressed[k] = drawn(pressure[k], of_pressure, random);
+        t.wear_rate[k] = random_about(wear_rate[k], of_wear, random);
+        pressed[k] = random_about(pressure[k], of_pressure, random);
     }
     for (int c = 0; c < COMPOUNDS; c++) {
         const rubber_state state = dma_state(&isotherms, &p->compound[c].rubber, slid_at);
-        t.critical_energy[c] = drawn(critical_energy[c], of_energy, random);
+        t.critical_energy[c] = random_about(critical_energy[c], of_energy, random);
         for (int k = 0; k < SEVERITIES; k++) {
             contact of = {.q0 = study_q0,
                           .qr = roll_off,
@@ -297,7 +292,7 @@ static void write_sections(const study_truth *truth, const study_files *files, i
                            random_source *random, const char *record, FILE *out)
 {
     const double laps = STUDY_VELOCITIES * LAPS - 1.0 / SAMPLES,
-                 area = drawn(truth->wear_rate[k] * load * laps, of_track_area, random);
+                 area = random_about(truth->wear_rate[k] * load * laps, of_track_area, random);
     fprintf(out,
             "<dma><poisson-ratio>%g</poisson-ratio><reference-temperature>%gdegC"
             "</reference-temperature><files>%s</files></dma>\n<roughness><end>%grad/m</end>\n",

@@ -3,8 +3,6 @@
 #include "growth_observe.h"
 #include "growth_sample.h"
 
-#include <string.h>
-
 enum { MOST_RECORDS = 3 };
 
 static const facts *scene_facts(int scene)
@@ -18,17 +16,6 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static verdict read_verdict(const stream *found)
-{
-    static const char *const words[] = {
-        [YES] = "explains", [NO] = "does not", [CANNOT_SAY] = "cannot say"};
-    const char *said = stream_key(found, PLACE_VALIDATION_RUNNING_IN, PLACE_VALIDATION_VERDICT);
-    for (int v = 0; said != NULL && v < (int)(sizeof words / sizeof *words); v++)
-        if (strncmp(said, words[v], strlen(words[v])) == 0)
-            return (verdict)v;
-    return NO_VERDICT;
-}
-
 static void read_found(const growth_scene *s, const growth_made *m, int records, const char *path,
                        trial *t)
 {
@@ -38,7 +25,7 @@ static void read_found(const growth_scene *s, const growth_made *m, int records,
     if (found == NULL || stream_rows(found, PLACE_VALIDATION_RUNNING_IN) != records) {
         trial_broke(t, "another number of records");
     } else {
-        t->draw->verdict = read_verdict(found);
+        t->draw->verdict = place_friction_verdict(found, PLACE_VALIDATION_RUNNING_IN);
         if (!s->unsaid)
             trial_add(t, Q_CHANGE_RATIO, change, place_key(found, &place_change_ratio));
         if (!s->unsaid && !s->flat) {

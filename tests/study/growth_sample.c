@@ -1,5 +1,6 @@
 /* The case and the records of a scene. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_sample.h"
+#include "sliding_case.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,11 +23,6 @@ static const contact stated = {.q0 = 2e3,
                                .wear_rate = 1e-12,
                                .critical_energy = 2e10};
 
-static double drawn(double value, double error, random_source *random)
-{
-    return value * exp(error * random_normal(random));
-}
-
 double growth_or_one(double x)
 {
     return x > 0 || x < 0 ? x : 1;
@@ -38,12 +34,12 @@ bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
     const rubber_state state = {.rubber = &lines, .a = {1, 1}, .factor = 1};
     growth_truth expected;
     m->truth = stated;
-    m->truth.pressure = drawn(stated.pressure, s->of_inputs, random);
-    m->truth.c0 = drawn(stated.c0, s->of_inputs, random);
-    m->truth.shear_stress = drawn(stated.shear_stress, s->of_inputs, random);
-    m->truth.wear_rate = drawn(stated.wear_rate, s->of_layer, random);
-    m->truth.critical_energy = drawn(stated.critical_energy, s->of_layer, random);
-    const double ratio = drawn(stated_ratio, s->of_ratio, random);
+    m->truth.pressure = random_about(stated.pressure, s->of_inputs, random);
+    m->truth.c0 = random_about(stated.c0, s->of_inputs, random);
+    m->truth.shear_stress = random_about(stated.shear_stress, s->of_inputs, random);
+    m->truth.wear_rate = random_about(stated.wear_rate, s->of_layer, random);
+    m->truth.critical_energy = random_about(stated.critical_energy, s->of_layer, random);
+    const double ratio = random_about(stated_ratio, s->of_ratio, random);
     if (!growth_solve(&stated, &state, stated_ratio, s->transport, &expected) ||
         !growth_solve(&m->truth, &state, ratio, s->transport, &m->growth))
         return false;
@@ -64,22 +60,9 @@ static void write_weighed(const growth_scene *s, const growth_made *m, FILE *out
 
 bool growth_write_case(const growth_scene *s, const growth_made *m, const char *path)
 {
-    const rubber lines = rubber_make(RUBBER_LINES);
-    FILE *out = fopen(path, "w");
+    FILE *out = sliding_case_begin(path, &stated, s->of_inputs);
     if (out == NULL)
         return false;
-    fprintf(out,
-            "<case version=\"1\"><dma><poisson-ratio>%g</poisson-ratio><reference-temperature>"
-            "%gdegC</reference-temperature><prony deformation=\"tension\"><equilibrium>%.12gPa"
-            "</equilibrium>",
-            stated.poisson, stated.temperature, lines.equilibrium);
-    for (size_t i = 0; i < lines.n; i++)
-        fprintf(out, "<term time=\"%.12gs\" modulus=\"%.12gPa\"/>", lines.tau[i],
-                lines.strength[i]);
-    fprintf(out,
-            "</prony></dma><roughness><self-affine><q0>%grad/m</q0><qr>%grad/m</qr><q1>%grad/m"
-            "</q1><hurst>%g</hurst><c0>%gm^4 +- %g%%</c0></self-affine></roughness>",
-            stated.q0, stated.qr, stated.q1, stated.hurst, stated.c0, 100 * s->of_inputs);
     fprintf(out, "<sliding><pressure>%gPa +- %g%%</pressure><velocity>%gm/s</velocity>",
             stated.pressure, 100 * s->of_inputs, velocity);
     if (!s->unsaid)

@@ -20,11 +20,6 @@ static const contact stated = {.q0 = 2e3,
                                .velocity = {0.3},
                                .wear_rate = 1e-12};
 
-static double drawn(double value, double error, random_source *random)
-{
-    return value * exp(error * random_normal(random));
-}
-
 static const facts *scene_facts(int scene)
 {
     return &identify_scenes[scene].facts;
@@ -59,10 +54,10 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     char surface[160], pressure[64], thickness[64], wear[64];
     contact truth = stated;
     (void)prepared;
-    truth.pressure = drawn(stated.pressure, s->of_inputs, random);
-    truth.c0 = drawn(stated.c0, s->of_inputs, random);
-    truth.wear_rate = drawn(stated.wear_rate, 0.2, random);
-    truth.critical_energy = drawn(s->critical_energy, 0.2, random);
+    truth.pressure = random_about(stated.pressure, s->of_inputs, random);
+    truth.c0 = random_about(stated.c0, s->of_inputs, random);
+    truth.wear_rate = random_about(stated.wear_rate, 0.2, random);
+    truth.critical_energy = random_about(s->critical_energy, 0.2, random);
     const contact_truth layer = contact_solve(&truth, &state, INTERVALS);
     snprintf(surface, sizeof surface,
              "self-affine:q0=%grad/m,qr=%grad/m,q1=%grad/m,hurst=%g,c0="
@@ -70,9 +65,9 @@ static void observe(int scene, const void *prepared, random_source *random, tria
              stated.q0, stated.qr, stated.q1, stated.hurst, stated.c0, 100 * s->of_inputs);
     snprintf(pressure, sizeof pressure, "%gPa+-%g%%", stated.pressure, 100 * s->of_inputs);
     snprintf(thickness, sizeof thickness, "%.9gm+-%g%%",
-             drawn(layer.thickness, s->of_thickness, random), 100 * s->of_thickness);
-    snprintf(wear, sizeof wear, "%.9gm^2/N+-%g%%", drawn(truth.wear_rate, s->of_wear, random),
-             100 * s->of_wear);
+             random_about(layer.thickness, s->of_thickness, random), 100 * s->of_thickness);
+    snprintf(wear, sizeof wear, "%.9gm^2/N+-%g%%",
+             random_about(truth.wear_rate, s->of_wear, random), 100 * s->of_wear);
     const char *const arguments[] = {"identify", "--material",
                                      material,   "--roughness",
                                      surface,    "--pressure",

@@ -24,11 +24,6 @@ static const char replicates[] = "80";
 static const char list[] = "3e-3:30m/s:log:9"; /* the middle one is that of the contact */
 static const double slowest = 3e-3, fastest = 30;
 
-static double drawn(double value, double error, random_source *random)
-{
-    return value * exp(error * random_normal(random));
-}
-
 static const facts *scene_facts(int scene)
 {
     return &layer_scenes[scene].facts;
@@ -156,16 +151,16 @@ static void say_inputs(const layer_scene *s, const contact *truth, double ratio,
 {
     snprintf(w->surface, sizeof w->surface,
              "self-affine:q0=%grad/m,qr=%grad/m,q1=%grad/m,hurst=%g,c0=%.9gm^4+-%g%%", nominal.q0,
-             nominal.qr, nominal.q1, nominal.hurst, drawn(truth->c0, s->of_surface, random),
+             nominal.qr, nominal.q1, nominal.hurst, random_about(truth->c0, s->of_surface, random),
              100 * s->of_surface);
     snprintf(w->pressure, sizeof w->pressure, "%gPa+-%g%%", nominal.pressure, 100 * s->of_load);
     snprintf(w->wear, sizeof w->wear, "%.9gm^2/N+-%g%%",
-             drawn(truth->wear_rate, s->of_wear, random), 100 * s->of_wear);
+             random_about(truth->wear_rate, s->of_wear, random), 100 * s->of_wear);
     snprintf(w->energy, sizeof w->energy, "%.9gJ/m^3+-%g%%",
-             drawn(truth->critical_energy, s->of_energy, random), 100 * s->of_energy);
+             random_about(truth->critical_energy, s->of_energy, random), 100 * s->of_energy);
     snprintf(w->shear, sizeof w->shear, "%.9gPa+-%g%%",
-             drawn(truth->shear_stress, s->of_shear, random), 100 * s->of_shear);
-    snprintf(w->ratio, sizeof w->ratio, "%.9g+-%g%%", drawn(ratio, s->of_ratio, random),
+             random_about(truth->shear_stress, s->of_shear, random), 100 * s->of_shear);
+    snprintf(w->ratio, sizeof w->ratio, "%.9g+-%g%%", random_about(ratio, s->of_ratio, random),
              100 * s->of_ratio);
     snprintf(w->severity, sizeof w->severity, "%gW/m^2", s->severity);
     say_loads(s, w->loads, sizeof w->loads, w->times, sizeof w->times);
@@ -240,12 +235,12 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     contact truth = nominal;
     words w;
     (void)prepared;
-    truth.pressure = drawn(nominal.pressure, s->of_load, random);
-    truth.c0 = drawn(nominal.c0, 0.1, random);
-    truth.shear_stress = drawn(nominal.shear_stress, 0.1, random);
-    truth.wear_rate = drawn(s->wear_rate, 0.1, random);
-    truth.critical_energy = drawn(s->critical_energy, 0.1, random);
-    const double ratio = drawn(s->ratio, 0.1, random);
+    truth.pressure = random_about(nominal.pressure, s->of_load, random);
+    truth.c0 = random_about(nominal.c0, 0.1, random);
+    truth.shear_stress = random_about(nominal.shear_stress, 0.1, random);
+    truth.wear_rate = random_about(s->wear_rate, 0.1, random);
+    truth.critical_energy = random_about(s->critical_energy, 0.1, random);
+    const double ratio = random_about(s->ratio, 0.1, random);
     const layer_truth layer = solve(s, &truth, &state, ratio);
     say_inputs(s, &truth, ratio, random, &w);
     if (!(layer.thickness > 0))

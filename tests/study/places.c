@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 static const char shifts[] = "shift_factors", curve[] = "master_curve", friction[] = "friction";
 
@@ -135,4 +136,15 @@ estimate place_key(const stream *s, const place *p)
 {
     return stated(stream_number(s, p->table, p->value, NULL), attribute(s, p, p->error),
                   attribute(s, p, p->low), attribute(s, p, p->high));
+}
+
+verdict place_friction_verdict(const stream *found, const char *table)
+{
+    static const char *const words[] = {
+        [YES] = "explains", [NO] = "does not", [CANNOT_SAY] = "cannot say"};
+    const char *said = stream_key(found, table, PLACE_VALIDATION_VERDICT);
+    for (int v = 0; said != NULL && v < (int)(sizeof words / sizeof *words); v++)
+        if (strncmp(said, words[v], strlen(words[v])) == 0)
+            return (verdict)v;
+    return NO_VERDICT;
 }

@@ -3,6 +3,7 @@
 #ifndef STUDY_PLACES_H
 #define STUDY_PLACES_H
 
+#include "facts.h"
 #include "stream.h"
 
 /* A number with its standard error, or with the ends of its interval where that is what stands
@@ -115,5 +116,7 @@ typedef struct estimate {
 
 estimate place_row(const stream *s, const place *p, int row);
 estimate place_key(const stream *s, const place *p);
+/* What a table of a validation says of the measured friction: YES of "explains". */
+verdict place_friction_verdict(const stream *found, const char *table);
 
 #endif

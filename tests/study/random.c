@@ -56,3 +56,8 @@ double random_normal(random_source *source)
             return x * sqrt(-2 * log(square) / square);
     }
 }
+
+double random_about(double value, double error, random_source *source)
+{
+    return value * exp(error * random_normal(source));
+}

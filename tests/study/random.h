@@ -13,5 +13,7 @@ typedef struct random_source {
 random_source random_for(uint64_t seed, const char *name, uint64_t number);
 double random_uniform(random_source *source); /* in ]0, 1[ */
 double random_normal(random_source *source);
+/* Of a value with a relative error. */
+double random_about(double value, double error, random_source *source);
 
 #endif

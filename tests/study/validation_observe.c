@@ -1,11 +1,11 @@
 /* A case and a record through weartrack validate. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "validation_observe.h"
 #include "contact.h"
+#include "sliding_case.h"
 #include "validation_scene.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { STEPS_MAX = 8, LAPS = 100, SAMPLES = 4, INTERVALS = 60 };
 static const double pi = 3.14159265358979323846, slowest = 1e-3, radius = 0.0125;
@@ -27,11 +27,6 @@ typedef struct made_friction {
     contact truth;
 } made_friction;
 
-static double drawn(double value, double error, random_source *random)
-{
-    return value * exp(error * random_normal(random));
-}
-
 static double shear_error(const validation_scene *s)
 {
     return s->of_shear > 0 ? s->of_shear : s->error;
@@ -42,9 +37,9 @@ static made_friction make_friction(const validation_scene *s, random_source *ran
     const rubber lines = rubber_make(RUBBER_LINES);
     const rubber_state state = {.rubber = &lines, .a = {1, 1}, .factor = 1};
     made_friction m = {.steps = s->velocities > 0 ? s->velocities : STEPS_MAX, .truth = stated};
-    m.truth.pressure = drawn(stated.pressure, s->error, random);
-    m.truth.c0 = drawn(stated.c0, s->error, random);
-    m.truth.shear_stress = drawn(stated.shear_stress, shear_error(s), random);
+    m.truth.pressure = random_about(stated.pressure, s->error, random);
+    m.truth.c0 = random_about(stated.c0, s->error, random);
+    m.truth.shear_stress = random_about(stated.shear_stress, shear_error(s), random);
     const double middle = 0.25 * (m.steps - 1); /* decades above the slowest */
     for (int i = 0; i < m.steps; i++) {
         contact one = m.truth;
@@ -61,22 +56,9 @@ static made_friction make_friction(const validation_scene *s, random_source *ran
 
 static bool write_case(const validation_scene *s, const char *path)
 {
-    const rubber lines = rubber_make(RUBBER_LINES);
-    FILE *out = fopen(path, "w");
+    FILE *out = sliding_case_begin(path, &stated, s->error);
     if (out == NULL)
         return false;
-    fprintf(out,
-            "<case version=\"1\"><dma><poisson-ratio>%g</poisson-ratio><reference-temperature>"
-            "%gdegC</reference-temperature><prony deformation=\"tension\"><equilibrium>%.12gPa"
-            "</equilibrium>",
-            stated.poisson, stated.temperature, lines.equilibrium);
-    for (size_t i = 0; i < lines.n; i++)
-        fprintf(out, "<term time=\"%.12gs\" modulus=\"%.12gPa\"/>", lines.tau[i],
-                lines.strength[i]);
-    fprintf(out,
-            "</prony></dma><roughness><self-affine><q0>%grad/m</q0><qr>%grad/m</qr><q1>%grad/m"
-            "</q1><hurst>%g</hurst><c0>%gm^4 +- %g%%</c0></self-affine></roughness>",
-            stated.q0, stated.qr, stated.q1, stated.hurst, stated.c0, 100 * s->error);
     fprintf(out, "<sliding><pressure>%gPa +- %g%%</pressure><velocity>1mm/s,1m/s</velocity>",
             stated.pressure, 100 * s->error);
     if (!s->unsaid)
@@ -117,17 +99,6 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static verdict read_verdict(const stream *found)
-{
-    static const char *const words[] = {
-        [YES] = "explains", [NO] = "does not", [CANNOT_SAY] = "cannot say"};
-    const char *said = stream_key(found, PLACE_VALIDATION, PLACE_VALIDATION_VERDICT);
-    for (int v = 0; said != NULL && v < (int)(sizeof words / sizeof *words); v++)
-        if (strncmp(said, words[v], strlen(words[v])) == 0)
-            return (verdict)v;
-    return NO_VERDICT;
-}
-
 static void read_found(const validation_scene *s, const made_friction *m, const char *path,
                        trial *t)
 {
@@ -135,7 +106,7 @@ static void read_found(const validation_scene *s, const made_friction *m, const 
     if (found == NULL || stream_rows(found, PLACE_VALIDATION) != m->steps) {
         trial_broke(t, "another number of steps");
     } else {
-        t->draw->verdict = read_verdict(found);
+        t->draw->verdict = place_friction_verdict(found, PLACE_VALIDATION);
         if (!s->unsaid)
             trial_add(t, Q_FRICTION_RATIO, s->off > 0 ? s->off : 1,
                       place_key(found, &place_friction_ratio));
