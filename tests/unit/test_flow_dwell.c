@@ -2,7 +2,7 @@
  * what is left out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "near.h"
+#include "cells.h"
 
 #include "dma_data.h"
 #include "fit/dwell/relaxation.h"
@@ -145,14 +145,6 @@ static wt_status make(const char *path, wt_tip tip, wt_dwell_tables *tables, wt_
     return wt_dwell_make(&job, &work, tables, err);
 }
 
-static double cell(const wt_table *t, size_t row, const char *column)
-{
-    const long c = wt_table_find(t, column);
-    if (c < 0 || row >= wt_table_n_rows(t))
-        fail_msg("no column %s or no row %zu", column, row);
-    return wt_table_number(t, row, (size_t)c);
-}
-
 static const char *words(const wt_table *t, size_t row, const char *column)
 {
     return wt_table_text(t, row, (size_t)wt_table_find(t, column));
@@ -165,17 +157,19 @@ static void check_dwells(const wt_table *t, const char *path)
     for (size_t i = 0; i < CURVES; i++) {
         assert_non_null(strstr(words(t, i, "file"), path));
         assert_string_equal(words(t, i, "note"), "");
-        assert_near(cell(t, i, "curve"), (double)i, 0);
-        assert_near(cell(t, i, "segment"), 1, 0);
-        assert_near(cell(t, i, "load_time"), load_time, 0.02);
-        assert_near(cell(t, i, "duration"), hold, 0.02);
-        assert_near(cell(t, i, "force_start"), stiffness[i] * force_at(load_time + step), 0.03);
-        assert_near(cell(t, i, "force_end"), stiffness[i] * force_at(end), 0.03);
-        assert_near(cell(t, i, "indentation_start"), depth, 0.02);
-        assert_near(cell(t, i, "indentation_end"), depth, 0.02);
-        assert_near_abs(cell(t, i, "misfit"), 1, 0.5);
-        assert_true(cell(t, i, "misfit_chance") > 1e-3 && cell(t, i, "misfit_chance") < 1);
-        assert_true(isnan(cell(t, i, "amplitude")));
+        assert_near(number_cell(t, i, "curve"), (double)i, 0);
+        assert_near(number_cell(t, i, "segment"), 1, 0);
+        assert_near(number_cell(t, i, "load_time"), load_time, 0.02);
+        assert_near(number_cell(t, i, "duration"), hold, 0.02);
+        assert_near(number_cell(t, i, "force_start"), stiffness[i] * force_at(load_time + step),
+                    0.03);
+        assert_near(number_cell(t, i, "force_end"), stiffness[i] * force_at(end), 0.03);
+        assert_near(number_cell(t, i, "indentation_start"), depth, 0.02);
+        assert_near(number_cell(t, i, "indentation_end"), depth, 0.02);
+        assert_near_abs(number_cell(t, i, "misfit"), 1, 0.5);
+        assert_true(number_cell(t, i, "misfit_chance") > 1e-3 &&
+                    number_cell(t, i, "misfit_chance") < 1);
+        assert_true(isnan(number_cell(t, i, "amplitude")));
     }
 }
 
@@ -187,17 +181,18 @@ static void check_points(const wt_table *t, const char *path)
     for (size_t i = 0; i < CURVES; i++) {
         double before = 0;
         const size_t first = row;
-        for (; row < wt_table_n_rows(t) && cell(t, row, "curve") == (double)i; row++) {
-            const double time = cell(t, row, "time"), f = cell(t, row, "force"),
-                         z = cell(t, row, "indentation");
+        for (; row < wt_table_n_rows(t) && number_cell(t, row, "curve") == (double)i; row++) {
+            const double time = number_cell(t, row, "time"), f = number_cell(t, row, "force"),
+                         z = number_cell(t, row, "indentation");
             assert_true(time > before && time < 1.02 * (load_time + hold));
             assert_int_equal(wt_table_block(t, row), i);
             assert_non_null(strstr(words(t, row, "file"), path));
             if (row % 5 == 0)
                 assert_near(f, stiffness[i] * force_at(time), 0.03);
             assert_near(z, depth, 0.02);
-            assert_near(cell(t, row, "modulus"), f / (g * pow(z, 1.5)), 1e-3);
-            assert_near(cell(t, row, "fitted_modulus"), cell(t, row, "modulus"), 0.02);
+            assert_near(number_cell(t, row, "modulus"), f / (g * pow(z, 1.5)), 1e-3);
+            assert_near(number_cell(t, row, "fitted_modulus"), number_cell(t, row, "modulus"),
+                        0.02);
             before = time;
         }
         assert_true(row - first > 8);
@@ -211,14 +206,14 @@ static void check_moduli(const wt_table *t, const wt_table *dwells, const char *
     double pulls = 0;
     size_t n = wt_table_n_rows(t), held = 0, first = 0;
     for (size_t row = 0; row < n; row++) {
-        const size_t i = (size_t)cell(t, row, "curve");
-        const double omega = cell(t, row, "angular_frequency"),
+        const size_t i = (size_t)number_cell(t, row, "curve");
+        const double omega = number_cell(t, row, "angular_frequency"),
                      size = stiffness[i] * modulus * tgamma(1 - exponent) * pow(omega, exponent),
                      storage = size * cos(M_PI_2 * exponent), loss = size * sin(M_PI_2 * exponent);
         assert_true(i < CURVES && omega > 0.2 / hold && omega < 10 / load_time);
         assert_non_null(strstr(words(t, row, "file"), path));
         assert_string_equal(words(t, row, "kind"), "relaxation");
-        assert_near(cell(t, row, "segment"), 1, 0);
+        assert_near(number_cell(t, row, "segment"), 1, 0);
         assert_int_equal(wt_table_block(t, row), i);
         const char *const columns[] = {"storage_modulus", "loss_modulus"};
         const double truth[] = {storage, loss};
@@ -226,14 +221,16 @@ static void check_moduli(const wt_table *t, const wt_table *dwells, const char *
             char error[48], common[48];
             snprintf(error, sizeof error, "%s_standard_error", columns[c]);
             snprintf(common, sizeof common, "%s_common_error", columns[c]);
-            const double pull = (cell(t, row, columns[c]) - truth[c]) / cell(t, row, error);
+            const double pull =
+                (number_cell(t, row, columns[c]) - truth[c]) / number_cell(t, row, error);
             assert_true(fabs(pull) < 4.5);
-            assert_true(cell(t, row, error) < 0.25 * truth[c]);
-            assert_true(cell(t, row, common) > 0 && cell(t, row, common) <= cell(t, row, error));
+            assert_true(number_cell(t, row, error) < 0.25 * truth[c]);
+            assert_true(number_cell(t, row, common) > 0 &&
+                        number_cell(t, row, common) <= number_cell(t, row, error));
             pulls += pull * pull;
         }
         /* the one in the middle is that of the dwell */
-        const bool last = row + 1 == n || cell(t, row + 1, "curve") != (double)i;
+        const bool last = row + 1 == n || number_cell(t, row + 1, "curve") != (double)i;
         held++;
         if (!last)
             continue;
@@ -242,7 +239,7 @@ static void check_moduli(const wt_table *t, const wt_table *dwells, const char *
                                     "storage_modulus_standard_error", "loss_modulus",
                                     "loss_modulus_standard_error"};
         for (size_t c = 0; c < 5; c++)
-            assert_near(cell(dwells, i, same[c]), cell(t, middle, same[c]), 1e-12);
+            assert_near(number_cell(dwells, i, same[c]), number_cell(t, middle, same[c]), 1e-12);
         first = row + 1;
         held = 0;
     }
@@ -402,11 +399,12 @@ static void test_modulation(void **state)
     assert_near(CELL("segment"), 1, 0);
     const size_t n_moduli = wt_table_n_rows(t.dwell_moduli) - 1;
     assert_string_equal(words(t.dwell_moduli, n_moduli, "kind"), "modulation");
-    assert_near(cell(t.dwell_moduli, n_moduli, "storage_modulus"), CELL("storage_modulus"), 0);
-    assert_near(cell(t.dwell_moduli, n_moduli, "loss_modulus"), CELL("loss_modulus"), 0);
+    assert_near(number_cell(t.dwell_moduli, n_moduli, "storage_modulus"), CELL("storage_modulus"),
+                0);
+    assert_near(number_cell(t.dwell_moduli, n_moduli, "loss_modulus"), CELL("loss_modulus"), 0);
     /* what the depth of the contact point is off by, through the slope of the sphere's contact */
-    const double of_storage = cell(t.dwell_moduli, n_moduli, "storage_modulus_common_error"),
-                 of_loss = cell(t.dwell_moduli, n_moduli, "loss_modulus_common_error");
+    const double of_storage = number_cell(t.dwell_moduli, n_moduli, "storage_modulus_common_error"),
+                 of_loss = number_cell(t.dwell_moduli, n_moduli, "loss_modulus_common_error");
     assert_true(of_storage > 0 && of_storage < 0.02 * storage);
     assert_near(of_loss / CELL("loss_modulus"), of_storage / CELL("storage_modulus"), 1e-9);
 #undef CELL

@@ -1,7 +1,6 @@
 /* The layer beyond its thickness at constant load, as a job makes it: its tables agree with each
  * other and with those that were there before. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "sliding.h"
+#include "layer_tables.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,30 +14,6 @@ static wt_layer_job job_of(void)
     job.specific_wear_rate.value = 1e-12;
     job.critical_energy.value = 2e10;
     return job;
-}
-
-static double key_number(const wt_table *table, const char *name)
-{
-    const char *text = wt_table_key(table, name);
-    if (text == NULL)
-        fail_msg("no key %s", name);
-    return strtod(text, NULL);
-}
-
-static double cell(const wt_table *table, size_t row, const char *column)
-{
-    const long at = wt_table_find(table, column);
-    assert_true(at >= 0);
-    return wt_table_number(table, row, (size_t)at);
-}
-
-static wt_table *layer_of(const wt_layer_job *job)
-{
-    wt_layer_tables tables = {0};
-    wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, job, &work, &tables, &err) != WT_OK)
-        fail_msg("layer: %s %s", err.message, err.found);
-    return tables.layer;
 }
 
 /* The powers add up by their shares. */
@@ -66,7 +41,8 @@ static void energies_add_up(void **state)
     sliding.n_velocity = 1;
     assert_int_equal(wt_friction_make(&sliding, NULL, &work, &friction, &err), WT_OK);
     assert_near(key_number(shear, "shear_power"),
-                5e6 * cell(friction.friction, 0, "area_ratio") * velocity[VELOCITIES / 2], 1e-9);
+                5e6 * number_cell(friction.friction, 0, "area_ratio") * velocity[VELOCITIES / 2],
+                1e-9);
     wt_friction_tables_clear(&friction);
     wt_table_free(plain);
     wt_table_free(shear);
@@ -94,16 +70,6 @@ static void severity_is_a_rate(void **state)
     wt_table_free(constant);
 }
 
-static double key_error(const wt_table *table, const char *name)
-{
-    const char *text = wt_table_key(table, name), *at = NULL;
-    if (text != NULL)
-        at = strstr(text, "numerical_error=");
-    if (at == NULL)
-        fail_msg("no numerical error of %s", name);
-    return strtod(at + strlen("numerical_error="), NULL);
-}
-
 /* R is not better known than the closure lets it be. */
 static void closure_magnifies_errors(void **state)
 {
@@ -117,9 +83,11 @@ static void closure_magnifies_errors(void **state)
     sliding.temperature.value = rubber.prony.reference_temperature;
     static const char *const keys[] = {"formation_wear_ratio", "critical_specific_wear_rate"};
     wt_table *layer = layer_of(&job);
-    const double of_power = key_error(layer, "surface_power") / key_number(layer, "surface_power");
+    const double of_power = number_after(layer, "surface_power", "numerical_error=") /
+                            key_number(layer, "surface_power");
     for (size_t i = 0; i < 2; i++)
-        assert_true(key_error(layer, keys[i]) / key_number(layer, keys[i]) > 2 * of_power);
+        assert_true(number_after(layer, keys[i], "numerical_error=") / key_number(layer, keys[i]) >
+                    2 * of_power);
     wt_table_free(layer);
 }
 
@@ -137,12 +105,12 @@ static void bands_are_the_layer(void **state)
         assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
         size_t modified = 0;
         for (size_t row = 0, at = 0; row < wt_table_n_rows(bands); row++) {
-            if (cell(bands, row, "band") > 1)
+            if (number_cell(bands, row, "band") > 1)
                 continue;
-            const bool none = cell(bands, row, "band") < 1;
-            const double lower = none ? 0 : cell(bands, row, "lower");
-            assert_near(cell(bands, row, "time"), cell(layer, at, "time"), 1e-15);
-            assert_near(lower, cell(layer, at, "thickness"), 1e-10);
+            const bool none = number_cell(bands, row, "band") < 1;
+            const double lower = none ? 0 : number_cell(bands, row, "lower");
+            assert_near(number_cell(bands, row, "time"), number_cell(layer, at, "time"), 1e-15);
+            assert_near(lower, number_cell(layer, at, "thickness"), 1e-10);
             at++;
             modified += !none;
         }
@@ -171,7 +139,7 @@ static void loads_in_parts(void **state)
         fail_msg("%s %s", err.message, err.place);
     assert_int_equal(wt_table_n_rows(whole), wt_table_n_rows(cut));
     for (size_t row = 0; row < wt_table_n_rows(whole); row++)
-        assert_near(cell(cut, row, "lower"), cell(whole, row, "lower"), 1e-11);
+        assert_near(number_cell(cut, row, "lower"), number_cell(whole, row, "lower"), 1e-11);
     wt_table_free(whole);
     wt_table_free(cut);
 }
@@ -227,7 +195,8 @@ static void running_in_joins_both(void **state)
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
     const size_t n = wt_table_n_rows(running);
     for (size_t row = 0; row < n; row++)
-        assert_near(cell(running, row, "thickness"), cell(layer, row, "thickness"), 1e-12);
+        assert_near(number_cell(running, row, "thickness"), number_cell(layer, row, "thickness"),
+                    1e-12);
     wt_friction_tables friction = {0};
     known.thickness = (wt_estimate){key_number(layer, "balance_thickness"), 0, 0, "m"};
     assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
@@ -235,7 +204,7 @@ static void running_in_joins_both(void **state)
                 key_number(friction.friction, "friction_at_reference"), 1e-9);
     assert_near(key_number(running, "balance_friction"),
                 key_number(friction.friction, "friction_with_layer_at_reference"), 1e-9);
-    assert_near(cell(running, 0, "friction"), key_number(running, "bare_friction"), 1e-12);
+    assert_near(number_cell(running, 0, "friction"), key_number(running, "bare_friction"), 1e-12);
     assert_true(key_number(running, "settled") > 0);
     /* with a layer that acts back it ends at the balance of that, also where wear follows it */
     for (int k = 0; k < 2; k++) {
@@ -245,11 +214,12 @@ static void running_in_joins_both(void **state)
         assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
         assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
                          WT_OK);
-        assert_near(cell(running, n - 1, "thickness"), cell(balances, 0, "thickness"), 1e-8);
+        assert_near(number_cell(running, n - 1, "thickness"), number_cell(balances, 0, "thickness"),
+                    1e-8);
         assert_true(
-            fabs(cell(balances, 0, "thickness") / key_number(balances, "one_way_thickness") - 1) >
-            1e-3);
-        assert_true(cell(balances, 0, "map_slope") < 1);
+            fabs(number_cell(balances, 0, "thickness") / key_number(balances, "one_way_thickness") -
+                 1) > 1e-3);
+        assert_true(number_cell(balances, 0, "map_slope") < 1);
         wt_table_free(balances);
     }
     wt_friction_tables_clear(&friction);
@@ -306,7 +276,7 @@ static void shearing_the_layer(void **state)
         job.shear.exponent = k;
         assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
                          WT_OK);
-        thickness[k] = cell(balances, 0, "thickness");
+        thickness[k] = number_cell(balances, 0, "thickness");
         wt_table_free(balances);
     }
     assert_true(thickness[1] > 0 && thickness[1] < 0.9 * thickness[0]);
@@ -318,10 +288,11 @@ static void shearing_the_layer(void **state)
         wt_table_free(layer);
         assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
                          WT_OK);
-        assert_int_equal(cell(balances, 0, "thickness") > 0, k);
-        assert_true(cell(balances, 0, "thickness") < 1e-8);
+        assert_int_equal(number_cell(balances, 0, "thickness") > 0, k);
+        assert_true(number_cell(balances, 0, "thickness") < 1e-8);
         assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
-        assert_near(key_number(running, "balance_thickness"), cell(balances, 0, "thickness"), 1e-9);
+        assert_near(key_number(running, "balance_thickness"), number_cell(balances, 0, "thickness"),
+                    1e-9);
         wt_table_free(balances);
         wt_table_free(running);
     }
@@ -354,10 +325,10 @@ static void threshold_of_a_stiff_layer(void **state)
             assert_string_equal(wt_table_text(balances, row, kind), "balance");
             assert_string_equal(wt_table_text(balances, row, at), stable[row]);
         }
-        const double threshold = cell(balances, 1, "thickness");
-        assert_true(cell(balances, 0, "thickness") == 0);
+        const double threshold = number_cell(balances, 1, "thickness");
+        assert_true(number_cell(balances, 0, "thickness") == 0);
         assert_true(k ? threshold > 0 && threshold < 1e-10 : threshold == 0);
-        assert_true(cell(balances, 2, "thickness") > 1e-7);
+        assert_true(number_cell(balances, 2, "thickness") > 1e-7);
         wt_table_free(balances);
     }
 }
@@ -377,9 +348,9 @@ static void existence_ends_where_it_says(void **state)
     assert_true(isnan(key_number(existence, "from_velocity")));
     assert_true(edge > velocity[0] && edge < velocity[VELOCITIES - 1]);
     for (size_t row = 0; row < VELOCITIES; row++) {
-        const bool there = cell(existence, row, "velocity") < edge;
-        assert_int_equal(cell(existence, row, "thickness") > 0, there);
-        assert_int_equal(cell(existence, row, "change") != 0, there);
+        const bool there = number_cell(existence, row, "velocity") < edge;
+        assert_int_equal(number_cell(existence, row, "thickness") > 0, there);
+        assert_int_equal(number_cell(existence, row, "change") != 0, there);
     }
     static const double other_way[] = {10, 1, 1e-2, 0.1, 1e-3};
     wt_table *again = NULL;
@@ -418,7 +389,7 @@ static void existence_of_two_ranges(void **state)
     size_t first = 0, valley = 0, last = 0;
     double ratio[LIST];
     for (size_t i = 0; i < LIST; i++)
-        ratio[i] = cell(existence, i, "ratio");
+        ratio[i] = number_cell(existence, i, "ratio");
     wt_table_free(existence);
     while (ratio[first + 1] > ratio[first])
         first++;

@@ -1,8 +1,7 @@
 /* Standard errors of what a layer is beyond its thickness at constant load: they are those of the
  * tables that were there before, and what the formulas say where there are some.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "sliding.h"
+#include "layer_tables.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,39 +19,9 @@ static wt_layer_job job_of(double of_wear, double of_energy)
     return job;
 }
 
-static double number_after(const wt_table *table, const char *key, const char *words)
-{
-    const char *text = wt_table_key(table, key);
-    const char *at = text != NULL ? strstr(text, words) : NULL;
-    if (at == NULL)
-        fail_msg("no %s of %s", words, key);
-    return strtod(at + strlen(words), NULL);
-}
-
-static double key_number(const wt_table *table, const char *key)
-{
-    return number_after(table, key, "");
-}
-
 static double key_error(const wt_table *table, const char *key)
 {
     return number_after(table, key, "standard_error=");
-}
-
-static double cell(const wt_table *table, size_t row, const char *column)
-{
-    const long at = wt_table_find(table, column);
-    assert_true(at >= 0);
-    return wt_table_number(table, row, (size_t)at);
-}
-
-static wt_table *layer_of(const wt_layer_job *job)
-{
-    wt_layer_tables tables = {0};
-    wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, job, &work, &tables, &err) != WT_OK)
-        fail_msg("layer: %s %s", err.message, err.found);
-    return tables.layer;
 }
 
 static wt_table *bands_of(const wt_layer_job *job)
@@ -118,23 +87,23 @@ static void one_error_of_the_thickness(void **state)
         assert_near(key_error(bands, "first_appearance"), incubation, AS_CLOSE);
         size_t looked = 0;
         for (size_t row = 0, at = 0; row < wt_table_n_rows(bands); row++, at++) {
-            if (cell(bands, row, "share") < 1 || cell(bands, row, "band") < 1)
+            if (number_cell(bands, row, "share") < 1 || number_cell(bands, row, "band") < 1)
                 continue;
-            const double error = cell(layer, at, "thickness_standard_error");
-            assert_near(cell(bands, row, "lower_standard_error"), error, AS_CLOSE);
+            const double error = number_cell(layer, at, "thickness_standard_error");
+            assert_near(number_cell(bands, row, "lower_standard_error"), error, AS_CLOSE);
             /* its slopes are those beside one more number, that of the modulus */
-            assert_near(cell(running, at, "thickness_standard_error"), error, 1e-2);
+            assert_near(number_cell(running, at, "thickness_standard_error"), error, 1e-2);
             looked++;
         }
         assert_true(looked > 20);
-        assert_near(cell(existence, VELOCITIES / 2, "ratio_standard_error"),
+        assert_near(number_cell(existence, VELOCITIES / 2, "ratio_standard_error"),
                     key_error(layer, "formation_wear_ratio"), AS_CLOSE);
-        assert_near(cell(existence, VELOCITIES / 2, "power_standard_error"),
+        assert_near(number_cell(existence, VELOCITIES / 2, "power_standard_error"),
                     key_error(layer, "surface_power"), AS_CLOSE);
         if (!calibrated) { /* else what was observed is that of another replicate's balance */
             assert_near(key_error(running, "balance_thickness"),
                         key_error(layer, "balance_thickness"), 1e-2);
-            assert_near(cell(existence, VELOCITIES / 2, "thickness_standard_error"),
+            assert_near(number_cell(existence, VELOCITIES / 2, "thickness_standard_error"),
                         key_error(layer, "balance_thickness"), 1e-2);
         }
         wt_table_free(layer);
@@ -275,7 +244,7 @@ static void balances_that_may_be_others(void **state)
         assert_non_null(agreement);
         if (strncmp(agreement, near ? "cannot say" : "yes", near ? 10 : 3) != 0)
             fail_msg("%d: %s", near, agreement);
-        assert_true(cell(balances, 0, "wear_rate_standard_error") > 0);
+        assert_true(number_cell(balances, 0, "wear_rate_standard_error") > 0);
         wt_table_free(balances);
     }
 }
@@ -298,7 +267,7 @@ static void edges_that_may_not_be_there(void **state)
     assert_near(key_number(cut, "to_velocity"), edge, 1e-6);
     assert_int_equal(strncmp(wt_table_key(cut, "known"), "cannot say", 10), 0);
     assert_null(wt_table_key(cut, "to_velocity_low"));
-    const double share = cell(cut, 2, "share");
+    const double share = number_cell(cut, 2, "share");
     assert_true(share > 0.1 && share < 0.9);
     wt_table_free(cut);
 }

@@ -2,7 +2,7 @@
  * both ways with friction, several files, a soft surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "near.h"
+#include "cells.h"
 
 #include "dma_data.h"
 #include "weartrack/flow.h"
@@ -77,13 +77,6 @@ static wt_sensitivity_tables made(const char *const *paths, size_t n)
     return tables;
 }
 
-static double cell(const wt_table *table, size_t row, const char *column)
-{
-    const long c = wt_table_find(table, column);
-    assert_true(c >= 0);
-    return wt_table_number(table, row, (size_t)c);
-}
-
 static wt_estimate key(const wt_table *table, const char *name)
 {
     wt_estimate e = {(double)NAN, (double)NAN, (double)NAN, ""};
@@ -118,14 +111,16 @@ static of_curves take(const wt_table *curves, const char *direction, const char 
 {
     of_curves all = {.n = 0};
     for (size_t i = 0; i < wt_table_n_rows(curves); i++) {
-        double value = isnan(cell(curves, i, column)) ? (double)NAN : cell(curves, i, column);
+        double value =
+            isnan(number_cell(curves, i, column)) ? (double)NAN : number_cell(curves, i, column);
         if (strcmp(direction, "both") != 0 && strcmp(direction, words(curves, i, "direction")) != 0)
             continue;
         if (strcmp(direction, "both") == 0) { /* the retract stands behind its approach */
             if (strcmp(words(curves, i, "direction"), "retract") != 0 || i == 0 ||
-                cell(curves, i - 1, "curve") != cell(curves, i, "curve") || !is_used(curves, i - 1))
+                number_cell(curves, i - 1, "curve") != number_cell(curves, i, "curve") ||
+                !is_used(curves, i - 1))
                 continue;
-            value = (value + cell(curves, i - 1, column)) / 2;
+            value = (value + number_cell(curves, i - 1, column)) / 2;
         }
         if (!is_used(curves, i) || isnan(value))
             continue;
@@ -169,13 +164,13 @@ static void check_interval(const wt_table *t, size_t row, const char *name, mean
 {
     char column[64];
     const double digits = 1e-9 * fabs(m.value);
-    assert_near_abs(cell(t, row, name), m.value, digits);
+    assert_near_abs(number_cell(t, row, name), m.value, digits);
     snprintf(column, sizeof column, "%s_standard_error", name);
-    assert_near_abs(cell(t, row, column), m.error, digits);
+    assert_near_abs(number_cell(t, row, column), m.error, digits);
     snprintf(column, sizeof column, "%s_low", name);
-    assert_near_abs(cell(t, row, column), m.value - m.half, digits);
+    assert_near_abs(number_cell(t, row, column), m.value - m.half, digits);
     snprintf(column, sizeof column, "%s_high", name);
-    assert_near_abs(cell(t, row, column), m.value + m.half, digits);
+    assert_near_abs(number_cell(t, row, column), m.value + m.half, digits);
 }
 
 /* The mean of retract over approach of the curves that have both; NaN if none has. */
@@ -183,10 +178,10 @@ static double ways_ratio(const wt_table *curves, const char *column)
 {
     of_curves all = {.n = 0};
     for (size_t i = 1; i < wt_table_n_rows(curves); i++) {
-        const double ratio = cell(curves, i, column) / cell(curves, i - 1, column);
+        const double ratio = number_cell(curves, i, column) / number_cell(curves, i - 1, column);
         if (strcmp(words(curves, i, "direction"), "retract") != 0 || !is_used(curves, i) ||
-            !is_used(curves, i - 1) || cell(curves, i - 1, "curve") != cell(curves, i, "curve") ||
-            isnan(ratio))
+            !is_used(curves, i - 1) ||
+            number_cell(curves, i - 1, "curve") != number_cell(curves, i, "curve") || isnan(ratio))
             continue;
         all.file[all.n] = words(curves, i, "file");
         all.value[all.n++] = ratio;
@@ -217,13 +212,14 @@ static void check_rows(const wt_sensitivity_tables *tables)
         const mean change = mean_of(take(curves, direction, "slope_change")),
                    sensitivity = mean_of(take(curves, direction, "sensitivity")),
                    factor = mean_of(take(curves, direction, "factor"));
-        const bool refused = isnan(cell(t, row, "sensitivity")) && isnan(cell(t, row, "factor"));
-        assert_near(cell(t, row, "n"), (double)take(curves, direction, "slope_change").n, 0);
-        assert_near(cell(t, row, "n_units"), (double)change.n, 0);
+        const bool refused =
+            isnan(number_cell(t, row, "sensitivity")) && isnan(number_cell(t, row, "factor"));
+        assert_near(number_cell(t, row, "n"), (double)take(curves, direction, "slope_change").n, 0);
+        assert_near(number_cell(t, row, "n_units"), (double)change.n, 0);
         check_interval(t, row, "slope_change", change);
-        assert_near_abs(cell(t, row, "baseline_tilt"),
+        assert_near_abs(number_cell(t, row, "baseline_tilt"),
                         mean_of(take(curves, direction, "baseline_tilt")).value, 1e-12);
-        assert_near(cell(t, row, "surface_share"), 2.4 * fmax(0, change.value + change.half),
+        assert_near(number_cell(t, row, "surface_share"), 2.4 * fmax(0, change.value + change.half),
                     0.005);
         assert_string_equal(words(t, row, "note"), "");
         if (refused)
@@ -231,7 +227,7 @@ static void check_rows(const wt_sensitivity_tables *tables)
         if (sensitivity.n > 0) {
             check_interval(t, row, "sensitivity",
                            with_ways(sensitivity, ways_ratio(curves, "sensitivity"), direction));
-            assert_near(cell(t, row, "scatter"),
+            assert_near(number_cell(t, row, "scatter"),
                         sensitivity.error * sqrt((double)sensitivity.n) / sensitivity.value, 1e-9);
         }
         if (factor.n > 0)
@@ -248,13 +244,15 @@ static void check_noise(const wt_table *curves, double s)
     for (size_t i = 0; i < wt_table_n_rows(curves); i++) {
         if (!is_used(curves, i))
             continue;
-        const double n = cell(curves, i, "points"), rise = cell(curves, i, "travel") / s;
-        assert_near(n, N * cell(curves, i, "travel") / (free_travel + press), 0.05);
-        assert_near_abs(cell(curves, i, "baseline_tilt"), 0, 0.02);
-        misfit += cell(curves, i, "misfit") / (0.004 * s / press);
-        slope += cell(curves, i, "sensitivity_standard_error") / (s * 0.004 / rise * sqrt(12 / n));
-        change +=
-            cell(curves, i, "slope_change_standard_error") / (8 * 0.004 / rise * sqrt(11.25 / n));
+        const double n = number_cell(curves, i, "points"),
+                     rise = number_cell(curves, i, "travel") / s;
+        assert_near(n, N * number_cell(curves, i, "travel") / (free_travel + press), 0.05);
+        assert_near_abs(number_cell(curves, i, "baseline_tilt"), 0, 0.02);
+        misfit += number_cell(curves, i, "misfit") / (0.004 * s / press);
+        slope += number_cell(curves, i, "sensitivity_standard_error") /
+                 (s * 0.004 / rise * sqrt(12 / n));
+        change += number_cell(curves, i, "slope_change_standard_error") /
+                  (8 * 0.004 / rise * sqrt(11.25 / n));
         n_used++;
     }
     assert_near(misfit / n_used, 1, 0.1);
@@ -280,8 +278,9 @@ static void test_volts(void **state)
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "0");
     assert_string_equal(wt_table_key(t.sensitivity, "direction"), "both");
     const wt_estimate s = key(t.sensitivity, "sensitivity");
-    assert_near(s.value, cell(t.sensitivity, 2, "sensitivity"), 1e-9);
-    assert_near(s.standard_error, cell(t.sensitivity, 2, "sensitivity_standard_error"), 1e-9);
+    assert_near(s.value, number_cell(t.sensitivity, 2, "sensitivity"), 1e-9);
+    assert_near(s.standard_error, number_cell(t.sensitivity, 2, "sensitivity_standard_error"),
+                1e-9);
     assert_near(strtod(wt_table_key(t.sensitivity, "indent_option") + 14, NULL), 1e9 * s.value,
                 1e-5);
     assert_near(strtod(wt_table_key(t.sensitivity, "compare_option") + 20, NULL),
@@ -293,20 +292,20 @@ static void test_volts(void **state)
     assert_near(key(t.sensitivity, "retract_over_approach").value, mean_of(difference).value, 1e-9);
     assert_near(key(t.sensitivity, "retract_over_approach").standard_error,
                 mean_of(difference).error, 1e-9);
-    assert_near(cell(t.sensitivity, 0, "sensitivity"), 60e-9 * 1.02, 0.004);
-    assert_near(cell(t.sensitivity, 1, "sensitivity"), 60e-9 * 0.98, 0.004);
-    assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.004);
-    assert_true(cell(t.sensitivity, 2, "sensitivity_low") < 60e-9);
-    assert_true(cell(t.sensitivity, 2, "sensitivity_high") > 60e-9);
+    assert_near(number_cell(t.sensitivity, 0, "sensitivity"), 60e-9 * 1.02, 0.004);
+    assert_near(number_cell(t.sensitivity, 1, "sensitivity"), 60e-9 * 0.98, 0.004);
+    assert_near(number_cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.004);
+    assert_true(number_cell(t.sensitivity, 2, "sensitivity_low") < 60e-9);
+    assert_true(number_cell(t.sensitivity, 2, "sensitivity_high") > 60e-9);
     assert_near(key(t.sensitivity, "retract_over_approach").value, 0.98 / 1.02, 0.003);
     /* the stated interval holds both ways, the one of each the other way */
-    assert_near(cell(t.sensitivity, 2, "ways_error"), 0.04 / sqrt(12), 0.03);
-    assert_near(cell(t.sensitivity, 0, "ways_error"), 0.04 / 1.02 / sqrt(3), 0.03);
+    assert_near(number_cell(t.sensitivity, 2, "ways_error"), 0.04 / sqrt(12), 0.03);
+    assert_near(number_cell(t.sensitivity, 0, "ways_error"), 0.04 / 1.02 / sqrt(3), 0.03);
     for (size_t row = 0; row < 3; row++) {
-        assert_true(cell(t.sensitivity, row, "sensitivity_low") < 60e-9 * 0.98);
-        assert_true(cell(t.sensitivity, row, "sensitivity_high") > 60e-9 * 1.02);
-        assert_true(cell(t.sensitivity, row, "sensitivity_standard_error") >
-                    cell(t.sensitivity, row, "ways_error") * 60e-9 * 0.97);
+        assert_true(number_cell(t.sensitivity, row, "sensitivity_low") < 60e-9 * 0.98);
+        assert_true(number_cell(t.sensitivity, row, "sensitivity_high") > 60e-9 * 1.02);
+        assert_true(number_cell(t.sensitivity, row, "sensitivity_standard_error") >
+                    number_cell(t.sensitivity, row, "ways_error") * 60e-9 * 0.97);
     }
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_true(strncmp(wt_table_key(t.sensitivity, "indent_option"), "--sensitivity ", 14) == 0);
@@ -329,7 +328,7 @@ static void test_calibrated(void **state)
     assert_near(key(t.sensitivity, "sensitivity").value, 60e-9, 0.004);
     assert_near(key(t.sensitivity, "factor").value, 1.2, 0.004);
     assert_near(key(t.sensitivity, "factor").standard_error,
-                cell(t.sensitivity, 2, "factor_standard_error"), 1e-9);
+                number_cell(t.sensitivity, 2, "factor_standard_error"), 1e-9);
     assert_near(strtod(wt_table_key(t.sensitivity, "thermal_spring_constant_factor"), NULL),
                 1 / 1.44, 0.01);
     wt_sensitivity_tables_clear(&t);
@@ -387,10 +386,10 @@ static void test_files(void **state)
     }
     wt_sensitivity_tables t = made(paths, MOST_FILES);
     check_rows(&t);
-    assert_near(cell(t.sensitivity, 2, "n"), 39, 0);
-    assert_near(cell(t.sensitivity, 2, "n_units"), 4, 0);
-    assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.001);
-    assert_near(cell(t.sensitivity, 2, "scatter"), 0.01826, 0.05);
+    assert_near(number_cell(t.sensitivity, 2, "n"), 39, 0);
+    assert_near(number_cell(t.sensitivity, 2, "n_units"), 4, 0);
+    assert_near(number_cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.001);
+    assert_near(number_cell(t.sensitivity, 2, "scatter"), 0.01826, 0.05);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
     wt_sensitivity_tables_clear(&t);
     for (size_t f = 0; f < MOST_FILES; f++)
@@ -411,11 +410,11 @@ static void test_retract_and_one(void **state)
     write_map(path[0], 10, (double)NAN, (double)NAN);
     wt_sensitivity_tables t = made(path, 1);
     check_rows(&t);
-    assert_near(cell(t.sensitivity, 0, "n"), 9, 0);
+    assert_near(number_cell(t.sensitivity, 0, "n"), 9, 0);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
     for (size_t i = 0; i < wt_table_n_rows(t.sensitivity_curves); i++)
         assert_string_equal(words(t.sensitivity_curves, i, "verdict"),
-                            cell(t.sensitivity_curves, i, "curve") == 3
+                            number_cell(t.sensitivity_curves, i, "curve") == 3
                                 ? "left out: far from the other curves"
                                 : "used");
     wt_sensitivity_tables_clear(&t);
@@ -424,9 +423,9 @@ static void test_retract_and_one(void **state)
     const wt_table *curves = t.sensitivity_curves, *all = t.sensitivity;
     double own[3], change[3], reach[3];
     for (size_t way = 0; way < 2; way++) {
-        own[way] =
-            cell(curves, way, "sensitivity_standard_error") / cell(curves, way, "sensitivity");
-        change[way] = cell(curves, way, "slope_change_standard_error");
+        own[way] = number_cell(curves, way, "sensitivity_standard_error") /
+                   number_cell(curves, way, "sensitivity");
+        change[way] = number_cell(curves, way, "slope_change_standard_error");
     }
     own[2] = hypot(own[0], own[1]) / 2;
     change[2] = hypot(change[0], change[1]) / 2;
@@ -434,14 +433,14 @@ static void test_retract_and_one(void **state)
         char note[64];
         snprintf(note, sizeof note, "standard error within the curve %.2g %%", 100 * own[row]);
         assert_non_null(strstr(words(all, row, "note"), note));
-        assert_near(cell(all, row, "slope_change_standard_error"), change[row], 1e-9);
-        const double value = cell(all, row, "slope_change"),
-                     half = cell(all, row, "slope_change_high") - value;
-        assert_near(value - cell(all, row, "slope_change_low"), half, 1e-9);
+        assert_near(number_cell(all, row, "slope_change_standard_error"), change[row], 1e-9);
+        const double value = number_cell(all, row, "slope_change"),
+                     half = number_cell(all, row, "slope_change_high") - value;
+        assert_near(value - number_cell(all, row, "slope_change_low"), half, 1e-9);
         reach[row] = half / change[row];
         assert_true(reach[row] > 1.96 && reach[row] < 4);
-        assert_near(cell(all, row, "n"), 1, 0);
-        assert_true(isnan(cell(all, row, "sensitivity_standard_error")));
+        assert_near(number_cell(all, row, "n"), 1, 0);
+        assert_true(isnan(number_cell(all, row, "sensitivity_standard_error")));
     }
     assert_near(reach[2], fmax(reach[0], reach[1]), 1e-9);
     wt_sensitivity_tables_clear(&t);
@@ -464,7 +463,7 @@ static void test_equal(void **state)
     write_map(path[0], 12, (double)NAN, (double)NAN);
     wt_sensitivity_tables t = made(path, 1);
     check_rows(&t);
-    assert_near(cell(t.sensitivity, 2, "n"), 11, 0);
+    assert_near(number_cell(t.sensitivity, 2, "n"), 11, 0);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
     wt_sensitivity_tables_clear(&t);
     (void)remove(path[0]);
@@ -522,9 +521,9 @@ static void test_soft(void **state)
                         "soft surface: the slope rises with the deflection");
     check_rows(&t);
     assert_true(isnan(key(t.sensitivity, "sensitivity").value));
-    assert_true(isnan(cell(t.sensitivity, 2, "sensitivity")));
-    assert_near(cell(t.sensitivity, 2, "surface_share"),
-                2.4 * cell(t.sensitivity, 2, "slope_change_high"), 0.005);
+    assert_true(isnan(number_cell(t.sensitivity, 2, "sensitivity")));
+    assert_near(number_cell(t.sensitivity, 2, "surface_share"),
+                2.4 * number_cell(t.sensitivity, 2, "slope_change_high"), 0.005);
     wt_sensitivity_tables_clear(&t);
     job.most_bend = 0.5;
     job.ways = WT_WAYS_RETRACT;
@@ -546,7 +545,7 @@ static void test_genuine(void **state)
         skip();
     wt_sensitivity_tables t = made(map, 1), s = made(one, 1);
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
-    assert_true(cell(t.sensitivity, 2, "n") > 240);
+    assert_true(number_cell(t.sensitivity, 2, "n") > 240);
     assert_near(key(t.sensitivity, "sensitivity").value, 30.2e-9, 0.01);
     assert_near(key(s.sensitivity, "sensitivity").value, 30.2e-9, 0.02);
     wt_sensitivity_tables_clear(&t);

@@ -1,7 +1,7 @@
 /* The material for finite elements: each file is read here by the rules of its program's manual and
  * loaded at once in tension by an integration of its own; the relaxation must be that of the table
  * it was made from, at the reference and, by the shift of that program, at other temperatures. */
-#include "near.h"
+#include "cells.h"
 
 #include "weartrack/flow.h"
 
@@ -436,24 +436,18 @@ static double key(const wt_table *table, const char *name)
     return e.value;
 }
 
-static double cell(const wt_table *table, size_t row, const char *name)
-{
-    const long column = wt_table_find(table, name);
-    assert_true(column >= 0);
-    return wt_table_number(table, row, (size_t)column);
-}
-
 /* E(t) of the library at an isotherm, or at the reference (row of no isotherm). */
 static double known(const wt_shift_law *law, size_t row, double to_young, double time)
 {
     const wt_table *p = tables.prony_reduced, *shifts = tables.shift_factors;
     const bool reference = row >= wt_table_n_rows(shifts);
-    const double log_a = reference ? 0 : wt_shift_law_log_a(law, cell(shifts, row, "temperature"));
-    const double b = reference ? 1 : pow(10, cell(shifts, row, "log_b_material"));
+    const double log_a =
+        reference ? 0 : wt_shift_law_log_a(law, number_cell(shifts, row, "temperature"));
+    const double b = reference ? 1 : pow(10, number_cell(shifts, row, "log_b_material"));
     double sum = key(p, "equilibrium_modulus");
     for (size_t i = 0; i < wt_table_n_rows(p); i++)
-        sum +=
-            cell(p, i, "modulus") * exp(-time / (cell(p, i, "relaxation_time") * pow(10, log_a)));
+        sum += number_cell(p, i, "modulus") *
+               exp(-time / (number_cell(p, i, "relaxation_time") * pow(10, log_a)));
     return to_young * sum / b;
 }
 
@@ -487,7 +481,7 @@ static void check(wt_solid_program program, const wt_solid_options *o, const wt_
     for (size_t row = 0; row <= isotherms; row++) {
         if (!s.shifts && row < isotherms)
             continue;
-        const double t = row < isotherms ? cell(tables.shift_factors, row, "temperature")
+        const double t = row < isotherms ? number_cell(tables.shift_factors, row, "temperature")
                                          : key(p, "reference_temperature");
         const double a = row < isotherms ? pow(10, wt_shift_law_log_a(law, t)) : 1;
         for (int i = -2; i <= 12; i++) {
@@ -609,9 +603,9 @@ static void the_fast_end_is_told(void **state)
     const wt_solid_options o = wt_solid_options_defaults();
     double at_end = key(p, "equilibrium_modulus"), all = at_end, told = 0, beyond = 0;
     for (size_t i = 0; i < wt_table_n_rows(p); i++) {
-        const double x = key(p, "frequency_max") * cell(p, i, "relaxation_time");
-        at_end += cell(p, i, "modulus") * x * x / (1 + x * x);
-        all += cell(p, i, "modulus");
+        const double x = key(p, "frequency_max") * number_cell(p, i, "relaxation_time");
+        at_end += number_cell(p, i, "modulus") * x * x / (1 + x * x);
+        all += number_cell(p, i, "modulus");
     }
     char *text = NULL;
     write(WT_SOLID_ABAQUS, &o, &text);
