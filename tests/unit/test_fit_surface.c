@@ -370,6 +370,44 @@ static void test_stitch(void **state)
     wt_surface_spectrum_clear(&joined);
 }
 
+/* Of a power law through so few bins the errors have a closed form: by the scatter of the modes, or
+ * by a larger misfit with Student's t of its six degrees of freedom; not by both. */
+static void errors_of_the_law(void **state)
+{
+    (void)state;
+    enum { BINS = 8, ORDER = 50 };
+    const double freedom = 40, step = 0.5, slope = 3.6, t = 2.446911851, z = 1.959963985,
+                 variance = gsl_sf_psi_n(1, freedom / 2),
+                 bias = gsl_sf_psi(freedom / 2) - log(freedom / 2),
+                 squares = step * step * BINS * (BINS * BINS - 1) / 12;
+    static const double off[BINS] = {1, -1, -1, 1, 1, -1, -1, 1}; /* neither a level nor a slope */
+    for (int far = 0; far < 2; far++) {
+        wt_spectrum_bin bins[BINS] = {{.index = 0}};
+        for (int k = 0; k < BINS; k++)
+            bins[k] = (wt_spectrum_bin){.index = k,
+                                        .reliable = true,
+                                        .freedom = freedom,
+                                        .shared_freedom = freedom,
+                                        .wavenumber = 1e5 * exp(step * k),
+                                        .density = exp(bias - slope * step * k +
+                                                       far * 3 * sqrt(variance) * off[k] - ORDER)};
+        const wt_surface_spectrum spectrum = {.bins = bins, .n = BINS};
+        const double misfit = 9. * BINS / (BINS - 2) * far, wider = far ? sqrt(misfit) * t / z : 1,
+                     error = wider * sqrt(variance / squares) / 2;
+        wt_self_affine law;
+        assert_int_equal(wt_self_affine_fit(&spectrum, &law, NULL), WT_OK);
+        assert_true(law.found && !law.rolls_off);
+        assert_near(law.hurst.value, slope / 2 - 1, 1e-9);
+        assert_near(law.misfit + 1, misfit + 1, 1e-9);
+        assert_near(law.hurst.standard_error, error, 1e-6);
+        assert_near(sqrt(law.covariance[2][2]), error, 1e-6);
+        const double last = bins[BINS - 1].wavenumber, level = 1. / BINS,
+                     tilt = pow(step * (BINS - 1) / 2, 2) / squares;
+        assert_near(wt_self_affine_log_error(&law, last, true),
+                    wider * sqrt(variance * (level + tilt)), 1e-6);
+    }
+}
+
 static void test_slope_end(void **state)
 {
     (void)state;
@@ -648,14 +686,15 @@ static void test_tip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_samples),   cmocka_unit_test(test_heights),
-        cmocka_unit_test(test_periodic),  cmocka_unit_test(test_forms_and_windows),
-        cmocka_unit_test(test_missing),   cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_inversion), cmocka_unit_test(test_stitch),
-        cmocka_unit_test(test_slope_end), cmocka_unit_test(test_scatter),
-        cmocka_unit_test(test_leak),      cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_orders),    cmocka_unit_test(test_places),
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_tip),
+        cmocka_unit_test(test_samples),      cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_periodic),     cmocka_unit_test(test_forms_and_windows),
+        cmocka_unit_test(test_missing),      cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_inversion),    cmocka_unit_test(test_stitch),
+        cmocka_unit_test(errors_of_the_law), cmocka_unit_test(test_slope_end),
+        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_directions),   cmocka_unit_test(test_orders),
+        cmocka_unit_test(test_places),       cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_tip),
     };
     return cmocka_run_group_tests(tests, make_all, free_all);
 }

@@ -30,6 +30,9 @@ static void test_estimates(void **state)
     check_estimate("20degC +- 0.5K", WT_Q_TEMPERATURE, 293.15, 0.5);
     check_estimate("0.64 +- 0.03", WT_Q_NONE, 0.64, 0.03);
     check_estimate("1e-3 mm^3/(N m) +- 10%", WT_Q_WEAR_RATE, 1e-12, 1e-13);
+    check_estimate("8 +- 5%", WT_Q_NONE, 8, 0.4); /* of the value, as where there is a unit */
+    check_estimate("2+-10 percent", WT_Q_NONE, 2, 0.2);
+    check_estimate("64% +- 0.03", WT_Q_NONE, 0.64, 0.03);
 }
 
 static void test_estimate_errors(void **state)
@@ -46,6 +49,8 @@ static void test_estimate_errors(void **state)
         {"0.4MPa +- -0.02MPa", WT_Q_PRESSURE, WT_E_RANGE, "\"-0.02MPa\""},
         {"0.4MPa +- -5%", WT_Q_PRESSURE, WT_E_RANGE, "\"-5%\""},
         {"20degC +- 5%", WT_Q_TEMPERATURE, WT_E_UNIT, NULL},
+        {"64% +- 5%", WT_Q_NONE, WT_E_UNIT, "\"64% +- 5%\""},
+        {"0.64 +- %", WT_Q_NONE, WT_E_ARG, NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_estimate e = {7, 7, 7, "kept"};

@@ -109,12 +109,23 @@ static bool solve_linear(const linear_law *l, double e[CONSTANTS])
     return cholesky_solve(&m[0][0], CONSTANTS, l->n, (double)(l->n * l->n) * DBL_EPSILON, e);
 }
 
-/* (J^T W J)^-1 times the misfit. */
-static bool find_covariance(const linear_law *l, double misfit, double to[CONSTANTS][CONSTANTS])
+/* By what the variances that the scatter of the modes gives are to be multiplied, so that 1.96
+ * standard errors hold 95 %: by 1, for that scatter is known, unless the misfit asks for more, as
+ * far as its few degrees of freedom tell it. The law's own misfit is so held whatever it is; a
+ * misfit of at least 1 and Student's t together held 98.7 % where the law is right. */
+static double widened(double misfit, double freedom)
+{
+    gsl_quiet();
+    const double t = students_t_quantile(freedom) / NORMAL_95;
+    return fmax(1, misfit * t * t);
+}
+
+/* (J^T W J)^-1 times a number. */
+static bool find_covariance(const linear_law *l, double times, double to[CONSTANTS][CONSTANTS])
 {
     for (size_t c = 0; c < l->n; c++) {
         double e[CONSTANTS] = {0};
-        e[c] = misfit;
+        e[c] = times;
         if (!solve_linear(l, e))
             return false;
         for (size_t a = 0; a < l->n; a++)
@@ -137,15 +148,15 @@ static void widen(value_span *span, double low, double high)
     span->high = fmax(span->high, high);
 }
 
-/* All constants of laws that are within `reach` standard errors of the best. The kink at the
+/* All constants of laws that are within 1.96 standard errors of the best. The kink at the
  * roll-off makes chi-squared no parabola: by its curvature at the best one the intervals of c0 and
  * roll-off held the truth of stitched scans in 89 and 91 % only. */
-static law_spans find_spans(law_fit *f, double best, bool rolls_off, double reach, double misfit)
+static law_spans find_spans(law_fit *f, double best, bool rolls_off, double wider)
 {
     enum { ROLL_OFFS = 2000 }; /* a tenth of the error of the best known */
     const double none = (double)INFINITY, first = f->x[0],
                  step = (f->x[f->n - 3] - first) / ROLL_OFFS,
-                 most = chi_squared(f, best) + reach * reach * misfit;
+                 most = chi_squared(f, best) + NORMAL_95 * NORMAL_95 * wider;
     law_spans spans = {{{none, -none}, {none, -none}, {none, -none}}};
     for (int i = -1; i <= (rolls_off ? ROLL_OFFS : -1); i++) {
         const double r = i < 0 ? best : first + step * i, room = most - chi_squared(f, r);
@@ -202,19 +213,17 @@ static value_span with_places(value_span span, double value, double error)
                         value + hypot(span.high - value, error)};
 }
 
-static void fill_law(law_fit *f, double r, double freedom, wt_self_affine *to)
+static void fill_law(law_fit *f, double r, double wider, wt_self_affine *to)
 {
-    gsl_quiet();
-    const double t = students_t_quantile(freedom);
-    law_spans spans = find_spans(f, r, to->rolls_off, t, fmax(1, to->misfit));
+    law_spans spans = find_spans(f, r, to->rolls_off, wider);
     const double hurst = -f->power / 2 - 1;
     for (size_t a = 0; a < CONSTANTS; a++)
         for (size_t b = 0; b < CONSTANTS; b++)
             to->covariance[a][b] += to->place_covariance[a][b];
-    to->freedom = freedom;
     const double best[CONSTANTS] = {[LN_C0] = f->c, [LN_ROLL_OFF] = r, [HURST] = hurst};
     for (size_t a = 0; a < CONSTANTS; a++)
-        spans.of[a] = with_places(spans.of[a], best[a], t * sqrt(to->place_covariance[a][a]));
+        spans.of[a] =
+            with_places(spans.of[a], best[a], NORMAL_95 * sqrt(to->place_covariance[a][a]));
     to->c0 = of_span(f->c, spans.of[LN_C0], true);
     to->roll_off = of_span(r, spans.of[LN_ROLL_OFF], true);
     to->hurst = of_span(hurst, spans.of[HURST], false);
@@ -247,15 +256,16 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
         /* 95 % of chi-squared with one degree of freedom: a roll-off that the scatter could make is
          * none. */
         law->rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
-        const double at = law->rolls_off ? r : f.x[0];
+        const double at = law->rolls_off ? r : f.x[0],
+                     left = law->rolls_off ? freedom : freedom + 1;
         law->n = f.n;
-        law->misfit = chi_squared(&f, at) / (law->rolls_off ? freedom : freedom + 1);
+        law->misfit = chi_squared(&f, at) / left;
+        const double wider = widened(law->misfit, left);
         const linear_law linear = linear_about(&f, at, law->rolls_off);
-        law->found = f.power < 0 &&
-                     find_covariance(&linear, fmax(1, law->misfit), law->covariance) &&
+        law->found = f.power < 0 && find_covariance(&linear, wider, law->covariance) &&
                      find_place_covariance(&linear, spectrum, law->place_covariance);
         if (law->found)
-            fill_law(&f, at, law->rolls_off ? freedom : freedom + 1, law);
+            fill_law(&f, at, wider, law);
     }
     free(f.x);
     return WT_OK;
@@ -281,7 +291,7 @@ double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bo
         for (size_t b = 0; b < CONSTANTS; b++)
             variance += slope[a] * slope[b] *
                         (law->covariance[a][b] - (places ? 0 : law->place_covariance[a][b]));
-    return students_t_quantile(law->freedom) / NORMAL_95 * sqrt(fmax(0, variance));
+    return sqrt(fmax(0, variance));
 }
 
 /* ---- where the slope ends -------------------------------------------------------------------- */

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Thicknesses at which balances are looked for: a step is 9 % of the thickness over six decades. */
 enum { GRID = 160 };
@@ -145,12 +146,13 @@ static wt_status find_balances(balances *b, wt_error *err)
 /* ---- replicates ------------------------------------------------------------------------------ */
 
 /* Numbers of a replicate; those of the balances and folds follow, NaN where it has others. */
-enum { RATIO, ONE_WAY, BALANCES, STABLE, SAME_BALANCES, N_NUMBERS };
+enum { RATIO, ONE_WAY, BALANCES, SAME_BALANCES, SAME_FOLDS, N_NUMBERS };
 
 typedef struct balances_task {
     layer_draws draws;
     balances centre;
-    char agreement[320], errors[560];
+    size_t solved, same_balances, same_folds; /* replicates: all, and those as the values have it */
+    char agreement[320], errors[760];
 } balances_task;
 
 static size_t count_stable(const wt_layer_loop *loop)
@@ -205,39 +207,48 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     }
     if (status != WT_OK)
         return status;
-    const bool same = same_balances(&b.loop, centre);
     out[RATIO] = b.loop.ratio;
     out[ONE_WAY] = b.one_way.thickness.value;
     out[BALANCES] = (double)b.loop.n_roots;
-    out[STABLE] = (double)count_stable(&b.loop);
-    out[SAME_BALANCES] = same;
-    put_places(b.root, centre->n_roots, same, out + N_NUMBERS);
-    put_places(b.fold, centre->n_folds, same_folds(&b.loop, centre),
-               out + N_NUMBERS + N_AT * centre->n_roots);
+    out[SAME_BALANCES] = same_balances(&b.loop, centre);
+    out[SAME_FOLDS] = same_folds(&b.loop, centre);
+    double *const roots = out + N_NUMBERS, *const folds = roots + N_AT * centre->n_roots;
+    put_places(b.root, centre->n_roots, out[SAME_BALANCES] > 0, roots);
+    put_places(b.fold, centre->n_folds, out[SAME_FOLDS] > 0, folds);
+    for (size_t k = 0; k < centre->n_roots; k++)
+        roots[N_AT * k + AT_WEAR] = job.specific_wear_rate.value; /* is given, whatever it makes */
     return WT_OK;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-/* Replicates that must have the same balances, that their number counts as known. */
+/* Replicates that must have the same balances, that their number counts as known, and errors of
+ * them: those that have others are not left out by chance, and the rest scatter too little. */
 static const double sure = 0.95;
+
+static bool is_sure(const balances_task *task, size_t same)
+{
+    return (double)same >= sure * (double)task->solved;
+}
 
 /* Whether the replicates have as many balances, each as stable. */
 static void say_agreement(balances_task *task)
 {
     const replicates *r = &task->draws.replicates;
-    size_t solved = 0, same = 0, fewest = WT_LAYER_ROOTS, most = 0;
+    size_t fewest = WT_LAYER_ROOTS, most = 0;
     for (size_t i = 0; i < r->n; i++) {
         const double *const out = r->value + i * r->stride;
         if (isnan(out[RATIO]))
             continue;
         const size_t n = (size_t)out[BALANCES];
-        solved++;
-        same += out[SAME_BALANCES] > 0;
+        task->solved++;
+        task->same_balances += out[SAME_BALANCES] > 0;
+        task->same_folds += out[SAME_FOLDS] > 0;
         fewest = n < fewest ? n : fewest;
         most = n > most ? n : most;
     }
-    const bool known = (double)same >= sure * (double)solved;
+    const size_t solved = task->solved, same = task->same_balances;
+    const bool known = is_sure(task, same);
     char *const text = task->agreement;
     const size_t size = sizeof task->agreement;
     if (solved == 0)
@@ -255,6 +266,32 @@ static void say_agreement(balances_task *task)
                         "within the stated errors the number of balances of the layer, or their "
                         "stability, may be another: so it is in %zu of %zu replicates",
                         solved - same, solved);
+}
+
+/* Of n balances or folds that only so many replicates have. */
+static void forget_errors(balances_task *task, size_t same, size_t first, size_t n, bool given_wear,
+                          const char *what)
+{
+    char *const text = task->errors;
+    const size_t used = strlen(text);
+    if (n == 0 || is_sure(task, same))
+        return;
+    for (size_t k = 0; k < N_AT * n; k++)
+        if (!given_wear || k % N_AT != AT_WEAR)
+            task->draws.replicates.error[first + k] = (double)NAN;
+    snprintf(text + used, sizeof task->errors - used,
+             "; not known of the %s, which only %zu of %zu replicates have", what, same,
+             task->solved);
+}
+
+/* What is in the errors, and of which places there are none. */
+static void say_errors(balances_task *task)
+{
+    const wt_layer_loop *const loop = &task->centre.loop;
+    const size_t folds = N_NUMBERS + N_AT * loop->n_roots;
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    forget_errors(task, task->same_balances, N_NUMBERS, loop->n_roots, true, "balances");
+    forget_errors(task, task->same_folds, folds, loop->n_folds, false, "folds");
 }
 
 static wt_estimate estimate_of(const place *at, const double *error, size_t k)
@@ -306,7 +343,7 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
     const wt_estimate ratio = {b->loop.ratio, e[RATIO], b->loop.ratio * b->one_way.ratio_error,
                                NULL};
     say_agreement(task);
-    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    say_errors(task);
     table_writer t = table_begin(&layer_balances_schema, err);
     add_rows(task, &t);
     TABLE_SET(layer_balances, &t, one_way, ratio, flow_as_stated(task->draws.known->modulus_ratio),
