@@ -493,9 +493,17 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("layer", "running_in");
     fixture_of_case("layer", "layer_balances");
     fixture_of_case("layer", "existence");
+    fixture_of_case("layer", "identification");
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);
+}
+
+/* As without replicates. */
+static inline void fixture_no_pair(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "correlation", (double)NAN);
 }
 
 /* What the case gives, as that of a sample and a condition. */
@@ -503,13 +511,15 @@ static inline wt_result *fixture_labelled(const char *sample, const char *condit
                                           double error)
 {
     static const char *const names[] = {
-        "answer", "comparison",        "modulus_rate",     "modulus_budget",   "friction",
-        "layer",  "force_indentation", "indentation/bulk", "indentation/track"};
-    const fixture_change no_change = {.table = "answer"};
+        "answer", "comparison",        "modulus_rate",     "modulus_budget",    "friction",
+        "layer",  "force_indentation", "indentation/bulk", "indentation/track", "identification"};
+    const fixture_change no_change = {.table = "answer"},
+                         no_pair = {.table = "identification", .edit = fixture_no_pair};
     wt_result *labelled = wt_result_new();
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const wt_table *table = wt_result_find(fixture_case, names[i]);
-        wt_table *copy = table != NULL ? fixture_copy(table, &no_change) : NULL;
+        const bool vague = error > 0.1 && strcmp(names[i], "identification") == 0;
+        wt_table *copy = table != NULL ? fixture_copy(table, vague ? &no_pair : &no_change) : NULL;
         if (copy == NULL)
             continue; /* not all cases have an error of the lever */
         if (i == 0) {
@@ -563,6 +573,8 @@ static inline void fixture_collection(void)
     fixture_check(wt_result_add(fixture_case, tables.ratio_pairs, NULL));
     fixture_check(wt_result_add(fixture_case, tables.shared_constants, NULL));
     fixture_check(wt_result_add(fixture_case, tables.shared_members, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.collected_constants, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.shared_pairs, NULL));
 }
 
 /* The case is run once in each program. */

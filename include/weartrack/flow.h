@@ -434,7 +434,7 @@ WT_API const wt_params *wt_collect_job_params(void);
 /* The tables of these names; NULL: no case has anything for it, or there is no pair. */
 typedef struct wt_collection_tables {
     wt_table *collection, *collected_modulus, *collected_friction, *collected_force, *ratio_pairs,
-        *shared_constants, *shared_members;
+        *shared_constants, *shared_members, *collected_constants, *shared_pairs;
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
 /* Modulus ratios of pairs are compared as if they knew nothing of each other; of constants in

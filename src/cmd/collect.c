@@ -45,12 +45,14 @@ int cmd_collect(int argc, char **argv)
                 "of bulk and track against the indentation rate, friction against velocity, and "
                 "whether the track of one condition or sample is more different from its bulk than "
                 "that of another, corrected for the number of pairs; and constants that they may "
-                "have in common: wear rate, shear stress, rate dependence. RESULT may be an output "
+                "have in common: wear rate, shear stress, rate dependence, critical energy. RESULT "
+                "may be an output "
                 "of weartrack indent, too, such as that of a particle of the filler, whose curve "
                 "stands beside.",
         .common = "output files-from provenance",
         .notes = "The tables collection, collected_modulus, collected_friction, collected_force, "
-                 "ratio_pairs, shared_constants and shared_members follow one another; weartrack "
+                 "ratio_pairs, shared_constants, shared_members, collected_constants and "
+                 "shared_pairs follow one another; weartrack "
                  "report draws them.",
         .n_files = CMD_SOME,
         .files = "no result given"};
@@ -70,10 +72,10 @@ int cmd_collect(int argc, char **argv)
         cmd_end(&s, WT_OK);
     } else if (made == WT_OK)
         made = wt_collect(cases, n, &job, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.collection,         &tables.collected_modulus,
-                                      &tables.collected_friction, &tables.collected_force,
-                                      &tables.ratio_pairs,        &tables.shared_constants,
-                                      &tables.shared_members};
+    wt_table **const made_tables[] = {
+        &tables.collection,      &tables.collected_modulus,   &tables.collected_friction,
+        &tables.collected_force, &tables.ratio_pairs,         &tables.shared_constants,
+        &tables.shared_members,  &tables.collected_constants, &tables.shared_pairs};
     if (n > 0 || made != WT_OK)
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     for (size_t i = 0; i < n; i++)

@@ -79,7 +79,7 @@ extern const figure_description figures_indentation[], figures_curves[], figures
     figures_surface[], figures_materials[], figures_master[], figures_dma[], figures_payne[],
     figures_friction[], figures_friction_maps[], figures_record[], figures_validation[],
     figures_layer[], figures_existence[], figures_what_if[], figures_accuracy[],
-    figures_collection[];
+    figures_collection[], figures_constants[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
 
 /* Of each group whose curves lie on a grid. */

@@ -13,7 +13,7 @@ const figure_description *figure_find(size_t i)
         figures_materials,   figures_master,        figures_dma,     figures_payne,
         figures_friction,    figures_friction_maps, figures_record,  figures_validation,
         figures_layer,       figures_existence,     figures_what_if, figures_collection,
-        figures_accuracy};
+        figures_constants,   figures_accuracy};
     for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
         for (const figure_description *figure = parts[part]; figure->name != NULL; figure++)
             if (i-- == 0)

@@ -110,6 +110,9 @@ static const struct result_part {
     ROWS(shared_constants, "Constants that cases have in common: does one value suffice"),
     KEYS(shared_constants, "Constants in common: what was compared"),
     ROWS(shared_members, "Constants in common: each case against the shared value"),
+    ROWS(shared_pairs, "Critical energy and wear rate in common: does one pair suffice"),
+    KEYS(shared_pairs, "Critical energy and wear rate in common: what was compared"),
+    ROWS(collected_constants, "Critical energy and wear rate of each case, by what is known"),
     KEYS(material_ratio, "Materials: what was compared"),
     COLUMNS(shift_factors, "Shift factors", shift_columns),
     KEYS(shift_factors, "Shifting, law and superposition"),
@@ -147,6 +150,8 @@ static const struct result_part {
     KEYS(layer_balances, "Balances of a layer that acts back on its energy"),
     ROWS(layer_balances, "Balances of a layer that acts back, and folds"),
     KEYS(existence, "Where a layer exists"),
+    KEYS(identification, "Critical energy and wear rate of the layer that is seen"),
+    ROWS(identification, "Critical energy and wear rate, by what is known"),
     ROWS(what_if, "What if: one choice of the model moved in each row, and the relative changes "
                   "by it, at the reference velocity"),
     KEYS(what_if, "What if: what was not tried"),

@@ -240,6 +240,19 @@ static bool put_section(const char *what, const char *indent)
     return false;
 }
 
+/* A parameter that stands in a section before, too, is of the same type. */
+static bool stands_before(size_t s, const char *name)
+{
+    for (size_t i = 0; i < s; i++)
+        for (size_t t = 0; t < SECTION_TABLES && case_sections[i].params[t] != NULL; t++)
+            for (size_t k = 0; k < wt_params_count(case_sections[i].params[t]()); k++)
+                if (strcmp(case_param_name(case_sections[i].name,
+                                           wt_params_get(case_sections[i].params[t](), k)->name),
+                           name) == 0)
+                    return true;
+    return false;
+}
+
 /* The types of the parameters that are one of several words. */
 static void put_choices(const char *indent)
 {
@@ -247,7 +260,8 @@ static void put_choices(const char *indent)
         for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++)
             for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
                 const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
-                if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0)
+                if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0 ||
+                    stands_before(s, case_param_name(case_sections[s].name, param->name)))
                     continue;
                 printf("%s<xs:simpleType name=\"%s\">\n", indent,
                        case_param_name(case_sections[s].name, param->name));

@@ -26,6 +26,7 @@ static const struct {
     {"measured", {wt_topography_job_params, NULL}},
     {"sliding", {wt_sliding_params, NULL}},
     {"layer", {wt_layer_job_params, wt_layer_known_params}},
+    {"identify", {wt_identify_job_params}},
     {"record", {wt_record_job_params, wt_validation_job_params, NULL}},
 };
 enum { N_CASE_SECTIONS = sizeof case_sections / sizeof case_sections[0] };

@@ -91,6 +91,12 @@ static const struct {
     {"critical-energy", "3e10J/m^3", NULL, NULL},
     {"observed-thickness", "3um", NULL, "critical-energy"},
     {"specific-wear-rate", "2e-12m^2/N", NULL, NULL},
+    {"running-in-time", "600s", NULL, NULL},
+    /* beyond what the product of both leaves of the other ends */
+    {"prior-wear-from", "1e-12m^2/N", NULL, NULL},
+    {"prior-energy-from", "2e11J/m^3", NULL, NULL},
+    {"prior-wear-to", "2e-13m^2/N", NULL, NULL},
+    {"prior-energy-to", "2e9J/m^3", NULL, NULL},
     {"start-thickness", "1um", NULL, NULL},
     {"local-friction", "0.3", "profile incompressible", NULL},
     {"times", "1:1e4s:log:7", NULL, NULL},
@@ -489,6 +495,11 @@ static const struct {
      "<specific-wear-rate>1e-12m^2/N</specific-wear-rate>"
      "<critical-energy>2e10J/m^3</critical-energy><modulus-ratio>0.6+-0.05</modulus-ratio>",
      "<layer>", "</layer>"},
+    {"identify",
+     "<observed-thickness>3um+-15%</observed-thickness>"
+     "<specific-wear-rate>1e-12m^2/N+-10%</specific-wear-rate>"
+     "<running-in-time>500s+-10%</running-in-time>",
+     "<identify>", "</identify>"},
     {"record",
      "<load>5N</load><track-radius>12mm</track-radius><track-area>3e-11m^2+-20%</track-area>"
      "<mass-loss>3mg+-0.2mg</mass-loss><density>1150kg/m^3</density>"

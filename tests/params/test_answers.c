@@ -53,6 +53,14 @@ static const char *good_text(const char *name, const char *tried)
     return NULL;
 }
 
+/* In a section of a case: what is an alternative in one is what another is about. */
+static const char *good_in(const char *section, const char *name, const char *tried)
+{
+    return strcmp(section, "identify") == 0 && strcmp(name, "observed-thickness") == 0
+               ? "1um"
+               : good_text(name, tried);
+}
+
 /* The activated closure is another alternative of the critical energy. */
 static const char *alternative_of(const char *tried, const char *text)
 {
@@ -165,7 +173,7 @@ static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text
             const wt_param *p = wt_params_get(params, i);
             const char *name = case_param_name(section, p->name);
             const char *value =
-                p == tried ? text : good_text(p->name, alternative_of(tried->name, text));
+                p == tried ? text : good_in(section, p->name, alternative_of(tried->name, text));
             if (value != NULL && (p->flags & PARAM_NO_CASE) == 0)
                 used += (size_t)snprintf(xml + used, sizeof xml - used, "<%s>%s</%s>", name, value,
                                          name);

@@ -1,5 +1,6 @@
 /* One value behind several, against closed forms and draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/constant_pair.h"
 #include "fit/shared_value.h"
 #include "near.h"
 
@@ -126,12 +127,85 @@ static void test_few_degrees(void **state)
     count(10);
 }
 
+/* ---- pairs ----------------------------------------------------------------------------------- */
+
+/* Two pairs by hand: their difference has the sum of the covariances less what they have in common
+ * twice, and chi-squared is that of the difference. */
+static double by_hand(const constant_pair *a, const constant_pair *b, double part)
+{
+    const double e = a->energy - b->energy, k = a->wear - b->wear,
+                 ee = a->whole.energy + b->whole.energy - 2 * part * a->inputs.energy,
+                 kk = a->whole.wear + b->whole.wear - 2 * part * a->inputs.wear,
+                 ek = a->whole.both + b->whole.both - 2 * part * a->inputs.both;
+    return (e * e * kk - 2 * e * k * ek + k * k * ee) / (ee * kk - ek * ek);
+}
+
+static void test_pair(void **state)
+{
+    (void)state;
+    const pair_covariance inputs = {0.0016, 0.0009, -0.0006};
+    constant_pair of[] = {{26, -27.6, {0.04, 0.01, -0.018}, inputs},
+                          {26.3, -27.5, {0.02, 0.03, -0.02}, inputs}};
+    bool common[] = {false, false, false, false};
+    shared_pair s;
+    assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
+    assert_near(s.chi_squared, by_hand(&of[0], &of[1], 0), 1e-9);
+    assert_near(s.p, exp(-s.chi_squared / 2), 1e-9); /* of two degrees of freedom */
+    const pair_covariance apart = s.covariance;
+    common[1] = common[2] = true;
+    assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
+    /* what is in common makes a difference more telling: the less is told */
+    assert_near(s.chi_squared, by_hand(&of[0], &of[1], 0), 1e-9);
+    assert_true(s.covariance.energy + s.covariance.wear >= apart.energy + apart.wear);
+    /* alike ones: the mean has half of what is of one alone and all of what is in common */
+    of[1] = of[0];
+    assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
+    assert_near(s.energy, of[0].energy, 1e-12);
+    assert_near(s.wear, of[0].wear, 1e-12);
+    assert_near(s.covariance.energy, (0.04 + 0.0016) / 2, 1e-12);
+    assert_near(s.covariance.both, (-0.018 - 0.0006) / 2, 1e-12);
+    assert_true(s.chi_squared < 1e-9 && s.p > 1 - 1e-9);
+    /* each alone agrees with the other within its error, the pair does not */
+    of[0].whole = of[1].whole = (pair_covariance){0.04, 0.04, -0.0396};
+    of[1].energy = of[0].energy + 0.2;
+    of[1].wear = of[0].wear + 0.2;
+    of[0].inputs = of[1].inputs = (pair_covariance){0, 0, 0};
+    assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
+    assert_near(s.chi_squared, by_hand(&of[0], &of[1], 0), 1e-9);
+    assert_true(s.p < 1e-3);
+    of[0].whole.both = -0.04; /* no pair */
+    assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_E_ARG);
+    assert_int_equal(shared_pair_fit(of, common, 1, &s, NULL), WT_E_ARG);
+}
+
+/* ln U_c + 0.5 ln k is known least; of less in U_c than in k the other way round. */
+static void test_axes(void **state)
+{
+    (void)state;
+    const double angle = atan(-0.5), c = cos(angle), s = sin(angle);
+    const double loose = 0.09, tight = 0.0004;
+    const pair_covariance of = {loose * c * c + tight * s * s, loose * s * s + tight * c * c,
+                                (loose - tight) * s * c},
+                          turned = {of.wear, of.energy, of.both};
+    constant_axes a = constant_axes_of(of);
+    assert_string_equal(a.loose, "U_c k^-0.50");
+    assert_near(a.loose_error, 0.3, 1e-12);
+    assert_near(a.tight_error, 0.02, 1e-9);
+    assert_near(a.correlation, of.both / sqrt(of.energy * of.wear), 1e-12);
+    a = constant_axes_of(turned);
+    assert_string_equal(a.loose, "k U_c^-0.50");
+    a = constant_axes_of((pair_covariance){(double)NAN, 1, 0});
+    assert_string_equal(a.loose, "");
+    assert_true(isnan(a.correlation) && isnan(a.loose_error) && isnan(a.tight_error));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_two),     cmocka_unit_test(test_common),
         cmocka_unit_test(test_third),   cmocka_unit_test(test_freedom),
         cmocka_unit_test(test_refused), cmocka_unit_test(test_few_degrees),
+        cmocka_unit_test(test_pair),    cmocka_unit_test(test_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

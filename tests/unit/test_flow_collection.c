@@ -234,12 +234,111 @@ static void test_settled(void **state)
     check(one, other, "cannot say", "settled_by", "by a factor of about 2.5,");
 }
 
+/* ---- critical energy and wear rate ----------------------------------------------------------- */
+
+/* A case that knows both by thickness and wear rate. */
+static wt_result *pair_of(const char *condition, double u_c, double k, double correlation,
+                          const char *lacks)
+{
+    wt_result *to = wt_result_new();
+    wt_table *answer = NULL, *found = NULL;
+    table_writer a = table_begin(&answer_schema, NULL);
+    answer_set_text(&a, ANSWER_KEY_CASE_SAMPLE, "HC");
+    answer_set_text(&a, ANSWER_KEY_CASE_CONDITION, condition);
+    assert_int_equal(table_end(&a, &answer), WT_OK);
+    add(to, answer);
+    wt_error err = WT_ERROR_INIT;
+    table_writer t = table_begin(&identification_schema, &err);
+    table_row(&t);
+    for (identification_column c = IDENTIFICATION_BY; c <= IDENTIFICATION_NOTE; c++)
+        if (c == IDENTIFICATION_BY || c == IDENTIFICATION_LOOSE || c == IDENTIFICATION_NOTE)
+            identification_put_text(&t, c, c == IDENTIFICATION_BY ? "thickness and wear rate" : "");
+        else
+            identification_put(&t, c,
+                               c == IDENTIFICATION_ENERGY                  ? u_c
+                               : c == IDENTIFICATION_ENERGY_STANDARD_ERROR ? 0.2 * u_c
+                               : c == IDENTIFICATION_WEAR                  ? k
+                               : c == IDENTIFICATION_WEAR_STANDARD_ERROR   ? 0.2 * k
+                               : c == IDENTIFICATION_CORRELATION           ? correlation
+                                                                           : 0);
+    static const identification_key numbers[] = {
+        IDENTIFICATION_KEY_PRODUCT, IDENTIFICATION_KEY_RATIO, IDENTIFICATION_KEY_VELOCITY,
+        IDENTIFICATION_KEY_PRESSURE, IDENTIFICATION_KEY_THICKNESS};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        identification_set_value(&t, numbers[i], 1, 0, 0); /* not read */
+    identification_set_text(&t, IDENTIFICATION_KEY_INCLUDES, "1");
+    if (lacks != NULL)
+        identification_set_text(&t, IDENTIFICATION_KEY_LACKS, lacks);
+    if (table_end(&t, &found) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    add(to, found);
+    return to;
+}
+
+static wt_collection_tables pairs(double u_c, double k, double correlation, double margin,
+                                  const char *lacks)
+{
+    wt_collect_job job = wt_collect_job_defaults();
+    wt_collection_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_result *results[] = {pair_of("mild", 1e10, 1e-12, correlation, lacks),
+                            pair_of("severe", u_c, k, correlation, lacks)};
+    const wt_collected cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
+    job.constant_margin = margin;
+    if (wt_collect(cases, 2, &job, &tables, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    wt_result_free(results[0]);
+    wt_result_free(results[1]);
+    assert_int_equal(wt_table_n_rows(tables.collected_constants), 2);
+    return tables;
+}
+
+static void says(const wt_collection_tables *t, const char *one_u_c, const char *one_k,
+                 const char *both)
+{
+    assert_int_equal(wt_table_n_rows(t->shared_pairs), 1); /* the sample is all cases */
+    assert_string_equal(text_cell(t->shared_pairs, 0, "one_energy"), one_u_c);
+    assert_string_equal(text_cell(t->shared_pairs, 0, "one_wear"), one_k);
+    assert_string_equal(text_cell(t->shared_pairs, 0, "one_pair"), both);
+}
+
+/* Half as much again of each is within the errors of each, and no way for a pair whose product is
+ * known to 2 %: their correlation tells. */
+static void test_pairs(void **state)
+{
+    (void)state;
+    wt_collection_tables t = pairs(1.5e10, 1.5e-12, -0.99, 3, NULL);
+    says(&t, "one", "one", "differs");
+    assert_near(number_cell(t.shared_pairs, 0, "correlation"), -0.99, 1e-9);
+    assert_near(number_cell(t.shared_pairs, 0, "critical_energy"), 1e10 * sqrt(1.5), 1e-6);
+    assert_near(number_cell(t.shared_pairs, 0, "df"), 2, 1e-12);
+    assert_string_equal(text_cell(t.shared_pairs, 0, "loose"), "U_c k^-1.00");
+    wt_collection_tables_clear(&t);
+    t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
+    says(&t, "one", "one", "one");
+    wt_collection_tables_clear(&t);
+    t = pairs(1e11, 1e-12, 0, 0.5, NULL);
+    says(&t, "differs", "one", "differs");
+    wt_collection_tables_clear(&t);
+    t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
+    says(&t, "cannot say", "cannot say", "cannot say");
+    assert_non_null(strstr(wt_table_key(t.shared_pairs, "settled_by"), "is known least"));
+    wt_collection_tables_clear(&t);
+    t = pairs(1e11, 1e-12, 0, 0.5, "temperature");
+    says(&t, "cannot say", "cannot say", "cannot say");
+    assert_non_null(strstr(wt_table_key(t.shared_pairs, "settled_by"), "temperature"));
+    wt_collection_tables_clear(&t);
+    t = pairs(1e11, 1e-12, (double)NAN, 0.5, NULL); /* no replicates */
+    assert_null(t.shared_pairs);
+    wt_collection_tables_clear(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared_file), cmocka_unit_test(test_partly_known),
         cmocka_unit_test(test_counts_once), cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_settled),
+        cmocka_unit_test(test_settled),     cmocka_unit_test(test_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

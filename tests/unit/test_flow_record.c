@@ -291,6 +291,46 @@ static void test_rotation_alone(void **state)
     assert_int_equal(remove(path), 0);
 }
 
+/* A disc stands for 60 s after 150 of 400 s; the first 200 s are a running-in. By the velocity and
+ * by the laps: neither the time of the running-in nor the distance of the wear holds the pause. */
+static void test_pause(void **state)
+{
+    (void)state;
+    for (int by_laps = 0; by_laps < 2; by_laps++) {
+        char path[] = "pause-XXXXXX";
+        wt_record_job job = disc_job();
+        wt_parselog *log = wt_parselog_new();
+        FILE *out = truth_file(path);
+        fprintf(out, "time (s),%s,mu\n", by_laps ? "laps" : "velocity (mm/s)");
+        for (int i = 0, slid = 0; i < 4600; i++) {
+            const bool rests = i >= 1500 && i < 2100;
+            slid += !rests;
+            const double scatter = 0.01 * sin(slid / 10 * 37 % 101);
+            fprintf(out, "%.9g,%.9g,%.9g\n", 0.1 * i,
+                    by_laps ? 0.1 * slid
+                    : rests ? 0
+                            : 20,
+                    rests ? 0.2 : 0.5 + scatter + (slid < 2000 ? 0.2 : 0));
+        }
+        assert_int_equal(fclose(out), 0);
+        job.track_area = (wt_estimate){1e-10, 1e-11, 0, "m^2"};
+        wt_record_tables t = made(&job, path, log);
+        assert_int_equal(wt_table_n_rows(t.record), 1);
+        assert_near(number_cell(t.record, 0, "pauses"), 1, 1e-12);
+        assert_near(number_cell(t.record, 0, "paused_time"), 60, 1e-2);
+        assert_near(number_cell(t.record, 0, "running_in_time"), 200, 2e-2);
+        assert_near(number_cell(t.wear, 0, "distance"), by_laps ? 400 * 2 * M_PI * 0.012 : 8, 2e-3);
+        assert_non_null(strstr(text_cell(t.record, 0, "note"), "1 pause of 60 s left out"));
+        bool said = false;
+        for (size_t i = 0; i < wt_parselog_count(log); i++)
+            said = said || strstr(wt_parselog_get(log, i).text, "1 pause of 60 s in mid-record");
+        assert_true(said);
+        wt_record_tables_clear(&t);
+        wt_parselog_free(log);
+        assert_int_equal(remove(path), 0);
+    }
+}
+
 /* Strokes of 10 mm, there and back in a second: by the position, a velocity with the sign of the
  * direction, or the length of the track that is given. */
 static void test_velocity_of_strokes(void **state)
@@ -463,6 +503,7 @@ int main(void)
         cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_length_by_laps),
         cmocka_unit_test(test_rotation_alone),
+        cmocka_unit_test(test_pause),
         cmocka_unit_test(test_velocity_of_strokes),
         cmocka_unit_test(test_uneven_laps),
         cmocka_unit_test(test_unknown_velocity),

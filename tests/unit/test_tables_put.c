@@ -24,7 +24,7 @@ typedef struct seen {
     uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
 } seen;
 
-enum { MOST = 96 };
+enum { MOST = 128 };
 static seen found[MOST];
 static wt_formats *formats;
 
@@ -372,6 +372,7 @@ static void test_collection(void **state)
     assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL), WT_OK);
     assert_int_equal(wt_run(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
     wt_case_free(read);
+    fixture_of_case("layer", "identification");
     fixture_collect(&tables);
     see(tables.collection);
     see(tables.collected_modulus);
@@ -380,6 +381,8 @@ static void test_collection(void **state)
     see(tables.ratio_pairs);
     see(tables.shared_constants);
     see(tables.shared_members);
+    see(tables.collected_constants);
+    see(tables.shared_pairs);
     wt_collection_tables_clear(&tables);
     wt_collect_job job = wt_collect_job_defaults();
     job.constant_margin = 1e-9; /* which nothing meets */

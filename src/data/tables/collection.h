@@ -3,6 +3,8 @@
 #ifndef WT_DATA_TABLES_COLLECTION_H
 #define WT_DATA_TABLES_COLLECTION_H
 
+#include "data/tables/ramp.h" /* NUMBER_AND_INTERVAL */
+
 #define OF_CASE(X, ID)                                                                             \
     X(ID##_SAMPLE, AS(sample), "rubber", TEXT, LABEL("Sample"))                                    \
     X(ID##_CONDITION, AS(condition), "what made the wear track", TEXT, LABEL("Condition"))
@@ -109,6 +111,59 @@
                        "95 %",                                                                     \
                        NUMBER, SHOWS(ratio), LABEL("Over the shared one"), SPARSE)
 #define SHARED_MEMBERS_KEYS(X)
+
+/* Critical energy and wear rate, and how they hang together. */
+#define OF_PAIR(X, ID)                                                                             \
+    NUMBER_AND_INTERVAL(X, ID##_ENERGY, "critical_energy", "critical energy U_c",                  \
+                        SI(ENERGY_DENSITY), "Critical energy", SHOWS(energy))                      \
+    NUMBER_AND_INTERVAL(X, ID##_WEAR, "specific_wear_rate", "specific wear rate k", SI(WEAR_RATE), \
+                        "Specific wear rate", SHOWS(wear))                                         \
+    X(ID##_CORRELATION, IN(axes, correlation), "correlation of ln U_c and ln k", NUMBER,           \
+      DIGITS(2), LABEL("Correlation"), SPARSE)                                                     \
+    X(ID##_LOOSE, IN(axes, loose), "the combination that is known least", TEXT,                    \
+      LABEL("Known least"))                                                                        \
+    X(ID##_LOOSE_ERROR, IN(axes, loose_error), "standard deviation along it, of the logarithms",   \
+      NUMBER, DIGITS(2), LABEL("to"), SPARSE)                                                      \
+    X(ID##_TIGHT_ERROR, IN(axes, tight_error), "standard deviation across it, of the logarithms",  \
+      NUMBER, DIGITS(2), LABEL("Across it"), SPARSE)
+
+/* A way to know them of each case in each row. */
+#define COLLECTED_CONSTANTS_COLUMNS(X)                                                             \
+    OF_CASE(X, COLLECTED_CONSTANTS)                                                                \
+    X(COLLECTED_CONSTANTS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                 \
+    OF_PAIR(X, COLLECTED_CONSTANTS)
+#define COLLECTED_CONSTANTS_KEYS(X)
+
+/* What cases may have in common, known in one way, in each row. */
+#define SHARED_PAIRS_COLUMNS(X)                                                                    \
+    X(SHARED_PAIRS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                        \
+    X(SHARED_PAIRS_OVER, AS(over),                                                                 \
+      "what the cases have in common: sample, condition, or all "                                  \
+      "cases",                                                                                     \
+      TEXT, LABEL("Common to"))                                                                    \
+    X(SHARED_PAIRS_OF, AS(of), "its name", TEXT, LABEL("Of"))                                      \
+    X(SHARED_PAIRS_N, AS(n), "cases that it is of", NUMBER, LABEL("Cases"))                        \
+    X(SHARED_PAIRS_ONE_ENERGY, AS(one_energy),                                                     \
+      "does one critical energy suffice: one, differs, cannot say", TEXT, LABEL("One U_c"))        \
+    X(SHARED_PAIRS_ONE_WEAR, AS(one_wear), "does one wear rate suffice: one, differs, cannot say", \
+      TEXT, LABEL("One k"))                                                                        \
+    X(SHARED_PAIRS_ONE_PAIR, AS(one_pair),                                                         \
+      "does one pair of both suffice: one, differs, cannot say", TEXT, LABEL("One pair"))          \
+    OF_PAIR(X, SHARED_PAIRS)                                                                       \
+    X(SHARED_PAIRS_CHI_SQUARED, AS(chi_squared), "chi-squared of the scatter of the pairs",        \
+      NUMBER, LABEL("Chi-squared"), DIGITS(3))                                                     \
+    X(SHARED_PAIRS_DF, AS(df), "its degrees of freedom", NUMBER, LABEL("Degrees of freedom"))      \
+    X(SHARED_PAIRS_HOLM_P, AS(holm_p),                                                             \
+      "chance of as much scatter if one pair is behind them, after Holm's correction for the "     \
+      "number of tests of the table",                                                              \
+      NUMBER, LABEL("p (Holm)"), DIGITS(2))
+#define SHARED_PAIRS_KEYS(X)                                                                       \
+    X(SHARED_PAIRS_KEY_TESTS, "tests", NUMBER, SHOWS(tests), LABEL("Tests"))                       \
+    X(SHARED_PAIRS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),          \
+      OPTIONAL)                                                                                    \
+    X(SHARED_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),    \
+      OPTIONAL)                                                                                    \
+    X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin))
 
 /* Of every two cases of one sample or of one condition: by how much more the track of the first
  * differs from its bulk. */

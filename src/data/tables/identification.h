@@ -12,16 +12,22 @@
                         SI(ENERGY_DENSITY), "Critical energy", SHOWS(energy))                      \
     NUMBER_AND_INTERVAL(X, IDENTIFICATION_WEAR, "specific_wear_rate", "specific wear rate k",      \
                         SI(WEAR_RATE), "Specific wear rate", SHOWS(wear))                          \
-    X(IDENTIFICATION_CORRELATION, AS(correlation), "correlation of ln U_c and ln k", NUMBER,       \
+    X(IDENTIFICATION_CORRELATION, IN(axes, correlation), "correlation of ln U_c and ln k", NUMBER, \
       DIGITS(2), LABEL("Correlation"), SPARSE)                                                     \
-    X(IDENTIFICATION_LOOSE, AS(loose), "the combination that is known least", TEXT,                \
+    X(IDENTIFICATION_LOOSE, IN(axes, loose), "the combination that is known least", TEXT,          \
       LABEL("Known least"))                                                                        \
-    X(IDENTIFICATION_LOOSE_ERROR, AS(loose_error),                                                 \
+    X(IDENTIFICATION_LOOSE_ERROR, IN(axes, loose_error),                                           \
       "standard deviation along it, of the logarithms; inf: it is not determined", NUMBER,         \
       DIGITS(2), LABEL("to"), SPARSE)                                                              \
-    X(IDENTIFICATION_TIGHT_ERROR, AS(tight_error),                                                 \
+    X(IDENTIFICATION_TIGHT_ERROR, IN(axes, tight_error),                                           \
       "standard deviation across it, of the logarithms", NUMBER, DIGITS(2), LABEL("Across it"),    \
       SPARSE)                                                                                      \
+    X(IDENTIFICATION_ENERGY_INPUTS, AS(energy_inputs),                                             \
+      "standard deviation of ln U_c by material, surface and conditions alone", NUMBER, OPTIONAL,  \
+      SPARSE)                                                                                      \
+    X(IDENTIFICATION_WEAR_INPUTS, AS(wear_inputs), "likewise of ln k", NUMBER, OPTIONAL, SPARSE)   \
+    X(IDENTIFICATION_CORRELATION_INPUTS, AS(correlation_inputs), "correlation of these two",       \
+      NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(IDENTIFICATION_NOTE, AS(note), "what is lacking, or taken from elsewhere", TEXT,             \
       LABEL("Note"))
 #define IDENTIFICATION_KEYS(X)                                                                     \

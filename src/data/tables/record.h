@@ -57,6 +57,10 @@
     X(RECORD_STEADY_CYCLES, "steady_cycles", "cycles of the steady part", NUMBER, SHOWS(steady.n), \
       LABEL("of them steady"))                                                                     \
     X(RECORD_SAMPLES, AS(samples), "samples in a cycle", NUMBER, LABEL("Samples in one"))          \
+    X(RECORD_PAUSES, AS(pauses), "pauses in it, which no time and no distance holds", NUMBER,      \
+      LABEL("Pauses"), OPTIONAL, SPARSE)                                                           \
+    X(RECORD_PAUSED, "paused_time", "time that they took", SI(TIME), SHOWS(paused),                \
+      LABEL("Time paused"), OPTIONAL, SPARSE)                                                      \
     X(RECORD_AVERAGED_OVER, AS(averaged_over), "what a cycle is", TEXT, LABEL("A cycle is"))       \
     X(RECORD_STEP, AS(step), "number of the step in its file", NUMBER, LABEL("Step"))              \
     X(RECORD_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                               \

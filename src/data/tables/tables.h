@@ -109,6 +109,10 @@
     X(shared_constants, SHARED_CONSTANTS, "shared_constants",                                      \
       "Constants that cases have in common", "collect")                                            \
     X(shared_members, SHARED_MEMBERS, "shared_members", "What a shared constant is of", "collect") \
+    X(collected_constants, COLLECTED_CONSTANTS, "collected_constants",                             \
+      "Critical energy and wear rate of all cases", "collect")                                     \
+    X(shared_pairs, SHARED_PAIRS, "shared_pairs",                                                  \
+      "Critical energy and wear rate that cases have in common", "collect")                        \
     X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
       "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \

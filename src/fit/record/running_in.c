@@ -42,19 +42,21 @@ static double total_variance(const double *y, size_t n)
 }
 
 /* All places at once: the scatter is the same from either end. */
-static void add_law(likelihoods *l, const double *y, scatter_law before, scatter_law behind)
+static void add_law(likelihoods *l, const double *y, size_t i)
 {
-    scatter_sums s = scatter_begin(before);
+    const scatter_law law = scatter_law_of(i, l->n);
+    const double prior = scatter_prior(i);
+    scatter_sums s = scatter_begin(law);
     for (size_t k = 1; k <= l->n; k++) {
         scatter_add(&s, y[k - 1]);
         if (k >= FEWEST_BEFORE)
-            l->before[k] = log_add(l->before[k], scatter_likelihood(&s, true, l->least));
+            l->before[k] = log_add(l->before[k], prior + scatter_likelihood(&s, true, l->least));
     }
-    s = scatter_begin(behind);
+    s = scatter_begin(law);
     for (size_t k = l->n; k-- > 0;) {
         scatter_add(&s, y[k]);
         if (s.n >= FEWEST_BEHIND)
-            l->behind[k] = log_add(l->behind[k], scatter_likelihood(&s, false, l->least));
+            l->behind[k] = log_add(l->behind[k], prior + scatter_likelihood(&s, false, l->least));
     }
 }
 
@@ -82,9 +84,9 @@ static void interval_of(const double *log_weight, size_t first, size_t end, wt_r
     r->steady_from = (size_t)r->end.high;
 }
 
-/* Odds of a running-in at any place over none. It has one line, one scatter and one law of the
- * scatter more: coefficients within the scatter of the whole series are taken for possible, the
- * laws for equally likely. */
+/* Odds of a running-in at any place over none. It has one line and one scatter more: coefficients
+ * within the scatter of the whole series are taken for possible; the law of that scatter is
+ * averaged over. */
 static double log_odds(const likelihoods *l, const double *log_weight, size_t first, size_t end,
                        double variance)
 {
@@ -92,7 +94,7 @@ static double log_odds(const likelihoods *l, const double *log_weight, size_t fi
     for (size_t k = first; k < end; k++)
         any = log_add(any, log_weight[k]);
     return any - l->behind[0] - log((double)(end - first)) - log(2 * M_PI * variance) -
-           log(2 * scatter_range) - log(SCATTER_LAWS);
+           log(2 * scatter_range);
 }
 
 static void judge(const likelihoods *l, double variance, wt_running_in *r)
@@ -133,10 +135,8 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
     }
     for (size_t k = 0; k <= n; k++)
         l.before[k] = l.behind[k] = -(double)INFINITY;
-    for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        const scatter_law law = scatter_law_of(i, n);
-        add_law(&l, y, law, law);
-    }
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        add_law(&l, y, i);
     r->why_not = "";
     judge(&l, variance, r);
     pool_free(&memory);

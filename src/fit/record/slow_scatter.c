@@ -23,6 +23,12 @@ scatter_law scatter_law_of(size_t i, size_t n)
     return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
 }
 
+double scatter_prior(size_t i)
+{
+    return i % SCATTER_SHARES == 0 ? log(0.5 / SCATTER_LENGTHS)
+                                   : log(0.5 / (SCATTER_LAWS - SCATTER_LENGTHS));
+}
+
 scatter_sums scatter_begin(scatter_law law)
 {
     return (scatter_sums){.law = law, .variance = law.share};

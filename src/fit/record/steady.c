@@ -41,10 +41,10 @@ static void average_laws(const scatter_parts *parts, moments m, wt_steady *stead
         const scatter_fit constant = scatter_solve(&s, false), line = scatter_solve(&s, true);
         const double variance = fmax(constant.squares / mean.df, least);
         of_mean[i] = variance * scatter_of_mean(s.law, n);
-        mean.log_weight[i] = scatter_likelihood(&s, false, least);
+        mean.log_weight[i] = scatter_prior(i) + scatter_likelihood(&s, false, least);
         mean.centre[i] = m.mean;
         mean.scale[i] = sqrt(of_mean[i]);
-        drift.log_weight[i] = scatter_likelihood(&s, true, least);
+        drift.log_weight[i] = scatter_prior(i) + scatter_likelihood(&s, true, least);
         drift.centre[i] = line.coefficient / length;
         drift.scale[i] = sqrt(fmax(line.squares / drift.df, least) * line.variance) / length;
     }

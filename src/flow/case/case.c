@@ -35,6 +35,7 @@ wt_case *case_new(void)
     c->topography = wt_topography_job_defaults();
     c->sliding = wt_sliding_defaults();
     c->layer = wt_layer_job_defaults();
+    c->identify = wt_identify_job_defaults();
     c->records = wt_record_job_defaults();
     c->validation = wt_validation_job_defaults();
     c->report = wt_report_defaults();

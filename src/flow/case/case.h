@@ -74,6 +74,8 @@ struct wt_case {
     wt_layer_job layer;
     bool has_modulus_ratio; /* given instead of measured */
     wt_layer_known known;
+    bool identifies;
+    wt_identify_job identify;
 
     case_files record;
     wt_record_job records;

@@ -148,6 +148,7 @@ static wt_status parse_case(wt_case *c, wt_error *err)
         {"roughness", case_read_roughness},
         {"sliding", case_read_sliding},
         {"layer", case_read_layer},
+        {"identify", case_read_identify},
         {"record", case_read_record},
         {"compare", case_read_compare},
         {"report", case_read_report},

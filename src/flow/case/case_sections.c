@@ -272,6 +272,12 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
+wt_status case_read_identify(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    c->identifies = true;
+    return case_read_params(c, section, wt_identify_job_params(), &c->identify, err);
+}
+
 /* ---- record ---------------------------------------------------------------------------------- */
 
 wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)

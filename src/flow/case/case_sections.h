@@ -11,6 +11,7 @@ wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
 wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 /* After indentation: a modulus ratio is either measured or given. */
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
+wt_status case_read_identify(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 wt_status case_read_compare(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;

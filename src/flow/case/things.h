@@ -51,6 +51,8 @@
     X(ASKED_EXISTENCE, "where a layer exists",                                                     \
       "not asked where a layer exists (<existence> in <layer>)",                                   \
       c->has_layer && c->layer.existence)                                                          \
+    X(ASKED_IDENTIFICATION, "what is seen of the layer",                                           \
+      "nothing that is seen of a layer (<identify>)", c->identifies)                               \
     X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
       c->has_sliding && c->sliding.flash.on)
 
@@ -97,6 +99,7 @@
     X(RUNNING_IN, "running_in", &running_in_schema, "")                                            \
     X(LAYER_BALANCES, "layer_balances", &layer_balances_schema, "")                                \
     X(EXISTENCE, "existence", &existence_schema, "")                                               \
+    X(IDENTIFICATION, "identification", &identification_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(DIRECTIONS, "directions", &directions_schema, "")                                            \

@@ -38,6 +38,8 @@ void wt_collection_tables_clear(wt_collection_tables *tables)
     wt_table_free(tables->ratio_pairs);
     wt_table_free(tables->shared_constants);
     wt_table_free(tables->shared_members);
+    wt_table_free(tables->collected_constants);
+    wt_table_free(tables->shared_pairs);
     *tables = (wt_collection_tables){0};
 }
 
@@ -284,6 +286,8 @@ wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *j
         status = collect_pairs(cases, n_cases, job->margin, &tables->ratio_pairs, err);
     if (status == WT_OK)
         status = collect_constants(cases, n_cases, job->constant_margin, tables, err);
+    if (status == WT_OK)
+        status = collect_layer_constants(cases, n_cases, job->constant_margin, tables, err);
     free(beside);
     free(cases);
     if (status != WT_OK)

@@ -77,6 +77,15 @@ shared_files shared_files_of(const char *source);
 /* The most that two values of one constant have in common by files that both cases have. */
 double shared_covariance(const case_value *a, const case_value *b);
 
+/* May two cases have errors of material, surface and conditions in common? Numbers that a case
+ * gives itself may be those of another. */
+bool inputs_may_be_common(const collected_case *a, const collected_case *b);
+
+/* Tables "collected_constants" and "shared_pairs": critical energy and wear rate together, by what
+ * each case saw of its layer. NULL: no case, or no two cases, tell them. */
+wt_status collect_layer_constants(const collected_case *cases, size_t n, double margin,
+                                  wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* Tables "shared_constants" and "shared_members"; NULL if no two cases tell one constant, the first
  * only if no value was left out either. */
 wt_status collect_constants(const collected_case *cases, size_t n, double margin,

@@ -89,3 +89,23 @@ double shared_covariance(const case_value *a, const case_value *b)
     }
     return sum;
 }
+
+static bool has_any(const collected_case *c, const char *const *roles, size_t n)
+{
+    table_view inputs;
+    bool any = false;
+    if (!inputs_of(c, &inputs))
+        return false;
+    for (size_t row = 0; row < inputs.n_rows; row++)
+        for (size_t k = 0; k < n; k++)
+            any = any || has_role(&inputs, row, roles[k]);
+    return any;
+}
+
+bool inputs_may_be_common(const collected_case *a, const collected_case *b)
+{
+    static const char *const roles[] = {"dma", "material", "topography", "roughness", "softening"};
+    const size_t n = COUNT_OF(roles);
+    return !has_any(a, roles, n) || !has_any(b, roles, n) ||
+           files_in_common(a, b, roles, n) != FILES_APART;
+}

@@ -1,6 +1,7 @@
 /* The identification job: critical energy U_c and specific wear rate k of a layer from its
  * thickness with a wear rate or a running-in time, jointly. SPDX-License-Identifier:
  * GPL-3.0-or-later */
+#include "fit/constant_pair.h"
 #include "flow/sliding/replicates.h"
 #include "flow/sliding/sliding_contact.h"
 #include "flow/work/cost.h"
@@ -166,6 +167,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 typedef struct identified {
     double value[NUMBERS], at_end[2][NUMBERS];
     double error[NUMBERS], rest[NUMBERS];
+    double inputs[NUMBERS]; /* by material, surface and conditions alone */
 } identified;
 
 /* exp of number k with its interval of 95 %. A thickness goes into an exponent, so that what its
@@ -183,24 +185,10 @@ static wt_interval interval_of(const identified *found, size_t k)
 /* ---- the table ------------------------------------------------------------------------------- */
 
 TABLE_ROW(identification, IDENTIFICATION, const char *by; wt_interval energy, wear;
-          double correlation; char loose[64]; double loose_error, tight_error; char note[256];)
+          constant_axes axes; char note[256];
+          double energy_inputs, wear_inputs, correlation_inputs;)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-
-/* Main axes of the covariance of ln U_c and ln k, of which that of their sum is known, too. */
-static void find_axes(double energy, double wear, double product, identification_row *r)
-{
-    const double a = energy * energy, b = wear * wear, c = 0.5 * (product * product - a - b);
-    const double middle = 0.5 * (a + b), apart = hypot(0.5 * (a - b), c),
-                 angle = 0.5 * atan2(2 * c, a - b);
-    r->correlation = energy > 0 && wear > 0 ? fmax(-1, fmin(1, c / (energy * wear))) : (double)NAN;
-    r->loose_error = sqrt(middle + apart);
-    r->tight_error = sqrt(fmax(middle - apart, 0));
-    if (fabs(cos(angle)) >= fabs(sin(angle)))
-        clocale_print(r->loose, sizeof r->loose, "U_c k^%.2f", tan(angle));
-    else
-        clocale_print(r->loose, sizeof r->loose, "k U_c^%.2f", 1 / tan(angle));
-}
 
 /* Why an interval of a way is none; NULL if it is one. */
 static const char *no_interval(const identify_task *task, bool wear, bool time)
@@ -215,13 +203,24 @@ static const char *no_interval(const identify_task *task, bool wear, bool time)
     return task->work->replicates == 0 ? "no interval: no replicates are drawn" : NULL;
 }
 
+static constant_axes axes_of(const double error[NUMBERS], way by)
+{
+    const double energy = error[LN_ENERGY + by], wear = error[LN_WEAR + by],
+                 both = error[LN_PRODUCT];
+    return constant_axes_of((pair_covariance){energy * energy, wear * wear,
+                                              0.5 * (both * both - energy * energy - wear * wear)});
+}
+
 static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
 {
     const char *const none = no_interval(task, by == BY_WEAR, by != BY_WEAR);
+    const double unknown = (double)NAN;
     identification_row row = {.by = way_words[by],
-                              .correlation = (double)NAN,
-                              .loose_error = (double)NAN,
-                              .tight_error = (double)NAN};
+                              .axes =
+                                  constant_axes_of((pair_covariance){unknown, unknown, unknown}),
+                              .energy_inputs = unknown,
+                              .wear_inputs = unknown,
+                              .correlation_inputs = unknown};
     if (isnan(found->value[LN_ENERGY + by]))
         return;
     row.energy = interval_of(found, LN_ENERGY + by);
@@ -233,8 +232,10 @@ static void add_way(const identify_task *task, way by, const identified *found, 
         row.wear.value = wear;
         snprintf(row.note, sizeof row.note, "%s", none);
     } else {
-        find_axes(found->error[LN_ENERGY + by], found->error[LN_WEAR + by],
-                  found->error[LN_PRODUCT], &row);
+        row.axes = axes_of(found->error, by);
+        row.energy_inputs = found->inputs[LN_ENERGY + by];
+        row.wear_inputs = found->inputs[LN_WEAR + by];
+        row.correlation_inputs = axes_of(found->inputs, by).correlation;
     }
     identification_add_row(t, &row);
 }
@@ -243,13 +244,17 @@ static void add_way(const identify_task *task, way by, const identified *found, 
 static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
 {
     const wt_identify_job *const job = task->job;
-    identification_row row = {.by = "thickness alone",
-                              .energy = not_known,
-                              .wear = not_known,
-                              .correlation = (double)NAN,
-                              .loose = "U_c k^-1.00",
-                              .loose_error = (double)INFINITY,
-                              .tight_error = product.standard_error / product.value * M_SQRT1_2};
+    identification_row row = {
+        .by = "thickness alone",
+        .energy = not_known,
+        .wear = not_known,
+        .axes = {.correlation = (double)NAN,
+                 .loose = "U_c k^-1.00",
+                 .loose_error = HUGE_VAL,
+                 .tight_error = product.standard_error / product.value * M_SQRT1_2},
+        .energy_inputs = (double)NAN,
+        .wear_inputs = (double)NAN,
+        .correlation_inputs = (double)NAN};
     const double low = isnan(product.low) ? product.value : product.low,
                  high = isnan(product.high) ? product.value : product.high;
     row.energy.low = fmax(job->energy_low, low / job->wear_high);
@@ -354,25 +359,36 @@ static wt_status draw_errors(identify_task *task, double error[NUMBERS], wt_erro
     return status;
 }
 
-/* The same with the thickness held: at its value, then at the ends of its interval. */
+/* The scatter of what is left to be drawn. Nothing else scatters, or it is not asked what does. */
+static wt_status draw_held(const identify_task *task, const wt_identify_job *job,
+                           double error[NUMBERS], wt_error *err)
+{
+    identify_task held = task_of(task->sliding, job, task->work);
+    const wt_status status = draw_errors(&held, error, err);
+    replicates_clear(&held.replicates);
+    for (size_t k = 0; k < NUMBERS && held.replicates.n == 0; k++)
+        error[k] = task->work->replicates > 0 ? 0 : (double)NAN;
+    return status;
+}
+
+/* The same with the thickness held: at its value, then at the ends of its interval; and with all
+ * that was measured of the layer. */
 static wt_status hold_thickness(const identify_task *task, identified *found, wt_error *err)
 {
     wt_identify_job job = *task->job;
     const wt_estimate thickness = job.observed_thickness;
     const double factor = exp(NORMAL_95 * thickness.standard_error / thickness.value);
     job.observed_thickness.standard_error = 0;
+    wt_status status = draw_held(task, &job, found->rest, err);
     identify_task held = task_of(task->sliding, &job, task->work);
-    wt_status status = draw_errors(&held, found->rest, err);
-    replicates_clear(&held.replicates);
-    for (size_t k = 0; k < NUMBERS; k++) /* nothing else scatters, or it is not asked what does */
-        if (held.replicates.n == 0)
-            found->rest[k] = task->work->replicates > 0 ? 0 : (double)NAN;
     for (int end = 0; status == WT_OK && end < 2; end++) {
         job.observed_thickness.value =
             end == 0 ? thickness.value / factor : thickness.value * factor;
         status = find_all(&held, WT_NO_REPLICATE, found->at_end[end], err);
     }
-    return status;
+    job.observed_thickness.value = thickness.value;
+    job.specific_wear_rate.standard_error = job.running_in_time.standard_error = 0;
+    return status == WT_OK ? draw_held(task, &job, found->inputs, err) : status;
 }
 
 static wt_status check_range(const char *first, const char *last, double low, double high,

@@ -15,6 +15,7 @@ static const flow_more mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
     [FLOW_AND_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
                          "the modulus ratio of the layer"}},
     [FLOW_AND_BALANCE] = {{B(LAYER), ", beside that of the theory", "the thickness of the theory"}},
+    [FLOW_AND_WEAR] = {{B(WEAR), ", with the wear as measured", "the measured wear"}},
     [FLOW_AND_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
                             {B(MODULUS_RATIO), ", friction with it",
                              "the modulus ratio of the layer"}},

@@ -15,6 +15,7 @@ typedef enum flow_extra {
     FLOW_AND_THICKNESS,
     FLOW_AND_RATIO,
     FLOW_AND_BALANCE,
+    FLOW_AND_WEAR,
     FLOW_N_EXTRAS
 } flow_extra;
 
@@ -110,6 +111,9 @@ typedef enum flow_extra {
     X(EXISTENCE, existence, "Where a layer exists",                                                \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_EXISTENCE), 0,        \
       FLOW_AND_RATIO, B(EXISTENCE), flow_step_existence)                                           \
+    X(IDENTIFICATION, identification, "Critical energy and wear rate of the layer that is seen",   \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_IDENTIFICATION), 0, FLOW_AND_WEAR,          \
+      B(IDENTIFICATION), flow_step_identification)                                                 \
     X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_FLASH), 0, FLOW_NO_MORE, B(FLASH_EFFECT),   \
       flow_step_flash_effect)                                                                      \

@@ -2,6 +2,7 @@
  * held against. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/record/record.h"
 
+#include "fit/record/pauses.h"
 #include "flow/work/cost.h"
 
 #include "base/array.h"
@@ -34,7 +35,7 @@ static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (do
 
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
-          double zero, difference, samples; size_t cycles, step;
+          double zero, difference, samples, pauses, paused; size_t cycles, step;
           const char *averaged_over, *note, *file;)
 
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
@@ -121,6 +122,25 @@ static void add_note(char *note, size_t size, const char *words)
     const size_t used = strlen(note);
     if (words[0] != '\0')
         snprintf(note + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+}
+
+/* Of those that are before a sample of a step; all that is known of a record without a time is that
+ * it tells none. */
+static void count_pauses(const record_pauses *pauses, const wt_cycle *first, const wt_cycle *last,
+                         record_row *r, char *note, size_t size)
+{
+    char words[120];
+    r->pauses = r->paused = isnan(first->time) ? (double)NAN : 0;
+    for (size_t i = 0; i < pauses->n; i++)
+        if (pauses->of[i].before > first->first && pauses->of[i].before < last->first + last->n) {
+            r->pauses++;
+            r->paused += pauses->of[i].time;
+        }
+    if (!(r->pauses > 0))
+        return;
+    clocale_print(words, sizeof words, "%.0f pause%s of %s%.4g s left out", r->pauses,
+                  r->pauses > 1 ? "s" : "", r->pauses > 1 ? "together " : "", r->paused);
+    add_note(note, size, words);
 }
 
 /* What a person should know of a step. */
@@ -225,7 +245,7 @@ static void count_row(together *all, const record_row *r)
 }
 
 static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
-                           const char *file, writers *w, wt_error *err)
+                           const record_pauses *pauses, const char *file, writers *w, wt_error *err)
 {
     wt_status status = WT_OK;
     size_t step = 0;
@@ -243,6 +263,7 @@ static wt_status put_steps(const wt_record_job *job, const wt_job *work, const w
         status = measure_step(job, cycles, cycle, n, &r, &from, err);
         if (status != WT_OK)
             return status;
+        count_pauses(pauses, cycle, cycle + n - 1, &r, note, sizeof note);
         say_step(work, cycles, &r, note, sizeof note);
         record_add_row(&w->record, &r);
         count_row(&w->all, &r);
@@ -263,6 +284,26 @@ static void say_difference(const wt_job *work, const wt_cycles *cycles, const ch
                         "the friction coefficient of the file and its friction force over its load "
                         "differ by up to %.3g; the first is used",
                         cycles->difference);
+}
+
+static void say_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
+{
+    double all = 0;
+    for (size_t i = 0; i < pauses->n; i++)
+        all += pauses->of[i].time;
+    if (pauses->n > 0)
+        wt_parselog_add(work->log, WT_WARNING, file, NULL,
+                        "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
+                        "of sliding, and left out",
+                        pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
+                        pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+    if (pauses->alike > 0)
+        wt_parselog_add(
+            work->log, WT_WARNING, file, NULL,
+            "%zu gaps in the time that are alike are taken for those of a recorder that "
+            "is off between while sliding goes on; no column of distance, laps or "
+            "velocity tells",
+            pauses->alike);
 }
 
 /* Of a disc, by what its laps were long; NaN: neither tells it. */
@@ -372,6 +413,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     wt_input *input = NULL;
     wt_record record = {.n = 0};
     wt_cycles cycles = {.n = 0};
+    record_pauses pauses = {.n = 0};
     wt_status status = flow_open(work, file, "record", WT_KIND_RECORD, &input, err);
     const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
@@ -381,21 +423,25 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     if (isnan(radius.value))
         radius = (wt_estimate){record.radius, 0, 0, "m"};
     if (status == WT_OK)
+        status = record_leave_out_pauses(&record, &pauses, err);
+    if (status == WT_OK)
         status = wt_cycles_make(&record, job->cycle, radius.value, job->load.value, &cycles, err);
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         say_difference(work, &cycles, file->name);
+        say_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
             wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
                             "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
                             record.n);
-        status = put_steps(job, work, &cycles, file->name, w, err);
+        status = put_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
     if (status == WT_OK && wear_is_asked(job))
         status = measure_wear(job, work, &record, &cycles, radius, file->name, w, err);
     if (status != WT_OK)
         wt_error_file(err, file->name);
+    free(pauses.of);
     wt_cycles_clear(&cycles);
     wt_record_clear(&record);
     w->n_files += status == WT_OK;

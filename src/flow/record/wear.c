@@ -64,21 +64,30 @@ static double velocity_of_strokes(const wt_cycles *cycles, double length)
                                                        : (double)NAN;
 }
 
+/* Steps of an instrument may lie apart. */
+static double time_of_steps(const wt_record *record)
+{
+    const double *const time = record->channel[WT_RECORD_TIME];
+    double sum = 0;
+    for (size_t i = 1; i < record->n; i++)
+        sum += record->step[i] == record->step[i - 1] ? time[i] - time[i - 1] : 0;
+    return sum;
+}
+
 static double distance_of(const wt_record *record, const wt_cycles *cycles, double radius,
                           double length)
 {
     const double *const distance = record->channel[WT_RECORD_DISTANCE],
-                        *const laps = record->channel[WT_RECORD_LAPS],
-                        *const time = record->channel[WT_RECORD_TIME];
+                        *const laps = record->channel[WT_RECORD_LAPS];
     const size_t last = record->n - 1;
     if (distance != NULL)
         return distance[last] - distance[0];
     if (laps != NULL && radius > 0 && cycles->kind != WT_CYCLE_STROKE)
         return 2 * M_PI * radius * (laps[last] - laps[0]);
-    if (time == NULL)
+    if (record->channel[WT_RECORD_TIME] == NULL)
         return (double)NAN;
     const double velocity = conditions_of(cycles->cycle, cycles->n).velocity;
-    return (time[last] - time[0]) *
+    return time_of_steps(record) *
            (isnan(velocity) ? velocity_of_strokes(cycles, length) : velocity);
 }
 

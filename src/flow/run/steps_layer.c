@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
 
+#include <math.h>
+
 wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
@@ -38,4 +40,16 @@ wt_status flow_step_existence(flow_run *run, wt_error *err)
                ? wt_existence_make(&sliding, &run->c->layer, run->level > 0 ? &known : NULL,
                                    &run->job, &run->table[FLOW_EXISTENCE], err)
                : status;
+}
+
+/* The wear rate that the case gives for it, else the one that its records measured. */
+wt_status flow_step_identification(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_identify_job job = run->c->identify;
+    wt_estimate measured;
+    if (run->level > 0 && isnan(job.specific_wear_rate.value) &&
+        wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured))
+        job.specific_wear_rate = measured;
+    return wt_identify_make(&sliding, &job, &run->job, &run->table[FLOW_IDENTIFICATION], err);
 }
