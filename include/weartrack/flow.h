@@ -1134,8 +1134,8 @@ WT_API wt_status wt_case_validate(wt_case *c, const char *const *records, size_t
                                   wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
-/* How it has the report drawn: style, figures, width and font are those it asks for, or the
- * defaults. Borrowed. */
+/* How it has the report drawn: style, figures, width, font and language are those it asks
+ * for, or the defaults. Borrowed. */
 WT_API const wt_report_options *wt_case_report(const wt_case *c);
 
 /* ---- plan and run ---------------------------------------------------------------------------- */

@@ -21,6 +21,7 @@ typedef struct wt_report_options {
     unsigned figures;     /* pictures for a paper, of wt_figure_formats; 0: those of the page */
     double width;         /* of a figure [m], those with panels beside each other are 0.17 m wide at
                              least; NaN, the default: that of the style */
+    const char *language; /* of figures and page: "en", the default, "de", "fr", "nl" */
     const char *font;     /* of all type in figures; NULL, the default: that of the style */
 } wt_report_options;
 

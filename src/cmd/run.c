@@ -197,6 +197,8 @@ static void take_case_report(run_call *r, const cmd_part *given)
         r->report.width = asked->width;
     if (!cmd_given(given, "font"))
         r->report.font = asked->font;
+    if (!cmd_given(given, "language"))
+        r->report.language = asked->language;
 }
 
 static wt_status run_case(run_call *r, const cmd_part *report_given)
@@ -257,7 +259,8 @@ int cmd_run(int argc, char **argv)
                 "standard output, the result to an HDF5 file and the figures to a report folder "
                 "with one page.",
         .common = "formats columns provenance",
-        .notes = "--style, --figures, --width and --font replace those of the case.\nExit status 3 "
+        .notes = "--style, --figures, --width, --font and --language replace those of the "
+                 "case.\nExit status 3 "
                  "if a file or a stage of the "
                  "case failed and the rest is answered, 1 if nothing is.",
         .n_files = 1,
@@ -268,7 +271,7 @@ int cmd_run(int argc, char **argv)
                   .report = wt_report_defaults()};
     cmd_part parts[] = {{output_params(), &r.s.common, NULL, 0},
                         {own_params(), &r.own, NULL, 0},
-                        {wt_report_params(), &r.report, "style figures width font", 0},
+                        {wt_report_params(), &r.report, "style figures width font language", 0},
                         {wt_run_params(), &r.run, NULL, 0}};
     if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_output(&r) &&
         (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) && run_case(&r, &parts[2]) != WT_OK)

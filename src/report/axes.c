@@ -39,7 +39,7 @@ void span_add_section(value_span *span, const figure_drawing *d, int section, si
 static void write_label(figure_drawing *d, const char *axis, const char *label, const lab_unit *lab)
 {
     growing_text words = {0};
-    text_add(&words, label);
+    text_add(&words, say(d->language, label));
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
     if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
@@ -136,7 +136,7 @@ static void write_tic(figure_drawing *d, const char *comma, double mantissa, int
 {
     text_add(&d->script, comma);
     if (by_power(decade))
-        text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(mantissa, 2), decade);
+        text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(d->language, mantissa, 2), decade);
     text_add(&d->script, LITERAL(mantissa * pow(10, decade)));
 }
 

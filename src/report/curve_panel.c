@@ -139,9 +139,9 @@ static size_t add_words(growing_text *to, const figure_drawing *d, const listed_
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
         text_format(to, "%s: ", c->rows->suffix);
-    text_add(to, verdict);
+    text_add(to, say(d->language, verdict));
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
-        text_format(to, ", E = %s", ESTIMATE(&modulus));
+        text_format(to, ", E = %s", ESTIMATE(d->language, &modulus));
     const size_t same = strlen("doubtful: ");
     if (strncmp(reason, "doubtful: ", same) == 0)
         reason += same;

@@ -165,13 +165,16 @@ void drawing_colours(figure_drawing *d, const char *with)
         plot_other(d, "keyentry with %s lc palette cb %s%s title '%s'", with,
                    LITERAL(d->colours[i]),
                    column->quantity == WT_Q_TEMPERATURE ? "+cb_offset" : "*cb_unit",
-                   VALUE(column->quantity, schema_unit(column), d->colours[i]));
+                   VALUE(d->language, column->quantity, schema_unit(column), d->colours[i]));
 }
 
-void drawing_label_at(char label[DRAWING_LABEL], const char *words, double temperature)
+void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const char *words,
+                      double temperature)
 {
-    (void)snprintf(label, DRAWING_LABEL, isfinite(temperature) ? "%s at %s" : "%s%s", words,
-                   isfinite(temperature) ? VALUE(WT_Q_TEMPERATURE, NULL, temperature) : "");
+    (void)snprintf(
+        label, DRAWING_LABEL, isfinite(temperature) ? say(d->language, "%s at %s") : "%s%s",
+        say(d->language, words),
+        isfinite(temperature) ? VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
 char drawing_letter(const char *deformation)
@@ -203,19 +206,18 @@ static void add_place(growing_text *item, const figure_drawing *d, const char *l
 static void plot_band(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const bool titled = !d->band_titled && !d->figure->by_group && curve->title != NULL;
-    const char *const title = titled ? "title 'one standard error'" : "notitle";
     d->band_titled = d->band_titled || titled;
     size_t y = place_of(d, curve->column) + 1,
            e = place_of(d, d->figure->table->columns[curve->column].standard_error) + 1;
     if (d->figure->y[curve->panel].scale == AXIS_LOG)
         plot_item(d, d->data[group],
                   "($1*x_unit):($%zu > 0 ? ($%zu > $%zu ? $%zu-$%zu : 1e-3*$%zu)*y_unit : NaN):"
-                  "($%zu > 0 ? ($%zu+$%zu)*y_unit : NaN) with filledcurves ls %d %s",
-                  y, y, e, y, e, y, y, y, e, curve->band, title);
+                  "($%zu > 0 ? ($%zu+$%zu)*y_unit : NaN) with filledcurves ls %d",
+                  y, y, e, y, e, y, y, y, e, curve->band);
     else
-        plot_item(d, d->data[group],
-                  "($1*x_unit):($%zu-$%zu):($%zu+$%zu) with filledcurves ls %d %s", y, e, y, e,
-                  curve->band, title);
+        plot_item(d, d->data[group], "($1*x_unit):($%zu-$%zu):($%zu+$%zu) with filledcurves ls %d",
+                  y, e, y, e, curve->band);
+    plot_key(d, titled ? "one standard error" : NULL);
 }
 
 static bool has_key(const figure_description *figure)
@@ -231,9 +233,9 @@ static void add_title(figure_drawing *d, size_t group, const figure_curve *curve
 {
     bool *titled = &d->titled[curve - d->figure->curves];
     if (d->figure->by_group && curve->form != CURVE_FIT)
-        plot_title(d, d->groups[group]);
+        plot_title(d, drawing_group_name(d, d->groups[group]));
     else if (curve->title != NULL && !*titled)
-        text_format(&d->script, " title '%s'", curve->title);
+        text_format(&d->script, " title '%s'", say(d->language, curve->title));
     else if (has_key(d->figure) || d->n_colours > 0)
         text_add(&d->script, " notitle");
     *titled = true;
@@ -343,9 +345,11 @@ static void find_groups(figure_drawing *d)
 }
 
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const bound_tables *tables, wt_error *err)
+                       const bound_tables *tables, const language *l, wt_error *err)
 {
     *d = (figure_drawing){.figure = figure,
+                          .language = l,
+                          .caption = {.language = l},
                           .tables = tables,
                           .table = bound_find(tables, figure->table),
                           .err = err,
@@ -364,9 +368,9 @@ wt_status drawing_make(figure_drawing *d, const figure_description *figure,
     else
         draw_as_described(d);
     if (d->script.length > 0) {
-        text_add(&d->caption, figure->words);
+        text_words(&d->caption, figure->words);
         if (d->too_many)
-            text_format(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
+            text_say(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
         if (figure->caption != NULL)
             figure->caption(d);
     }

@@ -36,6 +36,7 @@ typedef struct value_span {
 typedef struct figure_drawing {
     const figure_description *figure;
     const bound_tables *tables;
+    const language *language;           /* of all that is read in the picture; NULL: English */
     const table_view *table;            /* that of the figure */
     const char *groups[DRAWING_GROUPS]; /* of a figure by groups: their names, borrowed; else "" */
     size_t n_groups;
@@ -65,7 +66,7 @@ bool drawing_is_wide(const figure_drawing *d);
 /* Fills sections, script and caption; without anything to draw it leaves no script. drawing_clear
  * also after a failure. */
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const bound_tables *tables, wt_error *err) WT_NODISCARD;
+                       const bound_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
 
 /* ---- what the description says, for the functions of figures --------------------------------- */
@@ -82,7 +83,8 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
 void drawing_axes(figure_drawing *d);
 void drawing_colours(figure_drawing *d, const char *with);
 /* "Angular frequency at 20 °C", or the label alone without a temperature. */
-void drawing_label_at(char label[DRAWING_LABEL], const char *words, double temperature);
+void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const char *words,
+                      double temperature);
 /* Of the moduli, by the words of a table for its deformation. */
 char drawing_letter(const char *deformation);
 /* All that is described of one panel, in a plot command: the bands, then the curves. */
@@ -113,6 +115,8 @@ size_t drawing_rows(const figure_drawing *d, int section);
 size_t drawing_every(const figure_drawing *d, int section, size_t limit);
 /* The largest such n of the sections of all groups. */
 size_t drawing_thinning(const figure_drawing *d, size_t limit);
+/* What the usual groups, bulk and track, are called in the language; any other name stays. */
+const char *drawing_group_name(const figure_drawing *d, const char *name);
 /* Line style of group i in the style file: 1 bulk, 2 track, 3... the others. */
 int drawing_group_style(const figure_drawing *d, size_t i);
 
@@ -141,6 +145,9 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
 void plot_item(figure_drawing *d, int section, const char *format, ...) WT_PRINTF(3, 4);
 /* The same without data: a function or a key entry. */
 void plot_other(figure_drawing *d, const char *format, ...) WT_PRINTF(2, 3);
+/* Ends the item with a title of ours, or NULL without one. Such a text has nothing in it that
+ * gnuplot would take for more, and its translations have not, either. */
+void plot_key(figure_drawing *d, const char *english);
 /* Ends the item with a text that comes from a file as its title. */
 void plot_title(figure_drawing *d, const char *title);
 void plot_end(figure_drawing *d);

@@ -94,6 +94,12 @@ static wt_status write_data(const report_folder *folder, drawn_figure *figure, w
                : folder_write(folder, name, text_string(&figure->data), figure->data.length, err);
 }
 
+void figure_decimals(growing_text *script, const language *l)
+{
+    if (l != NULL) // of the tics: what gnuplot reads keeps its points
+        text_format(script, "set decimalsign '%c'\n", l->decimal_mark);
+}
+
 /* What the style and what is drawn on need to know. */
 static void add_sizes(growing_text *script, const figure_drawing *d,
                       const wt_report_options *options)
@@ -116,7 +122,8 @@ static wt_status write_script(const report_folder *folder, const wt_report_optio
     const char *const figure = d->figure->name;
     growing_text *const script = &drawn->script;
     char name[128];
-    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
+    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n",
+                say(d->language, d->figure->title), figure);
     text_format(script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
@@ -125,6 +132,7 @@ static wt_status write_script(const report_folder *folder, const wt_report_optio
     text_add(script, "reset\n");
     add_sizes(script, d, options);
     text_add(script, "load 'style.gp'\nload 'output.gp'\nset datafile separator \"\\t\"\n");
+    figure_decimals(script, d->language);
     text_add(script, text_string(&d->script));
     text_add(script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);

@@ -17,6 +17,8 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_
 /* Whether a name can be that of a font: it stands in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
+/* Has a script, behind the style, write numbers as the language does. */
+void figure_decimals(growing_text *script, const language *l);
 /* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
 wt_status figure_data(const figure_drawing *d, growing_text *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script, and keeps them. */

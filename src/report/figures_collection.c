@@ -107,7 +107,7 @@ static void draw_panel(figure_drawing *d, const grid *g, size_t i)
         else
             plot_item(d, section, "($1*x_unit):($2*y_unit) with lines ls %zu", k + 1);
         if (i == 0)
-            plot_title(d, d->groups[k]);
+            plot_title(d, drawing_group_name(d, d->groups[k]));
         else
             text_add(&d->script, " notitle");
     }
@@ -123,7 +123,7 @@ static void draw_grid(figure_drawing *d, grid *g)
         draw_panel(d, g, i);
     text_add(&d->script, "unset multiplot\n");
     if (g->of.too_many)
-        text_format(&d->caption, " The first %d only.", PANELS);
+        text_say(&d->caption, " The first %d only.", PANELS);
 }
 
 static void draw_moduli(figure_drawing *d)
@@ -233,8 +233,8 @@ static void draw_constants(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     for (size_t i = 0; i < n; i++) {
         growing_text heading = {0};
-        text_format(&heading, "%s%s%s", shown[i].constant, shown[i].of[0] != '\0' ? ", " : "",
-                    shown[i].of);
+        text_format(&heading, "%s%s%s", say(d->language, shown[i].constant),
+                    shown[i].of[0] != '\0' ? ", " : "", shown[i].of);
         plot_heading(d, text_string(&heading));
         text_free(&heading);
         text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_rows(d, shown[i].section));
@@ -246,14 +246,14 @@ static void draw_constants(figure_drawing *d)
     }
     text_add(&d->script, "unset multiplot\n");
     if (too_many)
-        text_format(&d->caption, " The first %d only.", PANELS);
+        text_say(&d->caption, " The first %d only.", PANELS);
 }
 
 static void caption_friction(figure_drawing *d)
 {
     const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
     if (part != NULL && strcmp(part, "hysteresis") == 0)
-        text_add(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
+        text_words(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
 }
 
 const figure_description figures_collection[] = {

@@ -128,10 +128,14 @@ static void draw_panel(figure_drawing *d, const panel *p)
     }
     axis_linear(d, "x", p->label, &d->table->schema->columns[p->column], span);
     text_format(&d->script, "set yrange [-0.6:%zu.6]\nset ytics (", p->n - 1 + chance);
-    for (size_t i = 0; i < p->n; i++)
-        name_place(d, i, p->bars[i].choice, p->bars[i].tried);
+    for (size_t i = 0; i < p->n; i++) {
+        bar named = p->bars[i];
+        language_decimals(d->language, named.tried);
+        name_place(d, i, say(d->language, named.choice), named.tried);
+    }
     if (chance)
-        name_place(d, p->n, "errors that are known", "95 % interval");
+        name_place(d, p->n, say(d->language, "errors that are known"),
+                   say(d->language, "95 % interval"));
     text_format(&d->script,
                 ") noenhanced scale 0\nunset arrow\n"
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",

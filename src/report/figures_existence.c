@@ -20,15 +20,16 @@ static void caption_existence(figure_drawing *d)
     const wt_estimate from = existence_value(d->table, EXISTENCE_KEY_FROM_VELOCITY),
                       to = existence_value(d->table, EXISTENCE_KEY_TO_VELOCITY);
     const char *const known = existence_words(d->table, EXISTENCE_KEY_KNOWN);
-    text_format(&d->caption, " At %s there is a layer %s.",
-                VALUE(WT_Q_PRESSURE, NULL, existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
-                existence_words(d->table, EXISTENCE_KEY_WORDS));
+    text_say(&d->caption, " At %s there is a layer %s.",
+             VALUE(d->language, WT_Q_PRESSURE, NULL,
+                   existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
+             existence_words(d->table, EXISTENCE_KEY_WORDS));
     if (isfinite(from.value))
-        text_format(&d->caption, " It begins at %s.", ESTIMATE(&from));
+        text_say(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
     if (isfinite(to.value))
-        text_format(&d->caption, " It ends at %s.", ESTIMATE(&to));
+        text_say(&d->caption, " It ends at %s.", ESTIMATE(d->language, &to));
     if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
-        text_format(&d->caption, " Of the edges one %s.", known);
+        text_say(&d->caption, " Of the edges one %s.", known);
 }
 
 /* ln R, by so many standard errors of it more. */
@@ -142,16 +143,18 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
               "notitle");
     plot_item(d, section,
               "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
-              "'no layer'");
+              "'%s'",
+              say(d->language, "no layer"));
     if (edge >= 0)
         plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
     const int ends[] = {low, high};
-    const char *title = "title '95 % interval'";
+    bool titled = false;
     for (size_t i = 0; i < COUNT_OF(ends); i++) {
         if (ends[i] < 0)
             continue;
-        plot_item(d, ends[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black' %s", title);
-        title = "notitle";
+        plot_item(d, ends[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black'");
+        plot_key(d, titled ? NULL : "95 % interval");
+        titled = true;
     }
     plot_end(d);
 }

@@ -78,14 +78,14 @@ static void draw_collapse(figure_drawing *d)
 
 static void caption_collapse(figure_drawing *d)
 {
-    text_format(
-        &d->caption, " Nominal pressure %s; a_T is 1 at %s.",
-        VALUE(WT_Q_PRESSURE, NULL, friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
-        VALUE(WT_Q_TEMPERATURE, NULL,
-              friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
+    text_say(&d->caption, " Nominal pressure %s; a_T is 1 at %s.",
+             VALUE(d->language, WT_Q_PRESSURE, NULL,
+                   friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
+             VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+                   friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
     const char *beyond = friction_map_words(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
     if (beyond != NULL && beyond[0] != '\0')
-        text_format(&d->caption, " Note: %s.", beyond);
+        text_say(&d->caption, " Note: %s.", beyond);
 }
 
 /* ---- maps ------------------------------------------------------------------------------------ */
@@ -223,7 +223,8 @@ static void caption_pressure_map(figure_drawing *d)
 {
     const double temperature = friction_map_value(d->table, FRICTION_MAP_KEY_TEMPERATURE).value;
     if (isfinite(temperature))
-        text_format(&d->caption, " Temperature %s.", VALUE(WT_Q_TEMPERATURE, NULL, temperature));
+        text_say(&d->caption, " Temperature %s.",
+                 VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature));
 }
 
 /* ---- decades --------------------------------------------------------------------------------- */
@@ -264,6 +265,7 @@ static void draw_decades(figure_drawing *d)
     for (size_t k = 0; k < n; k++) {
         char title[48];
         wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
+        language_decimals(d->language, title);
         /* side by side within the decade, from the first velocity to the last */
         plot_item(
             d, section,
@@ -278,19 +280,19 @@ static void draw_decades(figure_drawing *d)
 
 static void caption_decades(figure_drawing *d)
 {
-    text_format(&d->caption, " The most: %s.",
-                friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
+    text_say(&d->caption, " The most: %s.",
+             friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
 
 static void caption_anisotropy(figure_drawing *d)
 {
-    text_format(&d->caption,
-                " Power spectrum over its mean at an angle phi from the velocity: 1 + "
-                "%s. %s.",
-                anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
-                anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
+    text_say(&d->caption,
+             " Power spectrum over its mean at an angle phi from the velocity: 1 + "
+             "%s. %s.",
+             anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
+             anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
 }
 
 const figure_description figures_friction_maps[] = {

@@ -37,7 +37,7 @@ static void mark_time(figure_drawing *d, double time, const char *label, double 
                 LITERAL(time), LITERAL(time));
     if (label != NULL)
         text_format(&d->script, "set label '%s' at %s*x_unit, graph %s offset 0.6,0 left front\n",
-                    label, LITERAL(time), LITERAL(place));
+                    say(d->language, label), LITERAL(time), LITERAL(place));
 }
 
 static void draw_thickness(figure_drawing *d)
@@ -51,7 +51,7 @@ static void draw_thickness(figure_drawing *d)
         text_format(&d->script, "balance = %s  # m\n", LITERAL(balance));
     drawing_bands(d, 0);
     if (isfinite(balance))
-        plot_other(d, "balance*y_unit with lines ls 15 title 'balance'");
+        plot_other(d, "balance*y_unit with lines ls 15 title '%s'", say(d->language, "balance"));
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -90,11 +90,11 @@ static void caption_layer(figure_drawing *d)
     const wt_estimate incubation = layer_value(d->table, LAYER_KEY_INCUBATION_TIME),
                       relaxation = layer_value(d->table, LAYER_KEY_RELAXATION_TIME);
     if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
-        text_format(&d->caption, " Balance thickness %s.", ESTIMATE(&balance));
+        text_say(&d->caption, " Balance thickness %s.", ESTIMATE(d->language, &balance));
     if (isfinite(shown_incubation(d)))
-        text_format(&d->caption, " Incubation time %s.", ESTIMATE(&incubation));
+        text_say(&d->caption, " Incubation time %s.", ESTIMATE(d->language, &incubation));
     if (isfinite(positive_value(d, LAYER_KEY_RELAXATION_TIME)))
-        text_format(&d->caption, " Relaxation time %s.", ESTIMATE(&relaxation));
+        text_say(&d->caption, " Relaxation time %s.", ESTIMATE(d->language, &relaxation));
 }
 
 /* Edges with their errors, where replicates have as many bands; those without are points alone. */
@@ -115,22 +115,23 @@ static void draw_bands(figure_drawing *d)
 static void caption_bands(figure_drawing *d)
 {
     const char *events = layer_bands_words(d->table, LAYER_BANDS_KEY_EVENTS);
-    text_format(&d->caption, " Loads: %s.", layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
+    text_say(&d->caption, " Loads: %s.", layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
     if (events != NULL)
-        text_format(&d->caption, " What happens: %s.", events);
+        text_say(&d->caption, " What happens: %s.", events);
     const wt_estimate first = layer_bands_value(d->table, LAYER_BANDS_KEY_FIRST);
     if (isfinite(first.value))
-        text_format(&d->caption, " Rubber is first modified after %s.", ESTIMATE(&first));
+        text_say(&d->caption, " Rubber is first modified after %s.", ESTIMATE(d->language, &first));
 }
 
 static void caption_running_in(figure_drawing *d)
 {
     const wt_estimate settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED);
-    text_format(&d->caption, " Shear stress of the layer: %s; %s.",
-                running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
-                running_in_words(d->table, RUNNING_IN_KEY_BACK));
+    text_say(&d->caption, " Shear stress of the layer: %s; %s.",
+             running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
+             running_in_words(d->table, RUNNING_IN_KEY_BACK));
     if (isfinite(settled.value))
-        text_format(&d->caption, " After %s 5 %% of the change are left.", ESTIMATE(&settled));
+        text_say(&d->caption, " After %s 5 %% of the change are left.",
+                 ESTIMATE(d->language, &settled));
 }
 
 /* ---- thickness by the curves ----------------------------------------------------------------- */
@@ -166,7 +167,7 @@ static void draw_track_layer(figure_drawing *d)
                              "ls %d"
                            : "($1*x_unit):($2*y_unit) with lines ls %d",
                   drawing_group_style(d, i));
-        plot_title(d, d->groups[i]);
+        plot_title(d, say(d->language, d->groups[i])); // their names are ours
     }
     plot_end(d);
 }
@@ -174,10 +175,10 @@ static void draw_track_layer(figure_drawing *d)
 static void caption_track_layer(figure_drawing *d)
 {
     const char *const agree = track_layer_words(d->table, TRACK_LAYER_KEY_AGREE);
-    text_format(&d->caption, " By the curves: %s.",
-                track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
+    text_say(&d->caption, " By the curves: %s.",
+             track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
     if (agree != NULL)
-        text_format(&d->caption, " Do both agree? %s.", agree);
+        text_say(&d->caption, " Do both agree? %s.", agree);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -105,24 +105,26 @@ static void plot_points(figure_drawing *d, const char *using, const char *with)
 /* The spectrum with its interval: columns of value, low and high. */
 static void plot_band(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
-    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 %s",
-              column + 1, unit, column + 2, unit, title);
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61", column + 1,
+              unit, column + 2, unit);
+    plot_key(d, title);
 }
 
-static const char interval_title[] = "title '95 % interval'";
+static const char one_spectrum[] = "one spectrum", interval_title[] = "95 % interval";
 
 /* The axis says to which temperature it is reduced. */
 static void reduced_axis(figure_drawing *d)
 {
     char label[DRAWING_LABEL];
-    drawing_label_at(label, d->figure->x.label,
+    drawing_label_at(d, label, d->figure->x.label,
                      master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
     drawing_axis(d, "x", &d->figure->x, label, d->x);
 }
 
 static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
-    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s) with lines ls 11 %s", column, unit, title);
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s) with lines ls 11", column, unit);
+    plot_key(d, title);
 }
 
 /* How the two moduli are drawn. */
@@ -135,15 +137,15 @@ static void plot_moduli(figure_drawing *d, bool fitted, marking with)
     const char letter = letter_of(d);
     if (fitted) {
         plot_band(d, FITTED + 1, "y_unit", interval_title);
-        plot_band(d, FITTED + 4, "y_unit", "notitle");
+        plot_band(d, FITTED + 4, "y_unit", NULL);
     }
     plot_points(d, "($1*x_unit):($2*y_unit)", with.storage);
     plot_points(d, "($1*x_unit):($3*y_unit)", with.loss);
     plot_other(d, "keyentry with %s lc rgb '#111111' title '%c′'", with.storage, letter);
     plot_other(d, "keyentry with %s lc rgb '#111111' title '%c″'", with.loss, letter);
     if (fitted) {
-        plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
-        plot_spectrum(d, FITTED + 4, "y_unit", "notitle");
+        plot_spectrum(d, FITTED + 1, "y_unit", one_spectrum);
+        plot_spectrum(d, FITTED + 4, "y_unit", NULL);
     }
     plot_end(d);
 }
@@ -170,10 +172,10 @@ static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
     combined_axis(d, "y", &loss_ratio);
     text_add(&d->script, "unset key\nunset colorbox\n");
     if (fitted)
-        plot_band(d, FITTED + 7, "1", "notitle");
+        plot_band(d, FITTED + 7, "1", NULL);
     plot_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
     if (fitted)
-        plot_spectrum(d, FITTED + 7, "1", "notitle");
+        plot_spectrum(d, FITTED + 7, "1", NULL);
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -199,12 +201,12 @@ static void draw_master_curve(figure_drawing *d)
 
 static void caption_isotherms(figure_drawing *d)
 {
-    text_format(
+    text_say(
         &d->caption,
-        " %zu isotherm%s. Those that superposition can join have the same form, moved along "
+        " %zu %s. Those that superposition can join have the same form, moved along "
         "the axis of frequency or time; where one crosses its neighbours, look at the sample, the "
         "clamping and the oven first.",
-        count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
+        count_isotherms(d), say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
 }
 
 static void caption_master_curve(figure_drawing *d)
@@ -215,19 +217,21 @@ static void caption_master_curve(figure_drawing *d)
     value_span fit = SPAN_EMPTY;
 
     if (isfinite(reference))
-        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
-    text_format(&d->caption,
-                ", and tan δ below; %zu points of %zu isotherm%s, coloured by the temperature of "
-                "the measurement.",
-                n, count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
+        text_say(&d->caption, " of %s", VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
+    text_say(&d->caption,
+             ", and tan δ below; %zu points of %zu %s, coloured by the temperature of "
+             "the measurement.",
+             n, count_isotherms(d),
+             say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
     if (span_empty(&fit))
         return;
     if (terms > 0)
-        text_format(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
-                    terms);
-    text_add(&d->caption, " Grey: its 95 % interval, mostly narrower than the line. A good one has "
-                          "the points of all temperatures on one line without steps.");
+        text_say(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
+                 terms);
+    text_words(&d->caption,
+               " Grey: its 95 % interval, mostly narrower than the line. A good one has "
+               "the points of all temperatures on one line without steps.");
 }
 
 /* ---- after a step ---------------------------------------------------------------------------- */
@@ -246,7 +250,7 @@ static void draw_step(figure_drawing *d, bool fitted)
     plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
     drawing_colours(d, "points ls 51");
     if (fitted)
-        plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
+        plot_spectrum(d, FITTED + 1, "y_unit", one_spectrum);
     plot_end(d);
 }
 
@@ -265,11 +269,12 @@ static void caption_after_step(figure_drawing *d)
     const double reference =
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     if (isfinite(reference))
-        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
-    text_format(&d->caption,
-                "; %zu points of %zu isotherm%s, coloured by the temperature of the measurement. "
-                "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
-                d->table->n_rows, count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
+        text_say(&d->caption, " of %s", VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
+    text_say(&d->caption,
+             "; %zu points of %zu %s, coloured by the temperature of the measurement. "
+             "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
+             d->table->n_rows, count_isotherms(d),
+             say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
 }
 
 /* ---- superposition without a frequency ------------------------------------------------------- */
@@ -281,7 +286,8 @@ static void plot_plane(figure_drawing *d, const combination *x, const combinatio
     (void)snprintf(using, sizeof using, "(%s($%zu,$%zu)*x_unit):(%s($%zu,$%zu)*y_unit)", x->name,
                    column, column + 1, y->name, column, column + 1);
     if (line)
-        plot_item(d, d->data[0], "%s with lines ls 11 title 'one spectrum'", using);
+        plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using,
+                  say(d->language, one_spectrum));
     else
         plot_points(d, using, "points ls 51");
 }

@@ -54,20 +54,23 @@ static void plain_number(const char *digits, int exponent, char words[PLAIN_SIZE
     words[n] = '\0';
 }
 
-static number_words not_finite(double value)
+static number_words not_finite(const language *l, double value)
 {
-    return isnan(value) ? (number_words){"not known"}
-           : value < 0  ? (number_words){"−∞"}
-                        : (number_words){"∞"};
+    number_words number;
+    (void)snprintf(number.words, sizeof number.words, "%s",
+                   isnan(value) ? say(l, "not known")
+                   : value < 0  ? "−∞"
+                                : "∞");
+    return number;
 }
 
-number_words number_rounded(double value, int significant, bool trimmed)
+number_words number_rounded(const language *l, double value, int significant, bool trimmed)
 {
     number_words number = {"0"};
     char digits[MAX_DIGITS + 1], words[PLAIN_SIZE], power[PLAIN_SIZE] = "";
     int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
     if (!isfinite(value))
-        return not_finite(value);
+        return not_finite(l, value);
     if (value == 0)
         return number;
     int whole = decimal_digits(value, MAX_DIGITS, digits); // exponent before rounding
@@ -81,20 +84,22 @@ number_words number_rounded(double value, int significant, bool trimmed)
     if (!plain)
         power_of_ten(exponent, power);
     (void)snprintf(number.words, sizeof number.words, "%s%s%s", value < 0 ? "−" : "", words, power);
+    language_decimals(l, number.words);
     return number;
 }
 
-number_words number_fixed(double value, int decimals)
+number_words number_fixed(const language *l, double value, int decimals)
 {
     enum { MAX_DECIMALS = 15, MARK = sizeof "−" - 1 };
     number_words number = {"−"};
     int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
     if (!isfinite(value))
-        return not_finite(value);
+        return not_finite(l, value);
     (void)clocale_print(number.words + MARK, sizeof number.words - MARK, "%.*f", after,
                         fabs(value));
     if (value >= 0 || strpbrk(number.words, "123456789") == NULL)
         memmove(number.words, number.words + MARK, strlen(number.words + MARK) + 1);
+    language_decimals(l, number.words);
     return number;
 }
 

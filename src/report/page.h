@@ -18,6 +18,7 @@ typedef struct page_writer {
     growing_text contents; /* list of the headings so far */
     const wt_result *result;
     const bound_tables *tables;
+    const language *language;  /* NULL: English */
     const growing_text *style; /* that the scripts load */
     const char *font;          /* of the figures; NULL: that of the style */
     bool with_provenance;

@@ -12,26 +12,27 @@
 static void add_ends(growing_text *text, const finding *f, double low, double high, int digits)
 {
     lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
-    text_format(text, "%s to %s%s%s", NUMBER(lab_value(&lab, low), digits),
-                NUMBER(lab_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "", lab.label);
+    text_say(text, "%s to %s%s%s", NUMBER(text->language, lab_value(&lab, low), digits),
+             NUMBER(text->language, lab_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "",
+             lab.label);
 }
 
 /* An interval as statistical error, and what the choices of the model make of the number behind the
  * remark. */
 static void finding_row(page_writer *page, const char *name, const finding *f, growing_text *remark)
 {
-    growing_text interval = {0};
+    growing_text interval = {.language = page->language};
     const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
                                   f->number.numerical_error, f->number.unit};
     if (isfinite(f->low) && isfinite(f->high)) {
         add_ends(&interval, f, f->low, f->high, finding_digits(f->number.value, f->low, f->high));
-        text_add(&interval, " (95 % interval)");
+        text_words(&interval, " (95 % interval)");
     } else
-        text_add(&interval, "not known");
+        text_words(&interval, "not known");
     if (!isnan(f->range.low)) {
         text_add(remark, remark->length > 0 ? "; " : "");
         add_ends(remark, f, f->range.low, f->range.high, 3);
-        text_add(remark, " over all choices of the model");
+        text_words(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
     text_done(&interval, &page->out);
@@ -44,12 +45,12 @@ static void ratio_row(page_writer *page, const finding_tables *found)
     if (!isfinite(f.number.value))
         return;
     const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    growing_text remark = {0};
-    text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
-                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
-                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
+    growing_text remark = {.language = page->language};
+    text_say(&remark, "geometric means; n = %s in the track, %s in the bulk",
+             FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
+             FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
     if (unit != NULL)
-        text_format(&remark, ", unit of analysis: %s", unit);
+        text_say(&remark, ", unit of analysis: %s", say(page->language, unit));
     f.number.numerical_error = 0;
     finding_row(page, f.words, &f, &remark);
     text_done(&remark, &page->out);
@@ -62,14 +63,15 @@ static void group_rows(page_writer *page, const finding_tables *found)
         finding f = finding_of_group(found, row);
         if (!isfinite(f.number.value))
             continue;
-        growing_text name = {0}, remark = {0};
-        text_format(&name, "%s, %s", f.words,
+        growing_text name = {.language = page->language}, remark = {.language = page->language};
+        text_format(&name, "%s, %s", say(page->language, f.words),
                     modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
-        text_format(&remark, "geometric mean; %.0f curves on %.0f spot%s, %.0f rejected; by %s",
-                    modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
-                    n_spots == 1 ? "" : "s",
-                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
+        text_say(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
+                 modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
+                 say_count(page->language, n_spots == 1, "spot", "spots"),
+                 modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
+                 say(page->language, f.includes));
         f.number.numerical_error = 0;
         finding_row(page, text_string(&name), &f, &remark);
         text_done(&name, &page->out);
@@ -89,8 +91,8 @@ static void headline_rows(page_writer *page, const finding_tables *found, const 
         finding f;
         if (key->headline == NULL || isnan(estimate.value))
             continue;
-        growing_text words = {0};
-        text_add(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
+        growing_text words = {.language = page->language};
+        text_words(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
         if (finding_of_key(found, key, &f))
             finding_row(page, key->headline, &f, &words);
         else
@@ -103,10 +105,10 @@ static void headline_rows(page_writer *page, const finding_tables *found, const 
 static void reference_rows(page_writer *page, const finding_tables *found)
 {
     const table_view *table = &page->tables->friction;
-    growing_text remark = {0};
-    text_format(
-        &remark, "at the reference velocity, %s",
-        VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
+    growing_text remark = {.language = page->language};
+    text_say(&remark, "at the reference velocity, %s",
+             VALUE(page->language, WT_Q_VELOCITY, NULL,
+                   friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
@@ -123,13 +125,14 @@ static void largest_row(page_writer *page)
     }
     if (best == table->n_rows)
         return;
-    growing_text remark = {0};
+    growing_text remark = {.language = page->language};
     double share = friction_get(table, best, FRICTION_EXTRAPOLATED_SHARE);
-    text_format(&remark, "at %s",
-                VALUE(WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
+    text_say(
+        &remark, "at %s",
+        VALUE(page->language, WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
     if (share >= 1e-3)
-        text_format(&remark, "; %s %% from frequencies outside the measured ones",
-                    NUMBER(100 * share, 2));
+        text_say(&remark, "; %s %% from frequencies outside the measured ones",
+                 NUMBER(page->language, 100 * share, 2));
     const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
                                   friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
@@ -144,9 +147,9 @@ static void law_rows(page_writer *page, const finding_tables *found)
     const table_view *table = &page->tables->shift_factors;
     if (table->table == NULL)
         return;
-    growing_text remark = {0};
-    text_format(&remark, "correlated with C₂, see the table of constants; superposition: %s",
-                shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    growing_text remark = {.language = page->language};
+    text_say(&remark, "correlated with C₂, see the table of constants; superposition: %s",
+             shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
     text_done(&remark, &page->out);
 }
@@ -158,8 +161,9 @@ static void transition_rows(page_writer *page, const finding_tables *found)
         return;
     const wt_estimate frequency =
         glass_transition_value(table, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY);
-    growing_text remark = {0};
-    text_format(&remark, "at %s", VALUE(WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
+    growing_text remark = {.language = page->language};
+    text_say(&remark, "at %s",
+             VALUE(page->language, WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }

@@ -13,17 +13,19 @@
 
 void page_heading(page_writer *page, const char *id, const char *words)
 {
-    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, words);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
+    const char *const said = say(page->language, words);
+    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, said);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, said);
 }
 
 void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper)
 {
+    const char *const said = say(page->language, words);
     // The anchor is among what is folded: a browser that goes there unfolds it.
     text_html(&page->out,
               "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
-              on_paper == PAGE_PRINTED ? "printed" : "unprinted", words, id);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
+              on_paper == PAGE_PRINTED ? "printed" : "unprinted", said, id);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, said);
 }
 
 void page_fold_end(page_writer *page)
@@ -36,15 +38,16 @@ enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* of small type, too: each row is a 
 
 static void begin_table(page_writer *page, const char *caption, size_t n_columns)
 {
+    const char *const said = say(page->language, caption);
     // The wrapper scrolls where a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
               "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
-              caption,
+              said,
               n_columns > MOST_COLUMNS   ? "blocks"
               : n_columns > MANY_COLUMNS ? "many"
                                          : "few",
-              caption);
+              said);
 }
 
 void page_table_end(page_writer *page)
@@ -56,7 +59,7 @@ static void heading_cell(page_writer *page, const char *words, const char *unit,
 {
     text_add(&page->out, number ? "<th scope=\"col\" class=\"n\">" : "<th scope=\"col\">");
     text_html(&page->out, unit[0] != '\0' ? "%s <span class=\"unit\">(%s)</span></th>" : "%s</th>",
-              words, unit);
+              say(page->language, words), unit);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -147,7 +150,7 @@ static void begin_cell(page_writer *page, const char *words, const char *unit, b
 {
     text_add(&page->out, number ? "<td class=\"n\"" : "<td");
     text_html(&page->out, unit[0] != '\0' ? " data-label=\"%s (%s)\">" : " data-label=\"%s\">",
-              words, unit);
+              say(page->language, words), unit);
 }
 
 static const char *column_label(const shown_column *shown)
@@ -161,13 +164,14 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
     double lab = lab_value(&shown->lab, value);
     begin_cell(page, column_label(shown), shown->lab.label, true);
     if (isnan(value))
-        text_html(&page->out, "%s", column->missing != NULL ? column->missing : "–");
+        text_html(&page->out, "%s",
+                  column->missing != NULL ? say(page->language, column->missing) : "–");
     else if (column->yes_no)
-        text_add(&page->out, value != 0 ? "yes" : "no");
+        text_words(&page->out, value != 0 ? "yes" : "no");
     else if (column->decimals > 0 || shown->whole)
-        text_add(&page->out, FIXED(lab, column->decimals));
+        text_add(&page->out, FIXED(page->language, lab, column->decimals));
     else
-        text_add(&page->out, NUMBER(lab, shown->digits));
+        text_add(&page->out, NUMBER(page->language, lab, shown->digits));
     text_add(&page->out, "</td>");
 }
 
@@ -255,24 +259,24 @@ static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *
         error = fmax(error, fabs(e->numerical_error) * lab->factor);
     int leading = value != 0 && isfinite(value) ? (int)floor(log10(fabs(value))) : 0;
     if (!(error > 0) || !isfinite(value) || leading > 5 || leading < -4)
-        text_add(text, SHORT_NUMBER(value, 4));
+        text_add(text, SHORT_NUMBER(text->language, value, 4));
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        text_add(text, FIXED(number_to_tens(value, decimals), decimals));
+        text_add(text, FIXED(text->language, number_to_tens(value, decimals), decimals));
     }
 }
 
 static void add_error(growing_text *text, double error, const lab_unit *lab)
 {
     if (isnan(error))
-        text_add(text, "error not known");
+        text_words(text, "error not known");
     else if (error == 0)
         text_add(text, "–");
     else {
         const double size = fabs(error) * lab->factor;
         const int decimals = 1 - (int)floor(log10(size));
-        text_format(text, "± %s", NUMBER(number_to_tens(size, decimals), 2));
+        text_format(text, "± %s", NUMBER(text->language, number_to_tens(size, decimals), 2));
         add_unit(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }
@@ -281,7 +285,7 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
                    wt_quantity quantity, const char *interval, const char *remark)
 {
     lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", say(page->language, words));
     begin_cell(page, value_heading, "", true);
     add_value(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
@@ -334,7 +338,7 @@ static void add_plain(page_writer *page, const schema_field *key, const char *te
     double value;
     const bool rounded = key != NULL && key->kind == SCHEMA_PLAIN && strpbrk(text, ".e") != NULL &&
                          number_read(text, strlen(text), &value);
-    text_html(&page->out, "%s", rounded ? SHORT_NUMBER(value, 3) : text);
+    text_html(&page->out, "%s", rounded ? SHORT_NUMBER(page->language, value, 3) : text);
 }
 
 void page_keys(page_writer *page, const table_view *table, const char *caption)
@@ -354,8 +358,8 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
                           NULL);
         else {
             text_html(&page->out,
-                      "<tr><th scope=\"row\">%s</th><td data-label=\"Value\" colspan=\"3\">",
-                      label);
+                      "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">",
+                      say(page->language, label), say(page->language, value_heading));
             add_plain(page, key, wt_table_key(table->table, name));
             text_add(&page->out, "</td></tr>\n");
         }

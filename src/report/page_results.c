@@ -209,11 +209,11 @@ static void rejected_of(page_writer *page, const table_view *table)
             rows[n++] = row;
         others++;
     }
-    growing_text caption = {0};
-    text_format(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
-                table->n_rows, others - doubtful);
+    growing_text caption = {.language = page->language};
+    text_say(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
+             table->n_rows, others - doubtful);
     if (others > n)
-        text_format(&caption, ", the first %zu; the result file holds all", n);
+        text_say(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
     else
@@ -225,11 +225,11 @@ void page_indentation(page_writer *page)
 {
     for (size_t i = 0; i < page->tables->n_indentation; i++) {
         const table_view *table = &page->tables->indentation[i];
-        growing_text caption = {0};
+        growing_text caption = {.language = page->language};
         if (i == 0)
             page_fold(page, "indentation", "Indentation record", PAGE_UNPRINTED);
         rejected_of(page, table);
-        text_format(&caption, "%s: how it was indented", table->suffix);
+        text_say(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
         text_done(&caption, &page->out);
     }

@@ -37,6 +37,14 @@ void plot_title(figure_drawing *d, const char *title)
     text_add(&d->script, " noenhanced");
 }
 
+void plot_key(figure_drawing *d, const char *english)
+{
+    if (english == NULL)
+        text_add(&d->script, " notitle");
+    else
+        text_format(&d->script, " title '%s'", say(d->language, english));
+}
+
 void plot_end(figure_drawing *d)
 {
     text_add(&d->script, "\n");

@@ -5,6 +5,7 @@
 #include "weartrack/report.h"
 
 #include "base/param.h"
+#include "report/catalogue.h"
 #include "report/figure_files.h"
 #include "report/files.h"
 #include "report/folder.h"
@@ -19,6 +20,7 @@
 wt_report_options wt_report_defaults(void)
 {
     return (wt_report_options){.style = "paper",
+                               .language = "en",
                                .gnuplot = "gnuplot",
                                .with_provenance = true,
                                .gnuplot_time = 120,
@@ -40,6 +42,10 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
      .help = "font of the figures, such as Arial"},
+    {PARAM_TEXT_OF("language", wt_report_options, language), .value = "LANGUAGE",
+     .check = language_check,
+     .help = "language of figures and page, of their decimal mark, too: en, de, fr or nl; data, "
+             "file names and what is written for each case, such as its answer, stay English"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
     {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",
@@ -59,6 +65,7 @@ typedef struct picture {
 typedef struct report {
     wt_report_options options;
     bound_tables tables;
+    language *language;
     growing_text style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
@@ -106,7 +113,7 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     figure_drawing *d = &r->figures[i].drawing;
     if (bound_find(&r->tables, figure_find(i)->table)->n_rows == 0)
         return WT_OK;
-    const wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
+    const wt_status status = drawing_make(d, figure_find(i), &r->tables, r->language, err);
     if (status != WT_OK)
         return status;
     if (d->script.failed || d->caption.failed)
@@ -192,6 +199,8 @@ static wt_status make_page(const report *r, const wt_result *result, wt_error *e
 {
     page_writer page = {.result = result,
                         .tables = &r->tables,
+                        .language = r->language,
+                        .out = {.language = r->language},
                         .style = &r->style,
                         .font = r->options.font,
                         .with_provenance = r->options.with_provenance,
@@ -242,6 +251,7 @@ static void report_clear(report *r)
     free(r->figures);
     free(r->pictures);
     text_free(&r->style);
+    language_close(r->language);
     bound_clear(&r->tables);
 }
 
@@ -258,6 +268,8 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     wt_status status = check_options(folder, &r.options, err);
     if (status == WT_OK && (r.figures == NULL || r.pictures == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = language_open(r.options.language, &r.language, err);
     if (status == WT_OK)
         status = bound_make(result, &r.tables, err);
     if (status == WT_OK)

@@ -5,6 +5,7 @@
 #include "base/own_files.h"
 #include "base/param.h"
 #include "base/temporary.h"
+#include "report/catalogue.h"
 #include "report/curve_panel.h"
 #include "report/figure_files.h"
 #include "report/files.h"
@@ -34,6 +35,7 @@ static const size_t sheet_size = (size_t)1 << 20;
 typedef struct sheets {
     wt_report_options options;
     bound_tables tables;
+    language *language;
     curve_list list;
     growing_text style, script;
     char *folder; /* temporary */
@@ -71,18 +73,19 @@ static wt_status write_file(const sheets *s, const char *name, const char *endin
 static void add_title(sheets *s, size_t sheet)
 {
     static const char *const kinds[] = {"refused", "doubtful", "accepted"};
-    growing_text words = {0};
-    text_format(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
+    growing_text words = {.language = s->language};
+    text_say(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
     for (int k = 0; k < CURVE_KINDS; k++)
-        text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k], kinds[k]);
+        text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k],
+                    say(s->language, kinds[k]));
     if (s->list.n < s->list.n_rows)
-        text_format(&words, " with samples, of %zu curves", s->list.n_rows);
+        text_say(&words, " with samples, of %zu curves", s->list.n_rows);
     text_add(&s->script, "set multiplot title ");
     text_quoted(&s->script, text_string(&words));
     text_format(&s->script,
                 ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
                 "spacing 0.085,0.135\n",
-                curve_panel_words, ROWS, COLUMNS);
+                say(s->language, curve_panel_words), ROWS, COLUMNS);
     text_done(&words, &s->script);
 }
 
@@ -92,8 +95,11 @@ static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
     char name[32];
     sheet_name(sheet, name);
     const figure_description described = {.name = name, .table = &curves_schema};
-    figure_drawing d = {
-        .figure = &described, .tables = &s->tables, .table = &s->tables.curves, .err = err};
+    figure_drawing d = {.figure = &described,
+                        .tables = &s->tables,
+                        .language = s->language,
+                        .table = &s->tables.curves,
+                        .err = err};
     growing_text data = {0};
     const size_t first = CURVES * sheet,
                  end = first + CURVES < s->list.n ? first + CURVES : s->list.n;
@@ -178,6 +184,7 @@ static wt_status write_script(sheets *s, wt_error *err)
     if (s->options.font != NULL)
         text_format(&s->script, "figure_font = '%s'\n", s->options.font);
     text_add(&s->script, SHEET_STYLE);
+    figure_decimals(&s->script, s->language);
     for (size_t i = 0; i < s->n && status == WT_OK; i++)
         status = add_sheet(s, i, err);
     text_add(&s->script, "set output\n");
@@ -223,6 +230,7 @@ static void sheets_clear(sheets *s)
     curve_list_clear(&s->list);
     text_free(&s->style);
     text_free(&s->script);
+    language_close(s->language);
     bound_clear(&s->tables);
 }
 
@@ -232,6 +240,8 @@ wt_status wt_sheets_write(const wt_result *result, const char *path,
 {
     sheets s = {.options = options != NULL ? *options : wt_report_defaults(), .progress = progress};
     wt_status status = param_check(wt_report_params(), &s.options, err);
+    if (status == WT_OK)
+        status = language_open(s.options.language, &s.language, err);
     if (status == WT_OK)
         status = bound_make(result, &s.tables, err);
     if (status == WT_OK)

@@ -86,6 +86,19 @@ void text_format(growing_text *text, const char *format, ...)
     va_end(arguments);
 }
 
+void text_words(growing_text *text, const char *english)
+{
+    text_add(text, say(text->language, english));
+}
+
+void text_say(growing_text *text, const char *english, ...)
+{
+    va_list arguments;
+    va_start(arguments, english);
+    text_vformat(text, say(text->language, english), arguments);
+    va_end(arguments);
+}
+
 #define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
 
 /* Length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */

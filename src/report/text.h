@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_TEXT_H
 #define WT_REPORT_TEXT_H
 
-#include "weartrack/base.h"
+#include "report/language.h"
 
 #include <stdarg.h>
 
@@ -15,6 +15,7 @@ typedef struct growing_text {
     char *bytes; /* NULL while empty, else zero-terminated */
     size_t length, capacity;
     bool failed;
+    const language *language; /* of what is said in it; NULL: English */
 } growing_text;
 
 void text_free(growing_text *text);                /* empty again */
@@ -25,6 +26,10 @@ void text_bytes(growing_text *text, const char *bytes, size_t length);
 void text_add(growing_text *text, const char *string);
 void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
 void text_vformat(growing_text *text, const char *format, va_list arguments) WT_PRINTF(2, 0);
+
+/* The same with a text in the language, whose English form it is. */
+void text_words(growing_text *text, const char *english);
+void text_say(growing_text *text, const char *english, ...) WT_PRINTF(2, 3);
 
 /* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
  * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */

@@ -71,32 +71,34 @@ double lab_value(const lab_unit *lab, double value)
     return value * lab->factor + lab->offset;
 }
 
-value_words value_in_words(wt_quantity quantity, const char *unit, double value)
+value_words value_in_words(const language *l, wt_quantity quantity, const char *unit, double value)
 {
     lab_unit lab = lab_unit_for(quantity, unit, value);
     bool bare = !isfinite(value) || lab.label[0] == '\0';
     value_words text;
-    (void)snprintf(text.words, sizeof text.words, "%s%s%s", SHORT_NUMBER(lab_value(&lab, value), 3),
-                   bare ? "" : " ", bare ? "" : lab.label);
+    (void)snprintf(text.words, sizeof text.words, "%s%s%s",
+                   SHORT_NUMBER(l, lab_value(&lab, value), 3), bare ? "" : " ",
+                   bare ? "" : lab.label);
     return text;
 }
 
-value_words estimate_in_words(const wt_estimate *estimate)
+value_words estimate_in_words(const language *l, const wt_estimate *estimate)
 {
     lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
     double error = fabs(estimate->standard_error) * lab.factor;
     if (!(error > 0) || !isfinite(estimate->value)) {
-        value_words value = value_in_words(WT_Q_NONE, estimate->unit, estimate->value), text;
+        value_words value = value_in_words(l, WT_Q_NONE, estimate->unit, estimate->value), text;
         if (!isnan(error) || !isfinite(estimate->value))
             return value;
-        (void)snprintf(text.words, sizeof text.words, "%.700s (error not known)", value.words);
+        (void)snprintf(text.words, sizeof text.words, say(l, "%.700s (error not known)"),
+                       value.words);
         return text;
     }
     const int decimals = (int)fmin(9, 1 - floor(log10(error)));
     value_words text;
     (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
-                   FIXED(number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
-                   FIXED(number_to_tens(error, decimals), decimals),
+                   FIXED(l, number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
+                   FIXED(l, number_to_tens(error, decimals), decimals),
                    lab.label[0] != '\0' ? " " : "", lab.label);
     return text;
 }

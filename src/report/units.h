@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_UNITS_H
 #define WT_REPORT_UNITS_H
 
-#include "weartrack/base.h"
+#include "report/language.h"
 
 /* lab value = SI value * factor + offset */
 typedef struct lab_unit {
@@ -23,11 +23,11 @@ double lab_value(const lab_unit *lab, double value);
 typedef struct value_words {
     char words[800];
 } value_words;
-value_words value_in_words(wt_quantity quantity, const char *unit, double value);
+value_words value_in_words(const language *l, wt_quantity quantity, const char *unit, double value);
 /* "12.3 ± 0.4 MPa" with the standard error, the value alone without one. */
-value_words estimate_in_words(const wt_estimate *estimate);
+value_words estimate_in_words(const language *l, const wt_estimate *estimate);
 
-#define VALUE(quantity, unit, value) value_in_words(quantity, unit, value).words
-#define ESTIMATE(estimate) estimate_in_words(estimate).words
+#define VALUE(l, quantity, unit, value) value_in_words(l, quantity, unit, value).words
+#define ESTIMATE(l, estimate) estimate_in_words(l, estimate).words
 
 #endif

@@ -189,6 +189,7 @@ static const struct {
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
     {NULL, "width", "of the pictures: unit_report_paper"},
     {NULL, "font", "the same"},
+    {NULL, "language", "of the pictures: unit_report_language"},
     {"compare", "at-temperature", "of materials: unit_truth_materials, tests/cli/materials.txt"},
     {"compare", "at-frequency", "the same"},
     {"compare", "sample-error", "the same"},

@@ -1,0 +1,40 @@
+/* Looking up what a text is in another language.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/language.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int by_english(const void *english, const void *sentence)
+{
+    return strcmp(english, ((const translation *)sentence)->english);
+}
+
+const char *say(const language *l, const char *english)
+{
+    const translation *found = NULL;
+    if (l != NULL && english != NULL)
+        found = bsearch(english, l->sentences, l->n, sizeof *l->sentences, by_english);
+    return found != NULL ? found->words : english;
+}
+
+const char *say_count(const language *l, size_t n, const char *one, const char *more)
+{
+    return say(l, n == 1 ? one : more);
+}
+
+const char *language_tag(const language *l)
+{
+    return l != NULL ? l->tag : "en";
+}
+
+void language_decimals(const language *l, char *number)
+{
+    for (char *s = number; l != NULL && *s != '\0'; s++)
+        if (*s == '.' && s > number && isdigit((unsigned char)s[-1]) &&
+            isdigit((unsigned char)s[1]))
+            *s = l->decimal_mark;
+}
