@@ -16,7 +16,7 @@ void *array_grow(void *array, size_t n, size_t size)
     return room > SIZE_MAX / size ? NULL : realloc(array, room * size);
 }
 
-static int compare_numbers(const void *a, const void *b)
+int numbers_compare(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return x < y ? -1 : x > y;
@@ -24,7 +24,7 @@ static int compare_numbers(const void *a, const void *b)
 
 void numbers_sort(double *x, size_t n)
 {
-    qsort(x, n, sizeof *x, compare_numbers);
+    qsort(x, n, sizeof *x, numbers_compare);
 }
 
 double numbers_median(double *x, size_t n)
