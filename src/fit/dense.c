@@ -6,7 +6,6 @@
 #include "fit/tile.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Rows at a time: so many factors and sums stay in registers. */
 enum { BLOCK = 4 };

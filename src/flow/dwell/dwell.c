@@ -8,7 +8,6 @@
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
-#include "data/force_curve.h"
 #include "data/tables/rows.h"
 #include "model/tip.h"
 

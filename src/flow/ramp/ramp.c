@@ -1,7 +1,6 @@
 /* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
  * and the onset of the fall at each frequency, moduli at temperatures. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "flow/sweeps/master.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"

@@ -4,7 +4,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/number.h"
 #include "read/bytes/window.h"
 #include "read/images.h"
 #include "read/reader.h"

@@ -5,7 +5,6 @@
  */
 #include "read/gwy/gwy.h"
 
-#include "base/number.h"
 #include "read/gwy/gwy_graph.h"
 #include "read/images.h"
 #include "read/reader.h"

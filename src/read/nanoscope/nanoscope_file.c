@@ -4,7 +4,6 @@
  */
 #include "read/nanoscope/nanoscope.h"
 
-#include "base/number.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>
