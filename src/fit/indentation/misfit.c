@@ -579,7 +579,6 @@ void curve_add_misfit(curve_fitting *f)
     const double seen = sqrt(curve_dot(residual, residual, b.n) / (double)b.n) / force;
     if (!weigh_sizes(&d, fmin(largest_size, most_hidden * seen), b.freedom, &found))
         return;
-    s->no_misfit = found.part[0].chance;
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
         const double noise = s->standard_error[i],

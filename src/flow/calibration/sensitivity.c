@@ -297,7 +297,7 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
 
 /* Of the curves that have the ways of a row. */
 typedef struct group {
-    size_t n, n_units, n_with_retract;
+    size_t n, n_units;
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, own_error; /* of one curve alone, of the sensitivity */
     double scatter;         /* of a unit, of the sensitivity */
