@@ -68,8 +68,7 @@ static const double error_step = 0.01; /* of an error: to be said with two digit
 
 /* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
  * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
- * feel it.
- */
+ * feel it. */
 static const double holds = 0.8;
 static const double to_be_seen = 3.0; /* of a force, in noise of a block: one of 700 by chance */
 

@@ -54,8 +54,7 @@ wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role
 wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
                       wt_error *err) WT_NODISCARD;
 
-/* How a file is read: by the options of its set, as the format that was found, if any.
- */
+/* How a file is read: by the options of its set, as the format that was found, if any. */
 wt_read_options flow_read_options(const flow_file *file);
 
 /* For an error of files none of which held what is needed: how many, and where to look. */
