@@ -64,6 +64,12 @@ void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
  * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
 bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);
 
+/* Has `take` read the files in turn. What it refuses is left out of its folder or has failed, and
+ * the others go on; *n_failed: how many failed. */
+typedef wt_status flow_take(void *user, flow_file *file, size_t i, wt_error *err);
+wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take *take, void *user,
+                          size_t *n_failed, wt_error *err) WT_NODISCARD;
+
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */
 bool flow_goes_on(const wt_job *work, wt_status status);
