@@ -16,5 +16,8 @@ int numbers_compare(const void *a, const void *b);
 void numbers_sort(double *x, size_t n);
 /* Sorts them; n > 0. */
 double numbers_median(double *x, size_t n);
+/* By their sum as they stand; n > 0. */
+double numbers_mean(const double *x, size_t n);
+void numbers_reverse(double *x, size_t n);
 
 #endif
