@@ -78,10 +78,12 @@ int cmd_layer(int argc, char **argv)
         .name = "layer",
         .arguments = "--material FILE --roughness R --pressure P --velocity V --specific-wear-rate "
                      "K [--critical-energy U | --observed-thickness D] [OPTION]...",
-        .what = "Energy density with depth, formation and wear rate, balance and thickness in time "
-                "of the modified layer, at constant load, at the velocity given (the middle one of "
-                "a list); and, where it is asked for, under loads in turn, with its friction in "
-                "running-in, acting back on its energy, and where it exists.",
+        .what =
+            "Energy density with depth, formation and wear rate, balance and thickness in time "
+            "of the modified layer, at constant load and the velocity given (the middle one of a "
+            "list). When asked for, also: under loads that follow one another (--loads); "
+            "friction while it grows (--running-in-friction); a layer that changes the energy "
+            "that makes it (--acts-back); where there is one at all (--existence).",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
                  "specific-wear-rate critical-energy observed-thickness duty start-thickness "

@@ -5,8 +5,10 @@
 
 #include "weartrack/weartrack.h"
 
-/* Calls `work` until half a second has gone by, five times; returns the median seconds per call. */
+/* Calls `work` until half a second has gone by, five times; returns the median seconds per call, of
+ * the processor, which the other work of a machine changes less than those by the clock. */
 double bench_time(void (*work)(void *), void *data);
+double bench_time_by_the_clock(void (*work)(void *), void *data); /* of several threads */
 /* Prints one row: what, how many per second (or per call), the textbook's, the ratio. */
 void bench_row(const char *what, double seconds, double textbook_seconds, double items,
                const char *unit, const char *agreement);

@@ -1,6 +1,7 @@
 /* One law for several samples, on isotherms of known truth: a fractional Zener solid in closed
  * form, moved along frequency by its law, with noise in the moduli and errors of the temperatures.
  * The truth shares no code with the fit. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "counted.h"
 #include "near.h"
 
 #include "dma_data.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES = 3, ISOTHERMS = 6, POINTS = 12, DRAWS = 200 };
+enum { SAMPLES = 3, ISOTHERMS = 6, POINTS = 12, DRAWS = COUNTED(200) };
 static const double coldest = 263.15, apart = 8, reference = 293.15;
 
 typedef struct truth {
@@ -122,6 +123,8 @@ static void test_same(void **state)
     (void)state;
     const shares s = count(&same, WT_COMMON_SAME);
     assert_near(s.n, DRAWS, 0);
+    if (!SHARES_COUNT)
+        return;
     assert_covers(s.c1);
     assert_covers(s.c2);
     assert_covers(s.law);
@@ -134,6 +137,8 @@ static void test_moved(void **state)
     (void)state;
     const shares s = count(&moved, WT_COMMON_MOVED);
     assert_near(s.n, DRAWS, 0);
+    if (!SHARES_COUNT)
+        return;
     assert_covers(s.c1);
     assert_covers(s.c2);
     assert_covers(s.moved);
@@ -157,6 +162,8 @@ static void test_rough(void **state)
 {
     (void)state;
     const shares s = count(&rough, WT_COMMON_SAME);
+    if (!SHARES_COUNT)
+        return;
     assert_true(s.n > 0.9 * DRAWS);
     assert_covers(s.law);
     assert_true(s.difference >= 0.95);

@@ -730,7 +730,7 @@ static void test_crowds_are_thinned(void **state)
 static void check_refused(const char *table, const char *column, const fixture_change *change,
                           wt_status expected)
 {
-    wt_result *result = fixture_with(change);
+    wt_result *result = fixture_only(&table, 1, change);
     wt_error err = WT_ERROR_INIT;
     wt_status status = wt_report_write(result, "refused", NULL, NULL, &err);
     if (status != expected || strstr(err.message, table) == NULL ||

@@ -1,0 +1,65 @@
+# The methods' references and DOIs fit each other as far as a DOI tells: form, journal, volume and page; and
+# no page or header has one that is not in their table. Run: cmake -DSOURCE=.. -P references.cmake.
+# SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+file(READ ${SOURCE}/src/flow/answer/methods.c text)
+string(REPLACE ";" "," text "${text}")
+string(REGEX REPLACE "\"[ \n]+\"" "" text "${text}") # strings of several lines
+string(REGEX MATCHALL "\"[^\"\n]*\",[ \n]*\"10\\.[^\"]*\"" pairs "${text}")
+list(LENGTH pairs n)
+string(REGEX MATCHALL "\"10\\." written "${text}")
+list(LENGTH written n_written)
+if(n LESS 10 OR NOT n EQUAL n_written)
+  message(FATAL_ERROR "${n} references with a DOI, of ${n_written} DOIs")
+endif()
+
+# What a DOI holds, and how journals print it: volume and page or article are the two groups.
+set(rules
+  "10\\.1103/PhysRevE\\.([0-9]+)\\.([0-9]+)|Phys. Rev. E"
+  "10\\.1093/biomet/([0-9]+)\\.[0-9-]+\\.([0-9]+)|Biometrika"
+  "10\\.1088/0957-4484/([0-9]+)/[0-9]+/0*([0-9]+)|Nanotechnology"
+  "10\\.1088/0953-8984/([0-9]+)/[0-9]+/([0-9][0-9][0-9][0-9][0-9]+)|J. Phys.: Condens. Matter"
+  "10\\.3390/polym([0-9][0-9])[0-9][0-9]([0-9][0-9][0-9][0-9])|Polymers")
+set(known "")
+set(n_told 0)
+foreach(pair IN LISTS pairs)
+  string(REGEX MATCH "^\"([^\"]*)\",[ \n]*\"([^\"]*)\"$" whole "${pair}")
+  set(reference "${CMAKE_MATCH_1}")
+  set(doi "${CMAKE_MATCH_2}")
+  if(NOT doi MATCHES "^10\\.[0-9][0-9][0-9][0-9]+/[][A-Za-z0-9().:/_-]+$" OR doi MATCHES "[./]$")
+    message(SEND_ERROR "${doi} of ${reference} has not the form of a DOI")
+  endif()
+  if(doi IN_LIST known)
+    message(SEND_ERROR "${doi} stands for two references")
+  endif()
+  list(APPEND known "${doi}")
+  foreach(rule IN LISTS rules)
+    string(REGEX MATCH "^(.*)\\|([^|]*)$" whole "${rule}")
+    set(form "${CMAKE_MATCH_1}")
+    set(journal "${CMAKE_MATCH_2}")
+    if(doi MATCHES "^${form}$")
+      math(EXPR n_told "${n_told} + 1")
+      set(volume ${CMAKE_MATCH_1})
+      set(page ${CMAKE_MATCH_2})
+      string(FIND "${reference}" "${journal} ${volume} (" place)
+      if(place LESS 0 OR NOT reference MATCHES "\\([0-9][0-9][0-9][0-9]\\) ${page}$")
+        message(SEND_ERROR "${doi} is of ${journal} ${volume}, ${page}, and its reference is ${reference}")
+      endif()
+    endif()
+  endforeach()
+endforeach()
+if(n_told LESS 5)
+  message(SEND_ERROR "of ${n_told} DOIs alone a rule tells volume and page")
+endif()
+
+file(GLOB others "${SOURCE}/man/*.[157]" "${SOURCE}/include/weartrack/*.h" "${SOURCE}/src/CITATION.cff.in")
+foreach(file IN LISTS others)
+  file(READ ${file} text)
+  string(REGEX MATCHALL "[Dd][Oo][Ii]:? *10\\.[0-9]+/[A-Za-z0-9():/_.-]*[A-Za-z0-9]" dois "${text}")
+  foreach(doi IN LISTS dois)
+    string(REGEX MATCH "10\\..*$" doi "${doi}")
+    if(NOT doi IN_LIST known)
+      message(SEND_ERROR "${file} has ${doi}, which is not among the methods' references")
+    endif()
+  endforeach()
+endforeach()
