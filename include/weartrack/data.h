@@ -144,8 +144,7 @@ typedef struct wt_ramp {
 } wt_ramp;
 
 /* Moduli against the amplitude of the strain at one frequency and temperature, raised or lowered
- * once.
- */
+ * once. */
 typedef struct wt_strain_sweep {
     double angular_frequency; /* mean of the points [rad/s] */
     double temperature;       /* likewise, or what the header or the user says; NaN: unknown [K] */

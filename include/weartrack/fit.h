@@ -37,8 +37,7 @@ extern "C" {
  *   doubtful           deeper than one radius of a sphere, or than the law of a thin sample holds;
  * a punch that loses work; a misfit (least_chance) that gives the modulus an error of more than
  * doubtful_error; a wave on the baseline of more than 10 % of the largest force, peak to peak
- * And, said by no fit: excluded, unreadable.
- */
+ * And, said by no fit: excluded, unreadable. */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
     X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus to which a misfit gives a large error")            \

@@ -1012,8 +1012,7 @@ WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *
                                  const wt_layer_known *known, const wt_job *work, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 
-/* ---- validation ------------------------------------------------------------------------------
- */
+/* ---- validation ------------------------------------------------------------------------------ */
 
 typedef struct wt_validation_job {
     const wt_sliding *sliding;
@@ -1056,8 +1055,7 @@ WT_API wt_status wt_validation_running_in_make(const wt_validation_job *job, con
                                                wt_running_in_tables *tables,
                                                wt_error *err) WT_NODISCARD;
 
-/* ---- error budget ----------------------------------------------------------------------------
- */
+/* ---- error budget ---------------------------------------------------------------------------- */
 
 /* Table "error_budget": the error of each number at the reference velocity by every source alone
  * (replicates with all others held), by the replicates and the arithmetic, and by the choices of
@@ -1069,8 +1067,7 @@ WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_
                                       const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 
-/* ---- coverage --------------------------------------------------------------------------------
- */
+/* ---- coverage -------------------------------------------------------------------------------- */
 
 typedef struct wt_coverage_job {
     const wt_sliding *sliding;
@@ -1093,8 +1090,7 @@ WT_API const wt_params *wt_coverage_job_params(void);
 WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
 
-/* ---- error against run time ------------------------------------------------------------------
- */
+/* ---- error against run time ------------------------------------------------------------------ */
 
 typedef struct wt_accuracy_job {
     const char *part; /* name of one numerical part; NULL (default): all */

@@ -111,8 +111,7 @@ typedef struct wt_friction_point {
     bool unsettled;   /* no temperature was found, and the numbers are NaN */
     wt_estimate temperature; /* of the finest scale, T(q1) [K]; NaN without a flash temperature */
     wt_friction_branch
-        hot; /* a second solution: the contact stays hot if it was; NaN: there is none
-              */
+        hot; /* a second solution: the contact stays hot if it was; NaN: there is none */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */

@@ -16,7 +16,7 @@ void *array_grow(void *array, size_t n, size_t size)
     return room > SIZE_MAX / size ? NULL : realloc(array, room * size);
 }
 
-static int compare_numbers(const void *a, const void *b)
+int numbers_compare(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return x < y ? -1 : x > y;
@@ -24,11 +24,28 @@ static int compare_numbers(const void *a, const void *b)
 
 void numbers_sort(double *x, size_t n)
 {
-    qsort(x, n, sizeof *x, compare_numbers);
+    qsort(x, n, sizeof *x, numbers_compare);
 }
 
 double numbers_median(double *x, size_t n)
 {
     numbers_sort(x, n);
     return n % 2 == 1 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
+}
+
+double numbers_mean(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+void numbers_reverse(double *x, size_t n)
+{
+    for (size_t i = 0; i < n / 2; i++) {
+        const double kept = x[i];
+        x[i] = x[n - 1 - i];
+        x[n - 1 - i] = kept;
+    }
 }

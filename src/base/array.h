@@ -10,9 +10,14 @@
  * more: `array`, or where it is moved to; NULL when out of memory. */
 void *array_grow(void *array, size_t n, size_t size);
 
+/* For qsort: rising numbers, or structures that begin with one. */
+int numbers_compare(const void *a, const void *b);
 /* Sorts numbers, none of which is NaN, rising. */
 void numbers_sort(double *x, size_t n);
 /* Sorts them; n > 0. */
 double numbers_median(double *x, size_t n);
+/* By their sum as they stand; n > 0. */
+double numbers_mean(const double *x, size_t n);
+void numbers_reverse(double *x, size_t n);
 
 #endif

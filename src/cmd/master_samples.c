@@ -1,7 +1,6 @@
 /* weartrack master of several samples: a master curve of each, and all of them side by side.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/master.h"
-#include "cmd/tables.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -25,14 +25,6 @@ struct map_reader {
     size_t room;
 };
 
-static wt_status corrupt(wt_error *err, const char *place, const char *message)
-{
-    (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
-    wt_error_place(err, "%s", place);
-    wt_error_advice(err, "make the file again");
-    return WT_E_CORRUPT;
-}
-
 /* A number that counts something of this file, or -1. */
 static double count_or_none(double value, size_t most)
 {
@@ -44,7 +36,7 @@ static wt_status bind_table(const wt_result *result, const table_schema *schema,
 {
     const wt_table *const table = wt_result_find(result, schema->name);
     if (table == NULL)
-        return corrupt(err, schema->name, "table missing");
+        return store_corrupt(err, schema->name, "table missing");
     if (table_bind(table, schema, "", view, err) == WT_OK)
         return WT_OK;
     if (err != NULL)
@@ -59,14 +51,14 @@ static wt_status take_channels(map_reader *r, wt_error *err)
     if (status != WT_OK)
         return status;
     if (v.n_rows == 0 || v.n_rows > WT_Q_COUNT)
-        return corrupt(err, map_channels_schema.name, "no channels, or too many");
+        return store_corrupt(err, map_channels_schema.name, "no channels, or too many");
     for (size_t row = 0; row < v.n_rows; row++) {
         map_channel *const c = &r->channels[row];
         if (!wt_quantity_find(map_channels_text(&v, row, MAP_CHANNELS_QUANTITY), &c->quantity))
-            return corrupt(err, map_channels_schema.name, "a quantity that is not known");
+            return store_corrupt(err, map_channels_schema.name, "a quantity that is not known");
         for (size_t i = 0; i < row; i++)
             if (r->channels[i].quantity == c->quantity)
-                return corrupt(err, map_channels_schema.name, "a quantity twice");
+                return store_corrupt(err, map_channels_schema.name, "a quantity twice");
         c->name = map_channels_text(&v, row, MAP_CHANNELS_NAME);
         c->unit = map_channels_text(&v, row, MAP_CHANNELS_UNIT);
     }
@@ -84,17 +76,17 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
                                        r->segments.n_rows - n_segments);
         if (n < 0 ||
             count_or_none(map_curves_get(&r->curves, row, MAP_CURVES_CURVE), SIZE_MAX >> 12) < 0)
-            return corrupt(err, map_curves_schema.name, "a curve without its segments");
+            return store_corrupt(err, map_curves_schema.name, "a curve without its segments");
         n_segments += (size_t)n;
     }
     if (n_segments != r->segments.n_rows)
-        return corrupt(err, map_segments_schema.name, "segments without a curve");
+        return store_corrupt(err, map_segments_schema.name, "segments without a curve");
     for (size_t row = 0; row < n_segments; row++) {
         const double n = count_or_none(map_segments_get(&r->segments, row, MAP_SEGMENTS_SAMPLES),
                                        most - r->n_samples);
         if (n < 0 || count_or_none(map_segments_get(&r->segments, row, MAP_SEGMENTS_NUMBER),
                                    SIZE_MAX >> 12) < 0)
-            return corrupt(err, map_segments_schema.name, "more samples than the file has");
+            return store_corrupt(err, map_segments_schema.name, "more samples than the file has");
         r->n_samples += (size_t)n;
     }
     return WT_OK;
@@ -282,7 +274,7 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     *n = n_segments;
     if ((double)sum == map_curves_get(&r->curves, row, MAP_CURVES_CHECKSUM))
         return WT_OK;
-    (void)corrupt(err, MAP_SAMPLES_GROUP, "the samples do not agree with their checksum");
+    (void)store_corrupt(err, MAP_SAMPLES_GROUP, "the samples do not agree with their checksum");
     wt_error_place(err, "%s, curve %zu", MAP_SAMPLES_GROUP, curve->index);
     return WT_E_CORRUPT;
 }

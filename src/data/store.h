@@ -58,6 +58,8 @@ struct stat;
  */
 wt_status store_open_regular(const char *path, int *file, struct stat *info,
                              wt_error *err) WT_NODISCARD;
+/* A file of the program's own is damaged: WT_E_CORRUPT, with what to do. */
+wt_status store_corrupt(wt_error *err, const char *place, const char *message);
 /* Makes a result of that; not a byte of it is trusted. */
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
 

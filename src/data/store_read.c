@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static wt_status corrupt(wt_error *err, const char *place, const char *message)
+wt_status store_corrupt(wt_error *err, const char *place, const char *message)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);
@@ -36,7 +36,7 @@ static wt_status check_digest(const char *bytes, const char *end, const char *ex
     wt_digest(bytes, (size_t)(end - bytes), digest);
     return memcmp(digest, expected, sizeof digest) == 0
                ? WT_OK
-               : corrupt(err, place, "the content does not agree with its digest");
+               : store_corrupt(err, place, "the content does not agree with its digest");
 }
 
 /* The parts of what came through the door. */
@@ -90,9 +90,9 @@ static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *
         wt_table_free(table);
     }
     if (status == WT_E_ARG)
-        status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
+        status = store_corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
     if (status == WT_OK && at != p->case_file)
-        status = corrupt(err, "", "the content is more than it says");
+        status = store_corrupt(err, "", "the content is more than it says");
     if (status == WT_OK && p->tail.case_length > 0)
         status = check_digest(p->case_file, p->origin, digest, STORE_CASE_DATASET, err);
     return status;
@@ -102,7 +102,7 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
 {
     store_parts p;
     if (!part_answer(bytes, length, &p))
-        return corrupt(err, "", "the content is not whole");
+        return store_corrupt(err, "", "the content is not whole");
     wt_status status = take_tables(&p, result, err);
     if (status == WT_OK && p.tail.has_origin)
         status = take_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));

@@ -1,5 +1,5 @@
 /* DMA sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/data.h"
+#include "data/sweep_points.h"
 
 #include "base/clocale.h"
 
@@ -8,32 +8,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void isotherm_free(wt_isotherm *isotherm)
+sweep_points points_of_isotherm(const wt_isotherm *t)
 {
-    free(isotherm->angular_frequency);
-    free(isotherm->storage_modulus);
-    free(isotherm->loss_modulus);
-    free(isotherm->strain);
-    free(isotherm->loss_factor);
-    free(isotherm->sample);
+    return (sweep_points){
+        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
+        t->n,
+        t->sample};
 }
 
-static void ramp_free(wt_ramp *ramp)
+sweep_points points_of_ramp(const wt_ramp *t)
 {
-    free(ramp->temperature);
-    free(ramp->storage_modulus);
-    free(ramp->loss_modulus);
-    free(ramp->strain);
-    free(ramp->loss_factor);
-    free(ramp->sample);
+    return (sweep_points){
+        {t->temperature, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
+        t->n,
+        t->sample};
 }
 
-static void strain_sweep_free(wt_strain_sweep *s)
+sweep_points points_of_strain_sweep(const wt_strain_sweep *t)
 {
-    free(s->strain);
-    free(s->storage_modulus);
-    free(s->loss_modulus);
-    free(s->sample);
+    return (sweep_points){{t->strain, t->storage_modulus, t->loss_modulus}, t->n, t->sample};
+}
+
+static void points_free(sweep_points p)
+{
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++)
+        free(p.array[j]);
+    free(p.sample);
+}
+
+/* The moduli and what was swept, and what there is `with` them, uninitialised; false when out of
+ * memory. */
+static bool points_make(sweep_points *p, size_t n, unsigned with)
+{
+    const bool has[SWEEP_ARRAYS] = {[SWEEP_FIRST] = true,
+                                    [SWEEP_STORAGE] = true,
+                                    [SWEEP_LOSS] = true,
+                                    [SWEEP_STRAIN] = (with & WT_WITH_STRAIN) != 0,
+                                    [SWEEP_LOSS_FACTOR] = (with & WT_WITH_LOSS_FACTOR) != 0};
+    *p = (sweep_points){.n = n};
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
+        p->array[j] = has[j] ? reallocarray(NULL, n > 0 ? n : 1, sizeof(double)) : NULL;
+        if (has[j] && p->array[j] == NULL) {
+            points_free(*p);
+            return false;
+        }
+    }
+    return true;
 }
 
 void wt_sweep_clear(wt_sweep *sweep)
@@ -41,94 +61,69 @@ void wt_sweep_clear(wt_sweep *sweep)
     if (sweep == NULL)
         return;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        isotherm_free(&sweep->isotherms[i]);
+        points_free(points_of_isotherm(&sweep->isotherms[i]));
     free(sweep->isotherms);
     for (size_t i = 0; i < sweep->n_ramps; i++)
-        ramp_free(&sweep->ramps[i]);
+        points_free(points_of_ramp(&sweep->ramps[i]));
     free(sweep->ramps);
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
-        strain_sweep_free(&sweep->strain_sweeps[i]);
+        points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
     free(sweep->strain_sweeps);
     *sweep = (wt_sweep){0};
 }
 
 wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
 {
-    const bool strain = (with & WT_WITH_STRAIN) != 0, factor = (with & WT_WITH_LOSS_FACTOR) != 0;
-    if (n > SIZE_MAX / sizeof(double) ||
-        sweep->n_isotherms >= SIZE_MAX / sizeof *sweep->isotherms - 1)
+    sweep_points p;
+    wt_isotherm *const all = reallocarray(sweep->isotherms, sweep->n_isotherms + 1, sizeof *all);
+    if (all != NULL)
+        sweep->isotherms = all;
+    if (all == NULL || !points_make(&p, n, with))
         return NULL;
-    const size_t size = (n > 0 ? n : 1) * sizeof(double);
-    wt_isotherm isotherm = {.temperature = (double)NAN,
-                            .temperature_spread = (double)NAN,
-                            .n = n,
-                            .angular_frequency = malloc(size),
-                            .storage_modulus = malloc(size),
-                            .loss_modulus = malloc(size),
-                            .strain = strain ? malloc(size) : NULL,
-                            .loss_factor = factor ? malloc(size) : NULL};
-    wt_isotherm *const isotherms =
-        realloc(sweep->isotherms, (sweep->n_isotherms + 1) * sizeof *isotherms);
-    if (isotherms != NULL)
-        sweep->isotherms = isotherms;
-    if (isotherms == NULL || isotherm.angular_frequency == NULL ||
-        isotherm.storage_modulus == NULL || isotherm.loss_modulus == NULL ||
-        (strain && isotherm.strain == NULL) || (factor && isotherm.loss_factor == NULL)) {
-        isotherm_free(&isotherm);
-        return NULL;
-    }
-    isotherms[sweep->n_isotherms] = isotherm;
-    return &isotherms[sweep->n_isotherms++];
+    all[sweep->n_isotherms] = (wt_isotherm){.temperature = (double)NAN,
+                                            .temperature_spread = (double)NAN,
+                                            .n = n,
+                                            .angular_frequency = p.array[SWEEP_FIRST],
+                                            .storage_modulus = p.array[SWEEP_STORAGE],
+                                            .loss_modulus = p.array[SWEEP_LOSS],
+                                            .strain = p.array[SWEEP_STRAIN],
+                                            .loss_factor = p.array[SWEEP_LOSS_FACTOR]};
+    return &all[sweep->n_isotherms++];
 }
 
 wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with)
 {
-    const bool strain = (with & WT_WITH_STRAIN) != 0, factor = (with & WT_WITH_LOSS_FACTOR) != 0;
-    if (n > SIZE_MAX / sizeof(double) || sweep->n_ramps >= SIZE_MAX / sizeof *sweep->ramps - 1)
+    sweep_points p;
+    wt_ramp *const all = reallocarray(sweep->ramps, sweep->n_ramps + 1, sizeof *all);
+    if (all != NULL)
+        sweep->ramps = all;
+    if (all == NULL || !points_make(&p, n, with))
         return NULL;
-    const size_t size = (n > 0 ? n : 1) * sizeof(double);
-    wt_ramp ramp = {.angular_frequency = (double)NAN,
-                    .n = n,
-                    .temperature = malloc(size),
-                    .storage_modulus = malloc(size),
-                    .loss_modulus = malloc(size),
-                    .strain = strain ? malloc(size) : NULL,
-                    .loss_factor = factor ? malloc(size) : NULL};
-    wt_ramp *const ramps = realloc(sweep->ramps, (sweep->n_ramps + 1) * sizeof *ramps);
-    if (ramps != NULL)
-        sweep->ramps = ramps;
-    if (ramps == NULL || ramp.temperature == NULL || ramp.storage_modulus == NULL ||
-        ramp.loss_modulus == NULL || (strain && ramp.strain == NULL) ||
-        (factor && ramp.loss_factor == NULL)) {
-        ramp_free(&ramp);
-        return NULL;
-    }
-    ramps[sweep->n_ramps] = ramp;
-    return &ramps[sweep->n_ramps++];
+    all[sweep->n_ramps] = (wt_ramp){.angular_frequency = (double)NAN,
+                                    .n = n,
+                                    .temperature = p.array[SWEEP_FIRST],
+                                    .storage_modulus = p.array[SWEEP_STORAGE],
+                                    .loss_modulus = p.array[SWEEP_LOSS],
+                                    .strain = p.array[SWEEP_STRAIN],
+                                    .loss_factor = p.array[SWEEP_LOSS_FACTOR]};
+    return &all[sweep->n_ramps++];
 }
 
 wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
 {
-    const size_t most = SIZE_MAX / sizeof *sweep->strain_sweeps - 1;
-    if (n > SIZE_MAX / sizeof(double) || sweep->n_strain_sweeps >= most)
-        return NULL;
-    const size_t size = (n > 0 ? n : 1) * sizeof(double);
-    wt_strain_sweep made = {.angular_frequency = (double)NAN,
-                            .temperature = (double)NAN,
-                            .n = n,
-                            .strain = malloc(size),
-                            .storage_modulus = malloc(size),
-                            .loss_modulus = malloc(size)};
+    sweep_points p;
     wt_strain_sweep *const all =
-        realloc(sweep->strain_sweeps, (sweep->n_strain_sweeps + 1) * sizeof *all);
+        reallocarray(sweep->strain_sweeps, sweep->n_strain_sweeps + 1, sizeof *all);
     if (all != NULL)
         sweep->strain_sweeps = all;
-    if (all == NULL || made.strain == NULL || made.storage_modulus == NULL ||
-        made.loss_modulus == NULL) {
-        strain_sweep_free(&made);
+    if (all == NULL || !points_make(&p, n, 0))
         return NULL;
-    }
-    all[sweep->n_strain_sweeps] = made;
+    all[sweep->n_strain_sweeps] = (wt_strain_sweep){.angular_frequency = (double)NAN,
+                                                    .temperature = (double)NAN,
+                                                    .n = n,
+                                                    .strain = p.array[SWEEP_FIRST],
+                                                    .storage_modulus = p.array[SWEEP_STORAGE],
+                                                    .loss_modulus = p.array[SWEEP_LOSS]};
     return &all[sweep->n_strain_sweeps++];
 }
 
@@ -163,21 +158,9 @@ static int compare_strain_sweeps(const void *a, const void *b)
     return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
-/* Points in arrays that move together: in the order of the first. */
-enum { ARRAYS = 5 };
-typedef struct points {
-    double *array[ARRAYS]; /* those that there are not are NULL */
-} points;
-
-static points of_isotherm(const wt_isotherm *t)
+static void swap_points(const sweep_points *p, size_t i, size_t k)
 {
-    return (points){
-        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor}};
-}
-
-static void swap_points(const points *p, size_t i, size_t k)
-{
-    for (size_t j = 0; j < ARRAYS; j++) {
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
         if (p->array[j] == NULL)
             continue;
         const double kept = p->array[j][i];
@@ -186,7 +169,7 @@ static void swap_points(const points *p, size_t i, size_t k)
     }
 }
 
-static void sift_down(const points *p, size_t root, size_t n)
+static void sift_down(const sweep_points *p, size_t root, size_t n)
 {
     const double *const w = p->array[0];
     size_t child;
@@ -202,8 +185,10 @@ static void sift_down(const points *p, size_t root, size_t n)
 
 /* Sweeps are also measured from high to low. Heap sort, as it moves several arrays together and
  * needs no memory that could be refused. */
-static void sort_points(const points *p, size_t n)
+static void sort_points(sweep_points points)
 {
+    const sweep_points *const p = &points;
+    const size_t n = points.n;
     const double *const w = p->array[0];
     bool sorted = true;
     for (size_t i = 1; i < n && sorted; i++)
@@ -220,21 +205,12 @@ static void sort_points(const points *p, size_t n)
 
 void wt_sweep_sort(wt_sweep *sweep)
 {
-    for (size_t i = 0; i < sweep->n_isotherms; i++) {
-        const points p = of_isotherm(&sweep->isotherms[i]);
-        sort_points(&p, sweep->isotherms[i].n);
-    }
-    for (size_t i = 0; i < sweep->n_ramps; i++) {
-        const wt_ramp *r = &sweep->ramps[i];
-        const points p = {
-            {r->temperature, r->storage_modulus, r->loss_modulus, r->strain, r->loss_factor}};
-        sort_points(&p, r->n);
-    }
-    for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
-        const wt_strain_sweep *r = &sweep->strain_sweeps[i];
-        const points p = {{r->strain, r->storage_modulus, r->loss_modulus}};
-        sort_points(&p, r->n);
-    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        sort_points(points_of_isotherm(&sweep->isotherms[i]));
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        sort_points(points_of_ramp(&sweep->ramps[i]));
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        sort_points(points_of_strain_sweep(&sweep->strain_sweeps[i]));
     if (sweep->n_isotherms > 1)
         qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, by_temperature);
     if (sweep->n_ramps > 1)
@@ -259,13 +235,13 @@ static bool same_numbers(const double *a, const double *b, size_t n)
     return memcmp(a, b, n * sizeof *a) == 0;
 }
 
-static bool is_copy(const wt_isotherm *a, const wt_isotherm *b)
+/* Whatever the strain was: of an isotherm or a temperature sweep it is no result. */
+static bool is_copy(sweep_points a, sweep_points b)
 {
-    return a->n == b->n && same_sample(a->sample, b->sample) &&
-           same_numbers(a->angular_frequency, b->angular_frequency, a->n) &&
-           same_numbers(a->storage_modulus, b->storage_modulus, a->n) &&
-           same_numbers(a->loss_modulus, b->loss_modulus, a->n) &&
-           same_numbers(a->loss_factor, b->loss_factor, a->n);
+    bool same = a.n == b.n && same_sample(a.sample, b.sample);
+    for (size_t j = 0; same && j < SWEEP_ARRAYS; j++)
+        same = j == SWEEP_STRAIN || same_numbers(a.array[j], b.array[j], a.n);
+    return same;
 }
 
 static bool same_point(const wt_isotherm *t, size_t i, size_t k)
@@ -279,7 +255,7 @@ static bool same_point(const wt_isotherm *t, size_t i, size_t k)
 /* Points of one frequency stand together. */
 static size_t drop_points(wt_isotherm *t)
 {
-    const points p = of_isotherm(t);
+    const sweep_points p = points_of_isotherm(t);
     size_t kept = 0;
     for (size_t i = 0; i < t->n; i++) {
         size_t before = kept;
@@ -312,18 +288,14 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *const t = &sweep->ramps[i];
         const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
-        if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
-            !same_sample(b->sample, t->sample) ||
-            !same_numbers(b->temperature, t->temperature, t->n) ||
-            !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
-            !same_numbers(b->loss_modulus, t->loss_modulus, t->n) ||
-            !same_numbers(b->loss_factor, t->loss_factor, t->n)) {
+        if (b == NULL || b->angular_frequency != t->angular_frequency ||
+            !is_copy(points_of_ramp(b), points_of_ramp(t))) {
             sweep->ramps[kept++] = *t;
             continue;
         }
         wt_parselog_add(log, WT_WARNING, t->source, NULL,
                         "this temperature sweep is a copy of that of %s and left out", b->source);
-        ramp_free(t);
+        points_free(points_of_ramp(t));
     }
     sweep->n_ramps = kept;
 }
@@ -335,16 +307,14 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
         wt_strain_sweep *const t = &sweep->strain_sweeps[i];
         const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
-        if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
-            !same_sample(b->sample, t->sample) || !same_numbers(b->strain, t->strain, t->n) ||
-            !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
-            !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
+        if (b == NULL || b->angular_frequency != t->angular_frequency ||
+            !is_copy(points_of_strain_sweep(b), points_of_strain_sweep(t))) {
             sweep->strain_sweeps[kept++] = *t;
             continue;
         }
         wt_parselog_add(log, WT_WARNING, t->source, NULL,
                         "this strain sweep is a copy of that of %s and left out", b->source);
-        strain_sweep_free(t);
+        points_free(points_of_strain_sweep(t));
     }
     sweep->n_strain_sweeps = kept;
 }
@@ -369,7 +339,8 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
         wt_isotherm *const t = &sweep->isotherms[i];
         size_t original = 0;
         drop_copies_of_points(t, log);
-        while (original < kept && !is_copy(&sweep->isotherms[original], t))
+        while (original < kept &&
+               !is_copy(points_of_isotherm(&sweep->isotherms[original]), points_of_isotherm(t)))
             original++;
         if (original == kept) {
             sweep->isotherms[kept++] = *t;
@@ -377,7 +348,7 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
         }
         if (n++ == 0)
             first_copy(t, &sweep->isotherms[original], first, sizeof first);
-        isotherm_free(t);
+        points_free(points_of_isotherm(t));
     }
     sweep->n_isotherms = kept;
     drop_copies_of_ramps(sweep, log);
@@ -397,21 +368,21 @@ wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name)
         if (same_sample(sweep->isotherms[i].sample, name))
             sweep->isotherms[kept++] = sweep->isotherms[i];
         else
-            isotherm_free(&sweep->isotherms[i]);
+            points_free(points_of_isotherm(&sweep->isotherms[i]));
     sweep->n_isotherms = kept;
     kept = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++)
         if (same_sample(sweep->ramps[i].sample, name))
             sweep->ramps[kept++] = sweep->ramps[i];
         else
-            ramp_free(&sweep->ramps[i]);
+            points_free(points_of_ramp(&sweep->ramps[i]));
     sweep->n_ramps = kept;
     kept = 0;
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
         if (same_sample(sweep->strain_sweeps[i].sample, name))
             sweep->strain_sweeps[kept++] = sweep->strain_sweeps[i];
         else
-            strain_sweep_free(&sweep->strain_sweeps[i]);
+            points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
     sweep->n_strain_sweeps = kept;
     return sweep->n_isotherms + sweep->n_ramps + kept > 0 ? WT_OK : WT_E_NOT_FOUND;
 }

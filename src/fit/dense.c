@@ -6,7 +6,6 @@
 #include "fit/tile.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Rows at a time: so many factors and sums stay in registers. */
 enum { BLOCK = 4 };
@@ -61,8 +60,7 @@ static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
 }
 
 /* Takes rows before `from` out of rows from..to, upper triangle; both multiples of TILE, or the
- * end.
- */
+ * end. */
 WIDE_REGISTERS
 static void take_out(gsl_matrix *m, size_t from, size_t to)
 {

@@ -9,7 +9,6 @@
 #include "fit/shared_value.h"
 
 #include "base/gsl_quiet.h"
-#include "fit/students_t.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>

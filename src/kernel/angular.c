@@ -30,8 +30,7 @@ static const double law_width = 0.7, closed_width = 1;
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
  * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
- * coefficient.
- */
+ * coefficient. */
 static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
 /* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
 static const double closed_error = 16 * DBL_EPSILON;

@@ -12,8 +12,7 @@
 enum { DEPTHS = 32 };
 static const double last_depth = 710;
 /* Cells, each a quarter of the one before, towards q0 with which the waves there, which alone count
- * at the last depth, are resolved.
- */
+ * at the last depth, are resolved. */
 static const size_t least_level = 6;
 /* Sources of panels halved so many times are compared at most. */
 enum { MOST_HALVES = 4 };

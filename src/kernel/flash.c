@@ -6,7 +6,6 @@
 #include "kernel/friction.h"
 
 #include "base/array.h"
-#include "base/exponential.h"
 #include "base/param.h"
 #include "base/wide.h"
 

@@ -4,8 +4,6 @@
  */
 #include "kernel/friction.h"
 
-#include "kernel/contact.h"
-
 #include <math.h>
 
 /* Five points: what the difference leaves is its fourth power / 30 of a fifth derivative of the

@@ -43,8 +43,7 @@ typedef struct panel_plan {
 } panel_plan;
 
 /* The usual width, of laws whose moduli may be steeper than those of a closed form (friction.c):
- * pi/2 of a pole over half of it is 2.6, and its ellipse takes 5 off an error with each degree.
- */
+ * pi/2 of a pole over half of it is 2.6, and its ellipse takes 5 off an error with each degree. */
 #define PANEL_WIDTH 1.2
 
 /* How steeply |E|^2 rises at most with ln omega, into `slopes` [n_knots + 1]: below the first knot,

@@ -4,6 +4,8 @@
  */
 #include "kernel/layer.h"
 
+#include "base/array.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -62,12 +64,6 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
     }
 }
 
-static int by_time(const void *left, const void *right)
-{
-    const layer_instant *a = left, *b = right;
-    return (a->time > b->time) - (a->time < b->time);
-}
-
 wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
                                  const double *time, size_t n, wt_layer_point *points,
                                  wt_error *err)
@@ -77,7 +73,7 @@ wt_status layer_history_in_order(const layer_rates *rates, double start, bool tr
         return wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
     for (size_t i = 0; i < n; i++)
         order[i] = (layer_instant){time[i], &points[i]};
-    qsort(order, n, sizeof *order, by_time);
+    qsort(order, n, sizeof *order, numbers_compare);
     const wt_status status = transport ? history_damage(rates, start, order, n, err)
                                        : layer_march(rates, start, order, n, err);
     free(order);

@@ -189,3 +189,9 @@ wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read
                           : *no_curves;
     return curves == WT_E_EMPTY ? status : curves;
 }
+
+wt_status images_describe(const file_reader *reader, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log, table_writer *facts)
+{
+    return images_facts(reader, input, options, log, facts, WT_E_EMPTY, NULL);
+}

@@ -44,5 +44,8 @@ struct file_reader;
 wt_status images_facts(const struct file_reader *reader, wt_input *input,
                        const wt_read_options *options, wt_parselog *log, table_writer *facts,
                        wt_status curves, const wt_error *no_curves);
+/* The same of a reader of images alone. */
+wt_status images_describe(const struct file_reader *reader, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log, table_writer *facts);
 
 #endif

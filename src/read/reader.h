@@ -13,8 +13,7 @@
 typedef enum detector_answer {
     ANSWER_NO,          /* not mine */
     ANSWER_YES,         /* mine, with a score */
-    ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why
-                         */
+    ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why */
     ANSWER_MORE,        /* cannot say yet: show me at least `need` bytes */
     ANSWER_NO_MEMORY
 } detector_answer;

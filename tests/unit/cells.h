@@ -7,6 +7,8 @@
 
 #include "weartrack/data.h"
 
+#include <string.h>
+
 static inline size_t cell_column(const wt_table *table, const char *name)
 {
     const long column = wt_table_find(table, name);
@@ -23,6 +25,16 @@ static inline double number_cell(const wt_table *table, size_t row, const char *
 static inline const char *text_cell(const wt_table *table, size_t row, const char *name)
 {
     return wt_table_text(table, row, cell_column(table, name));
+}
+
+/* The first row whose cell has these words. */
+static inline size_t row_where(const wt_table *table, const char *name, const char *words)
+{
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, name), words) == 0)
+            return i;
+    fail_msg("no %s %s", name, words);
+    return 0;
 }
 
 #endif

@@ -35,4 +35,13 @@ static inline void sliding_set_up(const double *velocity, size_t n)
     work.threads = 1;
 }
 
+/* At one velocity, with errors of what is given. */
+static inline void sliding_set_up_uncertain(void)
+{
+    static const double velocity = 0.1;
+    sliding_set_up(&velocity, 1);
+    sliding.pressure.standard_error = 0.02e6;
+    sliding.shear_stress.standard_error = 0.5e6;
+}
+
 #endif

@@ -3,54 +3,17 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "fit/indentation/curve_model.h"
-#include "synthetic_curve.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static curve_data data;
-static wt_indent_workspace *workspace;
-
-static wt_contact_table *table_of(const curve_truth *t)
-{
-    wt_contact_table *table = NULL;
-    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    return table;
-}
-
-static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
-{
-    wt_contact_table *table = table_of(t);
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
-                            t->spring_constant, workspace, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    wt_contact_table_free(table);
-    return fit;
-}
-
-/* Curves without noise, and all of many: nothing is said here of the residual. */
-static wt_indent_options every_curve(void)
-{
-    wt_indent_options options = wt_indent_defaults();
-    options.least_chance = 0;
-    return options;
-}
 
 static wt_indent_fit fit_default(const curve_truth *t)
 {
     wt_indent_options options = every_curve();
     return fit_with(t, &options);
-}
-
-static void assert_accepted(const wt_indent_fit *fit)
-{
-    if (fit->verdict != WT_CURVE_ACCEPTED)
-        fail_msg("%s: %s", wt_curve_verdict_id(fit->verdict), fit->reason);
 }
 
 static double true_contact(const curve_truth *t)
@@ -491,20 +454,6 @@ static void arguments(void **state)
     wt_indent_workspace_free(NULL);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    workspace = wt_indent_workspace_new();
-    return workspace == NULL;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    wt_indent_workspace_free(workspace);
-    return 0;
-}
-
 /* ---- a further step -------------------------------------------------------------------------- */
 
 enum { UNKNOWNS = 4 };
@@ -611,5 +560,5 @@ int main(void)
         cmocka_unit_test(arguments),
         cmocka_unit_test(what_a_further_step_would_change),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -3,19 +3,15 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "flow/indentation/curve_tables.h"
 #include "model/thin_layer.h"
-#include "synthetic_curve.h"
-#include "weartrack/fit.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { CURVES = 30 };
-static curve_data data;
-static wt_indent_workspace *workspace;
 
 /* Over solutions of the integral equation in 11 digits. */
 static void quick_form(void **state)
@@ -353,8 +349,5 @@ int main(void)
         cmocka_unit_test(loss_of_layers),
         cmocka_unit_test(words_of_no_answer),
     };
-    workspace = wt_indent_workspace_new();
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    wt_indent_workspace_free(workspace);
-    return failed;
+    return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -3,13 +3,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "fit/indentation/curve.h"
-#include "synthetic_curve.h"
-
-static curve_data data;
-static wt_indent_workspace *workspace;
 
 static wt_indent_fit fit_of(const curve_truth *t, bool estimators)
 {
@@ -184,19 +180,6 @@ static void without_noise(void **state)
     curve_make(&t, 0, &data);
     const wt_indent_fit fit = fit_of(&t, true);
     assert_near_abs(fit.contact_by[WT_CONTACT_GOODNESS_OF_FIT], 0, 1e-3 * fit.max_indentation);
-}
-
-static int make_workspace(void **state)
-{
-    (void)state;
-    return (workspace = wt_indent_workspace_new()) == NULL;
-}
-
-static int free_workspace(void **state)
-{
-    (void)state;
-    wt_indent_workspace_free(workspace);
-    return 0;
 }
 
 int main(void)

@@ -4,15 +4,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "counted.h"
-#include "near.h"
-
-#include "synthetic_curve.h"
-#include "weartrack/fit.h"
+#include "fitted_curve.h"
 
 #include <string.h>
-
-static curve_data data;
-static wt_indent_workspace *workspace;
 
 typedef struct sine {
     double amplitude, period, phase;
@@ -43,19 +37,6 @@ static void make(const curve_truth *t, const sine *s, uint64_t seed)
         const double path = s->by_height ? z : z - bent;
         data.force[i] += s->amplitude * sin(2 * M_PI * path / s->period + s->phase);
     }
-}
-
-static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
-{
-    wt_contact_table *table = NULL;
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
-                            t->spring_constant, workspace, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    wt_contact_table_free(table);
-    return fit;
 }
 
 static wt_indent_fit fit_of(const curve_truth *t)
@@ -235,19 +216,6 @@ static void adhesion_tried_in_vain(void **state)
     }
     wt_force_curve_clear(&curve);
     wt_contact_table_free(table);
-}
-
-static int make_workspace(void **state)
-{
-    (void)state;
-    return (workspace = wt_indent_workspace_new()) == NULL;
-}
-
-static int free_workspace(void **state)
-{
-    (void)state;
-    wt_indent_workspace_free(workspace);
-    return 0;
 }
 
 int main(void)

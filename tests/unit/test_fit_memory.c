@@ -3,10 +3,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "fit/indentation/curve.h"
-#include "synthetic_curve.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,8 +15,6 @@ enum { TERMS = 3 };
 static double modulus[TERMS] = {6e6, 4e6, 2e6}, relaxation_time[TERMS] = {2e-3, 2e-2, 0.3};
 static const wt_prony spectrum = {
     .equilibrium_modulus = 2e6, .n = TERMS, .modulus = modulus, .relaxation_time = relaxation_time};
-static curve_data data;
-static wt_indent_workspace *workspace;
 
 /* Mean of E(t) between two times. */
 static double mean_relaxation(double from, double to)
@@ -77,19 +74,6 @@ static curve_truth lossy_curve(void)
     t.spring_constant = 0.5;
     t.noise = 0;
     return t;
-}
-
-static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
-{
-    wt_contact_table *table = NULL;
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
-                            t->spring_constant, workspace, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    wt_contact_table_free(table);
-    return fit;
 }
 
 /* At any rate the factor is the true one, and the modulus |E*| at 1/t_c; an elastic fit is not. */
@@ -291,8 +275,5 @@ int main(void)
         cmocka_unit_test(bias_of_loss),
         cmocka_unit_test(no_word_beyond_what_was_tried),
     };
-    workspace = wt_indent_workspace_new();
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    wt_indent_workspace_free(workspace);
-    return failed;
+    return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

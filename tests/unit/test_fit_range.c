@@ -4,15 +4,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "counted.h"
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "fit/indentation/curve.h"
-#include "synthetic_curve.h"
 
 #include <string.h>
-
-static curve_data data;
-static wt_indent_workspace *workspace;
 
 static wt_status fit_curve(const curve_truth *t, const wt_indent_options *options,
                            wt_indent_fit *fit, wt_error *err)
@@ -23,28 +19,6 @@ static wt_status fit_curve(const curve_truth *t, const wt_indent_options *option
                                                  t->n, t->spring_constant, workspace, fit, err);
     wt_contact_table_free(table);
     return status;
-}
-
-static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
-{
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    if (fit_curve(t, options, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    return fit;
-}
-
-static wt_indent_options every_curve(void)
-{
-    wt_indent_options options = wt_indent_defaults();
-    options.least_chance = 0;
-    return options;
-}
-
-static void assert_accepted(const wt_indent_fit *fit)
-{
-    if (fit->verdict != WT_CURVE_ACCEPTED)
-        fail_msg("%s: %s", wt_curve_verdict_id(fit->verdict), fit->reason);
 }
 
 static void range_of_the_fit(void **state)
@@ -273,19 +247,6 @@ static void limits_in_order(void **state)
         assert_int_equal(fit_curve(&t, &o[i], &fit, &err), WT_E_RANGE);
         assert_non_null(strstr(err.message, i < 4 ? "empty" : "radius"));
     }
-}
-
-static int make_workspace(void **state)
-{
-    (void)state;
-    return (workspace = wt_indent_workspace_new()) == NULL;
-}
-
-static int free_workspace(void **state)
-{
-    (void)state;
-    wt_indent_workspace_free(workspace);
-    return 0;
 }
 
 int main(void)

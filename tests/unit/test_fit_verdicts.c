@@ -3,32 +3,14 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "counted.h"
-#include "near.h"
+#include "fitted_curve.h"
 
 #include "fit/indentation/curve.h"
 #include "model/adhesion.h"
-#include "synthetic_curve.h"
-#include "weartrack/fit.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
-
-static curve_data data;
-static wt_indent_workspace *workspace;
-
-static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
-{
-    wt_contact_table *table = NULL;
-    wt_indent_fit fit;
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
-                            t->spring_constant, workspace, &fit, &err) != WT_OK)
-        fail_msg("%s", err.message);
-    wt_contact_table_free(table);
-    return fit;
-}
 
 /* Fits and checks the verdict and a word of the reason; a curve that was fitted keeps its modulus,
  * whatever the verdict. */
@@ -634,20 +616,6 @@ static void names_of_verdicts(void **state)
     assert_string_equal(wt_curve_verdict_id((wt_curve_verdict)999), "unknown");
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    workspace = wt_indent_workspace_new();
-    return workspace == NULL;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    wt_indent_workspace_free(workspace);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -675,5 +643,5 @@ int main(void)
         cmocka_unit_test(nonsense_has_a_verdict_too),
         cmocka_unit_test(names_of_verdicts),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

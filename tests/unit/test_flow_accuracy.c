@@ -124,14 +124,6 @@ static void test_no_such_part(void **state)
 
 /* ---- budget ---------------------------------------------------------------------------------- */
 
-static void set_up(void)
-{
-    static const double velocity = 0.1;
-    sliding_set_up(&velocity, 1);
-    sliding.pressure.standard_error = 0.02e6;
-    sliding.shear_stress.standard_error = 0.5e6;
-}
-
 static double relative(const wt_table *table, const char *number, const char *source)
 {
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
@@ -181,7 +173,7 @@ static void check_reach(const char *advice, const wt_table *what_if, const char 
 static void test_seeds(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     double low = (double)INFINITY, high = 0;
     const uint64_t before = work.seed;
     sliding.pressure.standard_error = 0;
@@ -199,7 +191,7 @@ static void test_one_source_at_a_time(void **state)
 {
     (void)state;
     static const char number[] = "friction coefficient";
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *what_if = NULL, *table = NULL;
     assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
     assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &table, NULL),
@@ -247,7 +239,7 @@ static void test_measured_surface(void **state)
     double q[] = {1e3, 4e3, 1e6, 4e6}, c[] = {1e-16, 5e-17, 1e-24, 1e-26},
            modes[] = {0.5, 0.3, 0.1, 0}, law[] = {0, 0, 0, 0.3};
     wt_table *table = NULL;
-    set_up();
+    sliding_set_up_uncertain();
     surface = (wt_surface){.q0 = 1e3, .q1 = 4e6, .c0 = {1, 0, 0, "1"}};
     surface.spectrum = (wt_power_spectrum){.n = 4, .wavenumber = q, .density = c};
     surface.modes_error = modes;
@@ -284,7 +276,7 @@ static void test_measured_surface(void **state)
 static void test_seconds(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *what_if = NULL, *plain = NULL, *timed = NULL;
     assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
     assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &plain, NULL),
@@ -314,7 +306,7 @@ static void test_seconds(void **state)
 static void test_nothing_stated(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = NULL;
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
@@ -338,7 +330,7 @@ static void test_exact_ratio(void **state)
     (void)state;
     const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
                                   .modulus_ratio = {0.6, 0, 0, "1"}};
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = NULL;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
@@ -360,7 +352,7 @@ static void test_calibration(void **state)
     const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
                                   .modulus_ratio = {0.6, 0.06, 0, "1"},
                                   .calibration_share = 0.36};
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = NULL;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
@@ -390,22 +382,13 @@ static wt_table *cover(size_t trials, unsigned threads)
     return table;
 }
 
-static size_t covered_row(const wt_table *table, const char *number)
-{
-    for (size_t i = 0; i < wt_table_n_rows(table); i++)
-        if (strcmp(text_cell(table, i, "number"), number) == 0)
-            return i;
-    fail_msg("no row %s", number);
-    return 0;
-}
-
 /* The friction scatters over the trials as it says, and the share is what is stated. */
 static void test_coverage(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = cover(400, 1), *again = cover(400, 3);
-    const size_t row = covered_row(table, "friction coefficient");
+    const size_t row = row_where(table, "number", "friction coefficient");
     assert_int_equal(wt_table_n_rows(table), 3); /* no layer, no isotherms, no groups */
     assert_near(number_cell(table, row, "trials"), 400, 1e-12);
     assert_true(fabs(number_cell(table, row, "scatter") - 1) < 0.15);
@@ -464,7 +447,7 @@ static void test_verdicts_of_shares(void **state)
 static void test_nothing_to_cover(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
     wt_table *table = cover(3, 1);
     assert_int_equal(wt_table_n_rows(table), 0);

@@ -43,15 +43,6 @@ static wt_table *plan_of(const char *text)
     return plan;
 }
 
-static size_t row_of(const wt_table *plan, const char *stage)
-{
-    for (size_t i = 0; i < wt_table_n_rows(plan); i++)
-        if (strcmp(text_cell(plan, i, "stage"), stage) == 0)
-            return i;
-    fail_msg("no stage %s", stage);
-    return 0;
-}
-
 /* `runs` lists the stages that run, each followed by a blank. */
 static void check_plan(const char *text, const char *runs)
 {
@@ -75,7 +66,7 @@ static void check_plan(const char *text, const char *runs)
 static void check_because(const char *text, const char *stage, const char *part)
 {
     wt_table *plan = plan_of(text);
-    const char *because = text_cell(plan, row_of(plan, stage), "because");
+    const char *because = text_cell(plan, row_where(plan, "stage", stage), "because");
     if (strstr(because, part) == NULL)
         fail_msg("%s: %s", stage, because);
     wt_table_free(plan);
@@ -108,7 +99,7 @@ static void test_what_runs(void **state)
 static void check_title(const char *text, const char *stage, const char *title)
 {
     wt_table *plan = plan_of(text);
-    assert_string_equal(text_cell(plan, row_of(plan, stage), "title"), title);
+    assert_string_equal(text_cell(plan, row_where(plan, "stage", stage), "title"), title);
     wt_table_free(plan);
 }
 

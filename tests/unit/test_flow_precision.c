@@ -6,14 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static void set_up(void)
-{
-    static const double velocity = 0.1;
-    sliding_set_up(&velocity, 1);
-    sliding.pressure.standard_error = 0.02e6;
-    sliding.shear_stress.standard_error = 0.5e6;
-}
-
 static wt_table *sweep(size_t repeats)
 {
     const wt_accuracy_job job = {.repeats = repeats};
@@ -49,7 +41,7 @@ static wt_estimate friction_at(double tolerance, size_t replicates, uint64_t see
 static void test_tolerance(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = sweep(1);
     const double tight = friction_at(1e-13, 0, 1).value;
     size_t found = 0;
@@ -76,7 +68,7 @@ static void test_textbook(void **state)
     static const char *const parts[] = {"hysteresis part by tolerance",
                                         "real over nominal contact area by tolerance",
                                         "friction coefficient by tolerance"};
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = sweep(1);
     for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
         double first = 0, last = 0;
@@ -102,7 +94,7 @@ static void test_replicates(void **state)
 {
     (void)state;
     static const char part[] = "error of friction coefficient by replicates";
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *table = sweep(1);
     const double reference = friction_at(work.tolerance, 2400, work.seed).standard_error;
     size_t found = 0;
@@ -129,7 +121,7 @@ static void test_replicates(void **state)
 static void test_times(void **state)
 {
     (void)state;
-    set_up();
+    sliding_set_up_uncertain();
     wt_table *plain = sweep(1);
     work.threads = 3;
     work.cost = wt_cost_new(true, 3);

@@ -72,15 +72,6 @@ static void check_answer(const ran *r, const char *kind, const char *part)
     fail_msg("no answer of kind %s says \"%s\"", kind, part);
 }
 
-static size_t stage_row(const wt_table *cost, const char *stage)
-{
-    for (size_t i = 0; i < wt_table_n_rows(cost); i++)
-        if (strcmp(text_cell(cost, i, "stage"), stage) == 0)
-            return i;
-    fail_msg("no stage %s", stage);
-    return 0;
-}
-
 /* The same numbers as the kernel gives when it is asked directly, at another temperature. */
 static void test_friction_only(void **state)
 {
@@ -131,9 +122,10 @@ static void test_friction_only(void **state)
     check_answer(&r, "friction", "hysteresis");
     check_answer(&r, "caveat", "shift law; not the model");
     const wt_table *cost = table_of(&r, "cost");
-    assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
-    assert_true(number_cell(cost, stage_row(cost, "friction"), "error_estimated") <= 1e-10);
-    assert_near(number_cell(cost, stage_row(cost, "layer"), "runs"), 0, 0);
+    assert_near(number_cell(cost, row_where(cost, "stage", "friction"), "runs"), 1, 0);
+    assert_true(number_cell(cost, row_where(cost, "stage", "friction"), "error_estimated") <=
+                1e-10);
+    assert_near(number_cell(cost, row_where(cost, "stage", "layer"), "runs"), 0, 0);
     assert_int_equal(wt_table_n_rows(table_of(&r, "inputs")), 1); /* the case itself */
     assert_null(wt_result_find(r.result, "layer"));
     wt_result_free(r.result);
@@ -176,7 +168,7 @@ static void test_stand_in(void **state)
     assert_int_equal(r.n_failed, 1);
     assert_string_equal(text_cell(table_of(&r, "failures"), 0, "file"),
                         "stage friction with the layer");
-    const size_t first = stage_row(cost, "friction");
+    const size_t first = row_where(cost, "stage", "friction");
     assert_non_null(strstr(text_cell(cost, first, "because"), ", and failed"));
     assert_string_equal(text_cell(cost, first + 1, "stage"), "friction");
     assert_string_equal(text_cell(cost, first + 1, "because"),

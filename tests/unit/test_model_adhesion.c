@@ -2,48 +2,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "reference_contact.h"
 
 #include "model/adhesion.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-static char text[1 << 16];
-
-/* The number behind the next "key": before `end`; NaN if there is none. */
-static double number(const char **at, const char *key, const char *end)
-{
-    char quoted[64];
-    snprintf(quoted, sizeof quoted, "\"%s\":", key);
-    const char *found = strstr(*at, quoted);
-    if (found == NULL || (end != NULL && found > end))
-        return (double)NAN;
-    *at = found + strlen(quoted);
-    return strtod(*at, NULL);
-}
-
-static double number_in(const char *at, const char *key, const char *end)
-{
-    return number(&at, key, end);
-}
-
-static wt_tip read_tip(const char *at, const char *end)
-{
-    const double degrees = number_in(at, "deg", end);
-    wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = number_in(at, "R", end)};
-    if (isnan(degrees))
-        return tip;
-    tip.half_angle = degrees * M_PI / 180.0;
-    tip.shape = WT_TIP_CONE;
-    if (isnan(tip.radius))
-        return tip;
-    tip.shape = WT_TIP_BLUNTED_PYRAMID;
-    tip.sides = (unsigned)number_in(at, "n", end);
-    tip.transition_radius = number_in(at, "b", end);
-    return tip;
-}
 
 static wt_contact_table *table_of(const wt_tip *tip)
 {
@@ -80,7 +41,7 @@ static void check_release(const adhesion *law, double k, const char *at, const c
     assert_near(adhesion_work(law->table, law->reduced, k, -c.force), law->work, 1e-9);
 }
 
-static void check_case(const char *at, const char *next)
+static int check_case(const char *at, const char *next)
 {
     const wt_tip tip = read_tip(at, strstr(at, "Estar_Pa"));
     wt_contact_table *table = table_of(&tip);
@@ -102,20 +63,14 @@ static void check_case(const char *at, const char *next)
         assert_near(c.stiffness, number_in(p, "dF_ddelta_N_per_m", next), 1e-9);
     }
     wt_contact_table_free(table);
+    return 1;
 }
 
 static void reference_cases(void **state)
 {
     (void)state;
-    FILE *file = fopen(WT_SHARED_DIR "/reference/indentation/jkr.json", "r");
-    if (file == NULL)
-        skip();
-    assert_true(fread(text, 1, sizeof text - 1, file) > 1000);
-    fclose(file);
-    int n = 0;
-    for (const char *at = text; (at = strstr(at, "\"id\":")) != NULL; at += 5, n++)
-        check_case(at, strstr(at + 5, "\"id\":"));
-    assert_int_equal(n, 6);
+    assert_int_equal(check_reference(WT_SHARED_DIR "/reference/indentation/jkr.json", check_case),
+                     6);
 }
 
 static double force_at(adhesion law, double depth)

@@ -3,33 +3,11 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "reference_contact.h"
 
 #include "model/hereditary.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { TERMS = 16, STEPS = 20000 };
-static char text[1 << 16];
-
-/* The number behind the next "key": before `end`; NaN if there is none. */
-static double number(const char **at, const char *key, const char *end)
-{
-    char quoted[64];
-    snprintf(quoted, sizeof quoted, "\"%s\":", key);
-    const char *found = strstr(*at, quoted);
-    if (found == NULL || (end != NULL && found > end))
-        return (double)NAN;
-    *at = found + strlen(quoted);
-    return strtod(*at + strspn(*at, " \n["), NULL);
-}
-
-static double number_in(const char *at, const char *key, const char *end)
-{
-    return number(&at, key, end);
-}
 
 static size_t list(const char *at, const char *key, double to[TERMS])
 {
@@ -43,22 +21,6 @@ static size_t list(const char *at, const char *key, double to[TERMS])
         n++;
     }
     return n;
-}
-
-static wt_tip read_tip(const char *at, const char *end)
-{
-    const double degrees = number_in(at, "deg", end);
-    wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = number_in(at, "R", end)};
-    if (isnan(degrees))
-        return tip;
-    tip.half_angle = degrees * M_PI / 180.0;
-    tip.shape = WT_TIP_CONE;
-    if (isnan(tip.radius))
-        return tip;
-    tip.shape = WT_TIP_BLUNTED_PYRAMID;
-    tip.sides = (unsigned)number_in(at, "n", end);
-    tip.transition_radius = number_in(at, "b", end);
-    return tip;
 }
 
 /* Lines between the times of a motion, or a squared sine. */
@@ -132,15 +94,8 @@ static int check_case(const char *at, const char *next)
 static void reference_cases(void **state)
 {
     (void)state;
-    FILE *file = fopen(WT_SHARED_DIR "/reference/indentation/viscoelastic.json", "r");
-    if (file == NULL)
-        skip();
-    assert_true(fread(text, 1, sizeof text - 1, file) > 1000);
-    fclose(file);
-    int n = 0;
-    for (const char *at = text; (at = strstr(at, "\"id\":")) != NULL; at += 5)
-        n += check_case(at, strstr(at + 5, "\"id\":"));
-    assert_int_equal(n, 24);
+    assert_int_equal(
+        check_reference(WT_SHARED_DIR "/reference/indentation/viscoelastic.json", check_case), 24);
 }
 
 /* Terms far outside the motion go into the spring and the dashpot; the force hardly notices. */

@@ -306,6 +306,15 @@ static void test_hostile(void **state)
     cannot_read(NULL, WT_E_CORRUPT, "more text than a file of this size can hold");
 }
 
+static size_t file_bytes(unsigned char *bytes, size_t size)
+{
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    const size_t n = fread(bytes, 1, size, in);
+    (void)fclose(in);
+    return n;
+}
+
 /* A book cut off, and an archive that is none. */
 static void test_damaged(void **state)
 {
@@ -314,10 +323,7 @@ static void test_damaged(void **state)
     static unsigned char bytes[100000];
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         assert_int_equal(kinds[k](path, &sheet, 1), 0);
-        FILE *in = fopen(path, "rb");
-        assert_non_null(in);
-        const size_t n = fread(bytes, 1, sizeof bytes, in);
-        (void)fclose(in);
+        const size_t n = file_bytes(bytes, sizeof bytes);
         for (size_t part = 1; part < 8; part++) {
             wt_sweep sweep;
             wt_error err;
@@ -374,15 +380,6 @@ static void test_code_page(void **state)
         assert_near(sweep.isotherms[0].temperature, 293.15, 1e-14);
         wt_sweep_clear(&sweep);
     }
-}
-
-static size_t file_bytes(unsigned char *bytes, size_t size)
-{
-    FILE *in = fopen(path, "rb");
-    assert_non_null(in);
-    const size_t n = fread(bytes, 1, size, in);
-    (void)fclose(in);
-    return n;
 }
 
 /* Where such a record stands, behind the place. */

@@ -3,6 +3,13 @@
 #ifndef WT_DATA_TABLES_INDENTATION_H
 #define WT_DATA_TABLES_INDENTATION_H
 
+/* Those that a curve has: WT_CURVE_WAVES. */
+#define MISFIT_WAVE(X, n)                                                                          \
+    X(INDENTATION_MISFIT_WAVE_##n, "misfit_wave_" #n,                                              \
+      "cosine " #n " of the residual over the contact, of the largest force; of curves that tell " \
+      "of depth",                                                                                  \
+      NUMBER, SHOWS(deep.misfit[n - 1]), OPTIONAL)
+
 /* A table written by hand needs the verdicts and the moduli only. */
 #define INDENTATION_COLUMNS(X)                                                                     \
     X(INDENTATION_FILE, AS(file), "file of the curve", TEXT, LABEL("File"), OPTIONAL)              \
@@ -117,30 +124,12 @@
       STANDARD_ERROR(INDENTATION_SPECTRUM_FACTOR), OPTIONAL)                                       \
     X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
       "standard error of the factor", NUMBER, OPTIONAL)                                            \
-    X(INDENTATION_MISFIT_WAVE_1, "misfit_wave_1",                                                  \
-      "cosine 1 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[0]), OPTIONAL)                                                     \
-    X(INDENTATION_MISFIT_WAVE_2, "misfit_wave_2",                                                  \
-      "cosine 2 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[1]), OPTIONAL)                                                     \
-    X(INDENTATION_MISFIT_WAVE_3, "misfit_wave_3",                                                  \
-      "cosine 3 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[2]), OPTIONAL)                                                     \
-    X(INDENTATION_MISFIT_WAVE_4, "misfit_wave_4",                                                  \
-      "cosine 4 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[3]), OPTIONAL)                                                     \
-    X(INDENTATION_MISFIT_WAVE_5, "misfit_wave_5",                                                  \
-      "cosine 5 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[4]), OPTIONAL)                                                     \
-    X(INDENTATION_MISFIT_WAVE_6, "misfit_wave_6",                                                  \
-      "cosine 6 of the residual over the contact, of the largest force; of curves that tell of "   \
-      "depth",                                                                                     \
-      NUMBER, SHOWS(deep.misfit[5]), OPTIONAL)                                                     \
+    MISFIT_WAVE(X, 1)                                                                              \
+    MISFIT_WAVE(X, 2)                                                                              \
+    MISFIT_WAVE(X, 3)                                                                              \
+    MISFIT_WAVE(X, 4)                                                                              \
+    MISFIT_WAVE(X, 5)                                                                              \
+    MISFIT_WAVE(X, 6)                                                                              \
     X(INDENTATION_MISFIT_LENGTH, "misfit_length", "travel of the piezo that the cosines are over", \
       SI(LENGTH), SHOWS(deep.window), OPTIONAL)                                                    \
     X(INDENTATION_BASELINE_LENGTH, "baseline_length", "travel of the piezo before contact",        \

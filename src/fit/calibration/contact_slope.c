@@ -62,23 +62,6 @@ typedef struct samples {
     size_t n;
 } samples;
 
-static double mean_of(const double *values, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += values[i];
-    return sum / (double)n;
-}
-
-static void reverse_order(double *values, size_t n)
-{
-    for (size_t i = 0; i < n / 2; i++) {
-        const double kept = values[i];
-        values[i] = values[n - 1 - i];
-        values[n - 1 - i] = kept;
-    }
-}
-
 static void take_samples(samples *s, const double *position, const double *signal, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -87,9 +70,9 @@ static void take_samples(samples *s, const double *position, const double *signa
             s->v[s->n++] = signal[i];
         }
     const size_t end = s->n / FAR_SHARE;
-    if (end > 0 && mean_of(s->v, end) > mean_of(s->v + s->n - end, end)) {
-        reverse_order(s->z, s->n);
-        reverse_order(s->v, s->n);
+    if (end > 0 && numbers_mean(s->v, end) > numbers_mean(s->v + s->n - end, end)) {
+        numbers_reverse(s->z, s->n);
+        numbers_reverse(s->v, s->n);
     }
 }
 
@@ -118,7 +101,7 @@ typedef struct line {
 
 static line line_through(const double *z, const double *v, size_t n)
 {
-    line l = {mean_of(z, n), mean_of(v, n), 0};
+    line l = {numbers_mean(z, n), numbers_mean(v, n), 0};
     double zz = 0, zv = 0;
     for (size_t i = 0; i < n; i++) {
         zz += (z[i] - l.z) * (z[i] - l.z);
@@ -190,8 +173,8 @@ static double baseline_tilt(const samples *s, const part *p, double *standard_er
         return (double)NAN;
     for (size_t b = 0; b < BLOCKS; b++) {
         const size_t first = n * b / BLOCKS, length = n * (b + 1) / BLOCKS - first;
-        z[b] = mean_of(s->z + first, length);
-        v[b] = mean_of(s->v + first, length);
+        z[b] = numbers_mean(s->z + first, length);
+        v[b] = numbers_mean(s->v + first, length);
     }
     const line l = line_through(z, v, BLOCKS);
     for (size_t b = 0; b < BLOCKS; b++) {
@@ -213,10 +196,10 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     double z[BLOCKS], v[BLOCKS], zz = 0, zzz = 0, zv = 0, qq = 0, qv = 0, left = 0;
     for (size_t b = 0; b < n; b++) {
         const size_t first = p->n * b / n, end = p->n * (b + 1) / n;
-        z[b] = mean_of(s->z + p->first + first, end - first);
-        v[b] = mean_of(s->v + p->first + first, end - first);
+        z[b] = numbers_mean(s->z + p->first + first, end - first);
+        v[b] = numbers_mean(s->v + p->first + first, end - first);
     }
-    const double z0 = mean_of(z, n), v0 = mean_of(v, n);
+    const double z0 = numbers_mean(z, n), v0 = numbers_mean(v, n);
     for (size_t b = 0; b < n; b++) {
         z[b] -= z0;
         v[b] -= v0;
@@ -351,7 +334,7 @@ static double unit_mean(const double *values, const long *units, size_t n, size_
     do
         ++*at;
     while (units != NULL && *at < n && units[*at] == units[first]);
-    return mean_of(values + first, *at - first);
+    return numbers_mean(values + first, *at - first);
 }
 
 static size_t count_units(const double *values, const long *units, size_t n, double *sum)

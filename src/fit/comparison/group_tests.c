@@ -92,12 +92,6 @@ typedef struct ranked {
     bool track;
 } ranked;
 
-static int by_value(const void *a, const void *b)
-{
-    const ranked *x = a, *y = b;
-    return (x->value > y->value) - (x->value < y->value);
-}
-
 /* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
  * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
 static wt_status rank_units(const compare_units *units, pool *memory, double *u, double *ties,
@@ -110,7 +104,7 @@ static wt_status rank_units(const compare_units *units, pool *memory, double *u,
     for (size_t i = 0; i < n; i++)
         all[i] =
             i < m ? (ranked){units->value[1][i], true} : (ranked){units->value[0][i - m], false};
-    qsort(all, n, sizeof *all, by_value);
+    qsort(all, n, sizeof *all, numbers_compare);
     double ranks = 0.0;
     *ties = 0.0;
     for (size_t first = 0, end = 0; first < n; first = end) {

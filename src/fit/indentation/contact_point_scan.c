@@ -352,8 +352,7 @@ static double brent(projection *p, double lo, double middle, double hi, double a
 
 /* Indices of the minima of the scan, lowest first, no more than CURVE_MAX_MINIMA. One that no
  * rise parts from a lower one is only a ripple. A minimum at the far end counts: contact before the
- * start.
- */
+ * start. */
 static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t *bottom)
 {
     size_t m = 0;

@@ -221,7 +221,6 @@ typedef struct curve_solution {
     double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of work */
     double standard_error[CURVE_N_PARAMETERS]; /* with the next */
     double misfit_error[CURVE_N_PARAMETERS];   /* of them that of what the law misses: misfit.c */
-    double no_misfit;                          /* chance that it misses nothing; 0: not asked */
     double cost;
     double sensitivity_gain;
     double bend_shift;    /* of the reduced modulus, if a bent baseline goes on in contact */

@@ -13,7 +13,6 @@
 #include "fit/indentation/curve_model.h"
 
 #include "model/adhesion.h"
-#include "model/tip.h"
 
 #include <math.h>
 #include <string.h>

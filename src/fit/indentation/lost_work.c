@@ -8,7 +8,6 @@
 #include "fit/indentation/curve_fitting.h"
 
 #include "model/root.h"
-#include "model/tip.h"
 
 #include <math.h>
 

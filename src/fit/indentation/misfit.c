@@ -68,8 +68,7 @@ static const double error_step = 0.01; /* of an error: to be said with two digit
 
 /* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
  * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
- * feel it.
- */
+ * feel it. */
 static const double holds = 0.8;
 static const double to_be_seen = 3.0; /* of a force, in noise of a block: one of 700 by chance */
 
@@ -579,7 +578,6 @@ void curve_add_misfit(curve_fitting *f)
     const double seen = sqrt(curve_dot(residual, residual, b.n) / (double)b.n) / force;
     if (!weigh_sizes(&d, fmin(largest_size, most_hidden * seen), b.freedom, &found))
         return;
-    s->no_misfit = found.part[0].chance;
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
         const double noise = s->standard_error[i],

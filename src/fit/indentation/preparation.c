@@ -5,6 +5,7 @@
  */
 #include "fit/indentation/curve.h"
 
+#include "base/array.h"
 #include "base/clocale.h"
 
 #include <gsl/gsl_statistics_double.h>
@@ -478,14 +479,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
 
 void curve_reverse(curve_samples *s)
 {
-    for (size_t i = 0; i < s->n / 2; i++) {
-        size_t j = s->n - 1 - i;
-        double z = s->position[i], f = s->force[i];
-        s->position[i] = s->position[j];
-        s->force[i] = s->force[j];
-        s->position[j] = z;
-        s->force[j] = f;
-    }
+    numbers_reverse(s->position, s->n);
+    numbers_reverse(s->force, s->n);
     for (size_t i = 0; i < s->n; i++)
         s->position[i] = -s->position[i];
 }

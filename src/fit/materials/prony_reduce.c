@@ -5,6 +5,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
+
+#include "base/array.h"
 #include "base/param.h"
 #include "fit/pool_gsl.h"
 #include "model/prony.h"
@@ -311,12 +313,6 @@ static void merge_terms(reducer *r, double little)
     leave_out(r, at + 1);
 }
 
-static int by_time(const void *left, const void *right)
-{
-    const double *a = left, *b = right;
-    return (*a > *b) - (*a < *b);
-}
-
 /* The best of so many terms, into `kept`; what they are off. */
 static double fit_best_terms(reducer *r, double *kept, double off)
 {
@@ -325,7 +321,7 @@ static double fit_best_terms(reducer *r, double *kept, double off)
         if (largest_share(r, i) < none)
             leave_out(r, i);
     memcpy(kept, r->unknown, n_unknowns(r) * sizeof *kept);
-    qsort(kept, r->terms, 2 * sizeof *kept, by_time);
+    qsort(kept, r->terms, 2 * sizeof *kept, numbers_compare);
     return off;
 }
 

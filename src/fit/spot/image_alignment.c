@@ -13,8 +13,7 @@
  * is looked. */
 enum { COARSE = 64, NEAR = 3 };
 /* Parts along an axis, each with its own shift; fewest of all parts, twice the constants of a
- * drift.
- */
+ * drift. */
 enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
 /* A bound of time. */
 enum { MOST_STEPS = 20 };

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/strain/kraus_region.h"
 
+#include "base/array.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,14 +34,6 @@ double wt_kraus_loss(const wt_kraus *law, double strain)
 
 /* ---- as measured ----------------------------------------------------------------------------- */
 
-static double mean_of(const double *values, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += values[i];
-    return sum / (double)n;
-}
-
 static double falls_below(const payne_points *p, double to)
 {
     const double *x = p->log_strain, *y = p->storage;
@@ -56,9 +50,9 @@ static void measure_softening(const payne_points *p, wt_payne *payne)
            p->log_strain[first] - p->log_strain[0] <= log(start_ratio))
         first++;
     const size_t last = p->n < END ? p->n : END;
-    payne->storage_start = mean_of(p->storage, first);
-    payne->loss_start = mean_of(p->loss, first);
-    payne->storage_end = mean_of(p->storage + p->n - last, last);
+    payne->storage_start = numbers_mean(p->storage, first);
+    payne->loss_start = numbers_mean(p->loss, first);
+    payne->storage_end = numbers_mean(p->storage + p->n - last, last);
     payne->strain_tenth = falls_below(p, tenth * payne->storage_start);
     payne->strain_half = falls_below(p, half * payne->storage_start);
     for (size_t i = 1; i < p->n; i++)

@@ -1,6 +1,5 @@
 /* What the heights of a surface are: amplitudes and slopes. SPDX-License-Identifier:
- * GPL-3.0-or-later
- */
+ * GPL-3.0-or-later */
 #include "fit/surface/surface_heights.h"
 
 #include <math.h>

@@ -6,7 +6,6 @@
 
 #include "base/gsl_quiet.h"
 #include "base/quantity.h"
-#include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>

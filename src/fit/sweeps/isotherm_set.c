@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/sweeps/isotherm.h"
 
+#include "base/array.h"
+
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -11,12 +13,6 @@
 struct point {
     double x, y[MODULI];
 };
-
-static int by_x(const void *left, const void *right)
-{
-    const double a = ((const struct point *)left)->x, b = ((const struct point *)right)->x;
-    return (a > b) - (a < b);
-}
 
 struct order {
     double temperature;
@@ -185,7 +181,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
                         isotherm->temperature - WT_ZERO_CELSIUS, curve->n_left_out, isotherm->n,
                         isotherm->angular_frequency[first_bad],
                         isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
-    qsort(scratch, n, sizeof *scratch, by_x);
+    qsort(scratch, n, sizeof *scratch, numbers_compare);
     fill_points(scratch, n, curve);
     return WT_OK;
 }

@@ -5,7 +5,6 @@
 
 #include "base/param.h"
 #include "fit/pool_gsl.h"
-#include "fit/sweeps/closed_form.h"
 #include "fit/sweeps/spectrum_start.h"
 
 #include <math.h>

@@ -33,10 +33,8 @@ static double median_accepted(const table_view *indentation, indentation_column 
         if (!isnan(value) && is_accepted(indentation, i))
             values[n++] = value;
     }
-    if (n > 0) {
-        numbers_sort(values, n);
-        median = (values[(n - 1) / 2] + values[n / 2]) / 2;
-    }
+    if (n > 0)
+        median = numbers_median(values, n);
     free(values);
     return median;
 }

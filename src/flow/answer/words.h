@@ -1,6 +1,5 @@
 /* Numbers and reasons in the sentences of an answer. Internal to flow. SPDX-License-Identifier:
- * GPL-3.0-or-later
- */
+ * GPL-3.0-or-later */
 #ifndef WEARTRACK_FLOW_WORDS_H
 #define WEARTRACK_FLOW_WORDS_H
 

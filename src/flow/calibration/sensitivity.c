@@ -144,14 +144,15 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
 }
 
 /* Volts of the detector, or metres where the file does not lead to them. */
-static wt_status read_file(sensitivity_task *task, flow_file *file, long unit, wt_error *err)
+static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *err)
 {
+    sensitivity_task *task = user;
     static const wt_quantity signals[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
     wt_input *input = NULL;
     bool no_signal = true;
     wt_status status = flow_open(task->work, file, "sensitivity", WT_KIND_FORCE, &input, err);
     for (size_t i = 0; i < COUNT_OF(signals) && status == WT_OK && no_signal; i++)
-        status = read_curves(task, file, unit, input, signals[i], &no_signal, err);
+        status = read_curves(task, file, (long)unit, input, signals[i], &no_signal, err);
     if (status == WT_OK && no_signal) {
         status = wt_fail(err, WT_E_MISSING, "the curves have no deflection");
         wt_error_expected(err, "a channel of deflection in volts or metres, or of force");
@@ -163,18 +164,8 @@ static wt_status read_file(sensitivity_task *task, flow_file *file, long unit, w
 
 static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_error *err)
 {
-    wt_status status = WT_OK;
-    size_t n_failed = 0;
-    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        status = read_file(task, &files->file[i], (long)i, &failure);
-        if (status == WT_OK || flow_leave_out(task->work, &files->file[i], &failure)) {
-            status = WT_OK;
-            continue;
-        }
-        n_failed++;
-        status = wt_job_failed(task->work, files->file[i].name, status, &failure, err);
-    }
+    size_t n_failed;
+    wt_status status = flow_files_take(files, task->work, read_file, task, &n_failed, err);
     if (status == WT_OK && task->n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
         flow_tell_files(files, n_failed, err);
@@ -189,7 +180,6 @@ static bool has_way(const item *it, size_t way)
     return it->there[way] && it->way[way].found;
 }
 
-/* Travel per signal. */
 static double travel_per_signal(const item *it, size_t way)
 {
     return 1 / it->way[way].slope;
@@ -297,7 +287,7 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
 
 /* Of the curves that have the ways of a row. */
 typedef struct group {
-    size_t n, n_units, n_with_retract;
+    size_t n, n_units;
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, own_error; /* of one curve alone, of the sensitivity */
     double scatter;         /* of a unit, of the sensitivity */
@@ -313,48 +303,34 @@ typedef struct collected {
     double *values; /* [n] */
     long *units;
     size_t n;
+    const item *last;
 } collected;
 
-static void add_value(collected *c, double value, long unit)
+static bool is_usable(const item *it, size_t row)
 {
-    if (isnan(value))
-        return;
-    c->values[c->n] = value;
-    c->units[c->n++] = unit;
-}
-
-static double change_error(const item *it, size_t way)
-{
-    return it->way[way].change_error;
+    return !it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1));
 }
 
 /* The change of the slope of one curve, with the error of the scatter within it. */
 static wt_interval own_change(const item *it, size_t row, double value)
 {
     const bool both = row == WAYS;
-    const size_t way = both ? 0 : row;
-    const double error =
-        both ? hypot(change_error(it, 0), change_error(it, 1)) / 2 : change_error(it, way);
-    const double freedom =
-        both ? fmin(it->way[0].freedom, it->way[1].freedom) : it->way[way].freedom;
-    const double half = wt_student(freedom) * error;
+    const wt_contact_slope *const a = &it->way[both ? 0 : row], *const b = &it->way[1];
+    const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error;
+    const double half = wt_student(both ? fmin(a->freedom, b->freedom) : a->freedom) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
 
 static void decide_straight(group *g, double most)
 {
     const wt_interval *c = &g->change;
-    if (c->value > most && c->low > 0) {
-        g->refused = true;
-        g->verdict = "soft surface: the slope rises with the deflection";
-    } else if (c->value < -most && c->high < 0) {
-        g->refused = true;
-        g->verdict = "not straight: the slope falls with the deflection";
-    } else if (c->low >= -most && c->high <= most) {
-        g->verdict = "straight";
-    } else {
-        g->verdict = "cannot say whether the surface is hard: the slope scatters too much";
-    }
+    const bool rises = c->value > most && c->low > 0, falls = c->value < -most && c->high < 0;
+    g->refused = rises || falls;
+    g->verdict = rises   ? "soft surface: the slope rises with the deflection"
+                 : falls ? "not straight: the slope falls with the deflection"
+                 : c->low >= -most && c->high <= most
+                     ? "straight"
+                     : "cannot say whether the surface is hard: the slope scatters too much";
 }
 
 /* Mean over the ways of a row of what `of` takes from a curve. */
@@ -385,21 +361,14 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const item *it = &task->items[i];
-        const bool usable = row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1);
-        if (usable && !it->outlier)
-            add_value(c, over_ways(it, row, of), it->unit);
+        const double value = is_usable(it, row) ? over_ways(it, row, of) : (double)NAN;
+        if (isnan(value))
+            continue;
+        c->values[c->n] = value;
+        c->units[c->n++] = it->unit;
+        c->last = it;
     }
     return wt_student_mean(c->values, c->units, c->n, n_units);
-}
-
-static const item *first_of(const sensitivity_task *task, size_t row)
-{
-    for (size_t i = 0; i < task->n; i++) {
-        const item *it = &task->items[i];
-        if (!it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1)))
-            return it;
-    }
-    return NULL;
 }
 
 /* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
@@ -439,7 +408,7 @@ static void add_ways_error(group groups[ROWS])
 
 static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], wt_error *err)
 {
-    collected c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0};
+    collected c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0, NULL};
     wt_status status = WT_OK;
     if (c.values == NULL || c.units == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -454,7 +423,7 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
         if (g->n == 0)
             continue;
         if (g->n == 1) {
-            const item *it = first_of(task, row);
+            const item *it = c.last;
             const double own[] = {it->way[0].slope_error / it->way[0].slope,
                                   it->way[1].slope_error / it->way[1].slope};
             g->change = own_change(it, row, g->change.value);
@@ -535,6 +504,11 @@ static void set_options(table_writer *t, const group *g)
                               1 / (g->factor.value * g->factor.value));
 }
 
+static void set_interval(table_writer *t, sensitivity_key key, wt_interval i)
+{
+    sensitivity_set_value(t, key, i.value, i.standard_error, 0);
+}
+
 static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, const group *g)
 {
     size_t left_out = 0;
@@ -546,16 +520,13 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", left_out);
     if (row == WAYS)
-        sensitivity_set_value(t, SENSITIVITY_KEY_DIFFERENCE, g->difference.value,
-                              g->difference.standard_error, 0);
+        set_interval(t, SENSITIVITY_KEY_DIFFERENCE, g->difference);
     if (g->refused)
         return;
     if (!isnan(g->sensitivity.value))
-        sensitivity_set_value(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity.value,
-                              g->sensitivity.standard_error, 0);
+        set_interval(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity);
     if (!isnan(g->factor.value))
-        sensitivity_set_value(t, SENSITIVITY_KEY_FACTOR, g->factor.value, g->factor.standard_error,
-                              0);
+        set_interval(t, SENSITIVITY_KEY_FACTOR, g->factor);
     set_options(t, g);
 }
 

@@ -6,7 +6,6 @@
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
-#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>

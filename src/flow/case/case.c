@@ -3,7 +3,6 @@
 #include "flow/case_schema.h"
 #include "flow/materials/rubber.h"
 #include "flow/sliding/counter_surface.h"
-#include "flow/work/inputs.h"
 
 #include "base/param.h"
 

@@ -3,7 +3,6 @@
 #include "flow/comparison/compare.h"
 #include "flow/dwell/dwell.h"
 #include "flow/materials/rubber.h"
-#include "flow/work/inputs.h"
 
 #include "base/clocale.h"
 #include "base/normal.h"

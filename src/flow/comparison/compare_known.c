@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/comparison/compare.h"
 #include "flow/materials/rubber.h"
-#include "flow/work/inputs.h"
 
 #include "base/clocale.h"
 

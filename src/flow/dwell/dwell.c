@@ -8,7 +8,6 @@
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
 
-#include "data/force_curve.h"
 #include "data/tables/rows.h"
 #include "model/tip.h"
 
@@ -192,11 +191,13 @@ static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_fo
     return WT_OK;
 }
 
-static wt_status read_file(dwell_task *task, flow_file *file, wt_error *err)
+static wt_status read_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
+    dwell_task *task = user;
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
+    (void)i;
     wt_status status = flow_open(task->work, file, "dwell", WT_KIND_FORCE, &input, err);
     wt_read_options options = flow_read_options(file);
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
@@ -217,18 +218,8 @@ static wt_status read_file(dwell_task *task, flow_file *file, wt_error *err)
 
 static wt_status read_files(dwell_task *task, const flow_files *files, wt_error *err)
 {
-    wt_status status = WT_OK;
-    size_t n_failed = 0;
-    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        status = read_file(task, &files->file[i], &failure);
-        if (status == WT_OK || flow_leave_out(task->work, &files->file[i], &failure)) {
-            status = WT_OK;
-            continue;
-        }
-        n_failed++;
-        status = wt_job_failed(task->work, files->file[i].name, status, &failure, err);
-    }
+    size_t n_failed;
+    wt_status status = flow_files_take(files, task->work, read_file, task, &n_failed, err);
     if (status == WT_OK && task->n_dwells == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no curve dwells behind its approach");
         flow_tell_files(files, n_failed, err);

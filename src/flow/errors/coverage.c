@@ -10,7 +10,6 @@
 #include "flow/work/draws.h"
 #include "flow/work/inputs.h"
 
-#include "base/array.h"
 #include "base/mix.h"
 #include "base/normal.h"
 #include "base/param.h"

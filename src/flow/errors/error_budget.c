@@ -4,7 +4,6 @@
 #include "flow/errors/setting.h"
 #include "flow/strain/softness.h"
 #include "flow/work/cost.h"
-#include "flow/work/draws.h"
 
 #include "base/array.h"
 #include "base/clocale.h"

@@ -24,10 +24,14 @@ typedef struct choice {
     const char *why;   /* why it is moved so far */
     const char *lacks; /* why it does not apply, where it does not; NULL: not worth a word */
     bool (*applies)(const setting *s);
-    double (*value)(const setting *s);                       /* if it has a unit, */
-    void (*name)(const setting *s, char text[WORDS]);        /* else */
-    bool (*move)(const setting *used, size_t i, setting *s); /* false: no more of them */
+    double (*value)(const setting *s);                /* if it has a unit, */
+    void (*name)(const setting *s, char text[WORDS]); /* else */
+    void (*move)(const setting *used, double tried, setting *s);
+    double tried[MOST_TRIED]; /* [n] factors, values, or which of what can be chosen */
+    size_t n;
 } choice;
+
+#define TRIED(...) {__VA_ARGS__}, COUNT_OF(((double[]){__VA_ARGS__}))
 
 static double limit_value(double value, double low, double high)
 {
@@ -66,17 +70,12 @@ static double value_q1(const setting *s)
 /* No surface has waves below the size of a molecule [m]. */
 #define SHORTEST_WAVE 1e-9
 
-static bool move_q1(const setting *used, size_t i, setting *s)
+static void move_q1(const setting *used, double factor, setting *s)
 {
-    /* A decade either way, and half of one: nothing measures where a spectrum is to be cut off. */
-    static const double factor[] = {0.1, 0.3, 3, 10};
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
                  highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
-    if (i >= COUNT_OF(factor))
-        return false;
-    s->surface.q1 = limit_value(factor[i] * q1, lowest, highest);
-    return true;
+    s->surface.q1 = limit_value(factor * q1, lowest, highest);
 }
 
 static bool is_measured(const setting *s)
@@ -85,14 +84,11 @@ static bool is_measured(const setting *s)
 }
 
 /* As far as its spectrum goes: beyond that its law would have to be asked for. */
-static bool move_measured_end(const setting *used, size_t i, setting *s)
+static void move_measured_end(const setting *used, double where_steep, setting *s)
 {
-    const double ends[] = {used->surface.reliable_to, used->surface.steep};
-    if (i >= COUNT_OF(ends))
-        return false;
-    const bool known = ends[i] > 2 * used->surface.q0 && ends[i] < last_known(used);
-    s->surface.q1 = known ? ends[i] : used->surface.q1;
-    return true;
+    const double end = where_steep > 0 ? used->surface.steep : used->surface.reliable_to;
+    const bool known = end > 2 * used->surface.q0 && end < last_known(used);
+    s->surface.q1 = known ? end : used->surface.q1;
 }
 
 static double value_q0(const setting *s)
@@ -106,16 +102,11 @@ static bool has_q0(const setting *s)
     return !s->surface.self_affine || s->surface.qr > s->surface.q0;
 }
 
-static bool move_q0(const setting *used, size_t i, setting *s)
+static void move_q0(const setting *used, double factor, setting *s)
 {
-    /* Half and twice a cut-off that a scan or a tread sets. */
-    static const double factor[] = {0.5, 2};
     const double q0 = used->surface.q0,
                  highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
-    if (i >= COUNT_OF(factor))
-        return false;
-    s->surface.q0 = limit_value(factor[i] * q0, fmin(first_known(used), q0), highest);
-    return true;
+    s->surface.q0 = limit_value(factor * q0, fmin(first_known(used), q0), highest);
 }
 
 static double value_gamma(const setting *s)
@@ -123,15 +114,11 @@ static double value_gamma(const setting *s)
     return s->sliding.gamma;
 }
 
-static bool move_gamma(const setting *used, size_t i, setting *s)
+/* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
+static void move_gamma(const setting *used, double tried, setting *s)
 {
-    /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
-    static const double tried[] = {0.5, 1};
     (void)used;
-    if (i >= COUNT_OF(tried))
-        return false;
-    s->sliding.gamma = tried[i];
-    return true;
+    s->sliding.gamma = tried;
 }
 
 static bool has_strain(const setting *s)
@@ -144,14 +131,9 @@ static double value_strain(const setting *s)
     return s->sliding.strain_factor;
 }
 
-static bool move_strain(const setting *used, size_t i, setting *s)
+static void move_strain(const setting *used, double factor, setting *s)
 {
-    /* The theory has a factor of order 1. */
-    static const double factor[] = {0.5, 2};
-    if (i >= COUNT_OF(factor))
-        return false;
-    s->sliding.strain_factor = limit_value(factor[i] * used->sliding.strain_factor, 0.01, 100);
-    return true;
+    s->sliding.strain_factor = limit_value(factor * used->sliding.strain_factor, 0.01, 100);
 }
 
 static bool has_flash(const setting *s)
@@ -164,11 +146,10 @@ static void name_flash(const setting *s, char text[WORDS])
     snprintf(text, WORDS, "%s", s->sliding.flash.on ? "counted" : "not counted");
 }
 
-static bool move_flash(const setting *used, size_t i, setting *s)
+static void move_flash(const setting *used, double on, setting *s)
 {
     (void)used;
-    s->sliding.flash.on = false;
-    return i == 0;
+    s->sliding.flash.on = on > 0;
 }
 
 static double value_conductivity(const setting *s)
@@ -177,13 +158,9 @@ static double value_conductivity(const setting *s)
 }
 
 /* With the heat capacity as it is, which rubbers differ in by little. */
-static bool move_conductivity(const setting *used, size_t i, setting *s)
+static void move_conductivity(const setting *used, double factor, setting *s)
 {
-    static const double factor[] = {0.5, 2}; /* from a rubber alone to one with much filler */
-    if (i >= COUNT_OF(factor))
-        return false;
-    s->sliding.flash.diffusivity = factor[i] * used->sliding.flash.diffusivity;
-    return true;
+    s->sliding.flash.diffusivity = factor * used->sliding.flash.diffusivity;
 }
 
 static double value_contact_size(const setting *s)
@@ -191,13 +168,9 @@ static double value_contact_size(const setting *s)
     return s->sliding.flash.contact_size;
 }
 
-static bool move_contact_size(const setting *used, size_t i, setting *s)
+static void move_contact_size(const setting *used, double factor, setting *s)
 {
-    static const double factor[] = {0.5, 2}; /* of an order of magnitude */
-    if (i >= COUNT_OF(factor))
-        return false;
-    s->sliding.flash.contact_size = factor[i] * used->sliding.flash.contact_size;
-    return true;
+    s->sliding.flash.contact_size = factor * used->sliding.flash.contact_size;
 }
 
 /* Else it is not what the surface feels. */
@@ -213,15 +186,11 @@ static double value_poisson(const setting *s)
     return s->rubber.poisson_ratio;
 }
 
-static bool move_poisson(const setting *used, size_t i, setting *s)
+static void move_poisson(const setting *used, double tried, setting *s)
 {
-    static const double tried[] = {0.4, 0.5}; /* a glass, and rubber that keeps its volume */
     (void)used;
-    if (i >= COUNT_OF(tried))
-        return false;
-    s->rubber.poisson_ratio = tried[i];
+    s->rubber.poisson_ratio = tried;
     s->given = NULL;
-    return true;
 }
 
 /* A thickness that is put in moves with nothing. */
@@ -238,19 +207,12 @@ static void name_profile(const setting *s, char text[WORDS])
         clocale_print(text, WORDS, "incompressible, m = %.3g", s->layer.local_friction);
 }
 
-static bool move_profile(const setting *used, size_t i, setting *s)
+/* Below 0: without local friction, and exponential. */
+static void move_profile(const setting *used, double local_friction, setting *s)
 {
-    static const struct {
-        wt_depth_profile profile;
-        double local_friction;
-    } tried[] = {
-        {WT_PROFILE_PERSSON, 0}, {WT_PROFILE_INCOMPRESSIBLE, 0}, {WT_PROFILE_INCOMPRESSIBLE, 1}};
     (void)used;
-    if (i >= COUNT_OF(tried))
-        return false;
-    s->layer.profile = tried[i].profile;
-    s->layer.local_friction = tried[i].local_friction;
-    return true;
+    s->layer.profile = local_friction < 0 ? WT_PROFILE_PERSSON : WT_PROFILE_INCOMPRESSIBLE;
+    s->layer.local_friction = fmax(local_friction, 0);
 }
 
 static bool has_vertical(const setting *s)
@@ -267,15 +229,10 @@ static void name_vertical(const setting *s, char text[WORDS])
     snprintf(text, WORDS, "%s", names[s->vertical]);
 }
 
-static bool move_vertical(const setting *used, size_t i, setting *s)
+static void move_vertical(const setting *used, double tried, setting *s)
 {
-    static const wt_vertical_shift tried[] = {WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL,
-                                              WT_VERTICAL_FREE, WT_VERTICAL_TIED};
     (void)used;
-    if (i >= COUNT_OF(tried))
-        return false;
-    s->vertical = tried[i];
-    return true;
+    s->vertical = (wt_vertical_shift)tried;
 }
 
 static bool has_shear(const setting *s)
@@ -288,59 +245,58 @@ static void name_shear(const setting *s, char text[WORDS])
     snprintf(text, WORDS, "%s", s->known.bulk_shear ? "that of the bulk" : "scaled by the ratio");
 }
 
-static bool move_shear(const setting *used, size_t i, setting *s)
+static void move_shear(const setting *used, double other, setting *s)
 {
-    if (i >= 1)
-        return false;
-    s->known.bulk_shear = !used->known.bulk_shear;
-    return true;
+    s->known.bulk_shear = used->known.bulk_shear != (other > 0);
 }
 
 static const choice choices[] = {
     {"largest wavenumber q1", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
-     "", applies_always, value_q1, NULL, move_q1},
+     "", applies_always, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
     {"end of the measured spectrum", "rad/m",
      "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
-     "that "
-     "rubber follows",
-     NULL, is_measured, value_q1, NULL, move_measured_end},
+     "that rubber follows",
+     NULL, is_measured, value_q1, NULL, move_measured_end, TRIED(0, 1)},
     {"smallest wavenumber q0", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
-     "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0},
+     "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0, TRIED(0.5, 2)},
     {"factor gamma of partial contact", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
-     applies_always, value_gamma, NULL, move_gamma},
+     applies_always, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
     {"strain over slope", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
-     NULL, has_strain, value_strain, NULL, move_strain},
+     NULL, has_strain, value_strain, NULL, move_strain, TRIED(0.5, 2)},
     {"flash temperature", NULL,
      "counted or not: it is not validated against measured friction here, and the heat of shearing "
      "the contact is not in it",
-     NULL, has_flash, NULL, name_flash, move_flash},
+     NULL, has_flash, NULL, name_flash, move_flash, TRIED(0)},
     {"heat conductivity of the rubber", "W/(m K)",
      "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
      "measured",
-     NULL, has_flash, value_conductivity, NULL, move_conductivity},
+     NULL, has_flash, value_conductivity, NULL, move_conductivity, TRIED(0.5, 2)},
     {"size of a macroscopic contact", "m",
      "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
-     value_contact_size, NULL, move_contact_size},
+     value_contact_size, NULL, move_contact_size, TRIED(0.5, 2)},
     {"Poisson ratio", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
-     move_poisson},
+     move_poisson, TRIED(0.4, 0.5)},
     {"vertical shift", NULL, "all four; which of them is right the isotherms do not say",
-     "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical},
+     "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical,
+     TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
     {"depth profile", NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",
-     "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile},
+     "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile,
+     TRIED(-1, 0, 1)},
     {"shear stress of the layer", NULL,
      "scaled by the modulus ratio or not: it is not measured on the layer",
-     "no layer with a modulus ratio, or no shear stress", has_shear, NULL, name_shear, move_shear},
+     "no layer with a modulus ratio, or no shear stress", has_shear, NULL, name_shear, move_shear,
+     TRIED(1)},
 };
 
 /* "2e5", where C has 2e+05. */
@@ -440,7 +396,8 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
     char as_used[WORDS], tried[WORDS];
     name_choice(c, used, as_used);
     setting moved = *used;
-    for (size_t i = 0; i < MOST_TRIED && c->move(used, i, &moved); i++) {
+    for (size_t i = 0; i < c->n; i++) {
+        c->move(used, c->tried[i], &moved);
         name_choice(c, &moved, tried);
         if (strcmp(tried, as_used) != 0) {
             outcome *o = add_outcome(w, c, &moved);

@@ -6,7 +6,6 @@
 
 #include "data/force_curve.h"
 #include "fit/indentation/curve.h"
-#include "flow/indentation/curve_set.h"
 #include "model/tip.h"
 
 #include <math.h>

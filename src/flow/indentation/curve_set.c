@@ -137,15 +137,6 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
     return n;
 }
 
-static void turn_round(double *x, size_t n)
-{
-    for (size_t i = 0; i < n / 2; i++) {
-        const double kept = x[i];
-        x[i] = x[n - 1 - i];
-        x[n - 1 - i] = kept;
-    }
-}
-
 /* The way out begins a step after the way in ends. */
 static void join_times(kept_curve *k)
 {
@@ -193,7 +184,7 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
         next += 2 * n[w];
         k->n[w] = keep_way(way[w], fit->direction, k->position[w], k->time[w], &timed[w]);
     }
-    turn_round(k->position[OUT], k->n[OUT]);
+    numbers_reverse(k->position[OUT], k->n[OUT]);
     if (timed[IN] && (timed[OUT] || k->n[OUT] == 0) && k->n[IN] > 1)
         join_times(k);
     else if (has_memory(fit))

@@ -9,7 +9,6 @@
 #include "flow/work/draws.h"
 #include "flow/work/inputs.h"
 
-#include "base/array.h"
 #include "data/tables/tables.h"
 #include "fit/indentation/curve.h"
 #include "read/force_source.h"

@@ -319,22 +319,20 @@ static wt_status read_file(indent_task *task, wt_error *err)
     return status;
 }
 
+static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+{
+    indent_task *task = user;
+    task->file = file;
+    task->file_number = i + 1;
+    task->spot = file->set->spot != NULL ? file->set->spot : file->name;
+    return read_file(task, err);
+}
+
 wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)
 {
-    wt_status status = WT_OK;
+    size_t n_failed; /* beside the curves that did */
     task->n_files = files->n;
-    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        task->file = &files->file[i];
-        task->file_number = i + 1;
-        task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
-        status = read_file(task, &failure);
-        if (status == WT_OK || flow_leave_out(task->work, task->file, &failure)) {
-            status = WT_OK;
-            continue;
-        }
-        task->n_failed++;
-        status = wt_job_failed(task->work, task->file->name, status, &failure, err);
-    }
+    const wt_status status = flow_files_take(files, task->work, take_file, task, &n_failed, err);
+    task->n_failed += n_failed;
     return status;
 }

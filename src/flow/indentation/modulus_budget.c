@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/indentation/common_errors.h"
 
-#include "base/array.h"
 #include "base/clocale.h"
 #include "data/tables/rows.h"
 #include "fit/students_t.h"

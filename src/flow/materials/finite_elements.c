@@ -10,7 +10,6 @@
  * elasticity in the end, MODULI=LONG TERM; it moves no frequency with temperature.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/sweeps/master.h"
 #include "flow/sweeps/sweep_input.h"
 
 #include "base/array.h"

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/materials/rubber.h"
 #include "flow/work/draws.h"
-#include "flow/work/inputs.h"
 
 #include "base/clocale.h"
 #include "data/prony.h"

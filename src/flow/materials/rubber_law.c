@@ -1,6 +1,8 @@
 /* A rubber whose moduli no series tells: the points of a table, those of a master curve, or a
  * fractional Zener law. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/materials/rubber.h"
+
+#include "base/array.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/inputs.h"
 #include "flow/work/law_text.h"
@@ -162,12 +164,6 @@ typedef struct point {
     double frequency, storage, loss; /* logarithms */
 } point;
 
-static int by_frequency(const void *a, const void *b)
-{
-    const point *x = a, *y = b;
-    return (x->frequency > y->frequency) - (x->frequency < y->frequency);
-}
-
 /* Those that are not left out, rising, close ones joined; returns how many. */
 static size_t join_points(const table_view *view, point *p)
 {
@@ -180,7 +176,7 @@ static size_t join_points(const table_view *view, point *p)
              isfinite(p[n].storage) && isfinite(p[n].loss);
     }
     if (n > 0)
-        qsort(p, n, sizeof *p, by_frequency);
+        qsort(p, n, sizeof *p, numbers_compare);
     for (size_t i = 0; i < n;) {
         point mean = {0, 0, 0};
         size_t of = 0;

@@ -1,7 +1,6 @@
 /* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
  * and the onset of the fall at each frequency, moduli at temperatures. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "flow/sweeps/master.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/cost.h"
 #include "flow/work/inputs.h"
@@ -63,12 +62,6 @@ typedef struct point {
     double frequency, temperature, storage, loss, factor, strain;
 } point;
 
-static int by_frequency(const void *a, const void *b)
-{
-    const point *p = a, *q = b;
-    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
-}
-
 static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_error *err)
 {
     wt_ramp *ramp =
@@ -110,7 +103,7 @@ static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
                                   t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
                                   t->strain != NULL ? t->strain[k] : (double)NAN};
     }
-    qsort(points, n, sizeof *points, by_frequency);
+    qsort(points, n, sizeof *points, numbers_compare);
     wt_status status = WT_OK;
     for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
         for (end = first + 1;

@@ -25,10 +25,8 @@ typedef struct flow_run {
 } flow_run;
 
 void flow_run_clear(flow_run *run);
-/* The counter surface of the case; its sliding contact with rubber and surface set. */
-wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
-                            wt_error *err) WT_NODISCARD;
-wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
+/* The rubber has the directions that the case says. */
+void flow_run_set_direction(flow_run *run);
 
 /* The sliding contact of a run so far, and what is known of its layer: WT_E_MISSING without a
  * modulus ratio, as a comparison that cannot say leaves none. */

@@ -28,8 +28,7 @@ typedef struct replicates {
  * friction knows. */
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what);
 /* Something else that is drawn by `draw` (standard_error > 0), or would be if its error were
- * stated.
- */
+ * stated. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
 /* What is drawn, as said in a table. */
 const char *replicates_include(const replicates *r);

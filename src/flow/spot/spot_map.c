@@ -1,6 +1,5 @@
 /* The heights about a spot before and after, for a figure. SPDX-License-Identifier:
- * GPL-3.0-or-later
- */
+ * GPL-3.0-or-later */
 #include "flow/spot/spot.h"
 
 #include "data/tables/rows.h"

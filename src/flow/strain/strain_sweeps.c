@@ -1,9 +1,7 @@
 /* The job of strain sweeps: how a filled rubber softens with strain at each frequency and
  * temperature. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/sweeps/master.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/cost.h"
-#include "flow/work/inputs.h"
 
 #include "base/pool.h"
 #include "data/tables/rows.h"

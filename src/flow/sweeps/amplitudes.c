@@ -2,7 +2,6 @@
  * strain, so that a master curve, and moduli against temperature, are of one.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/sweep_input.h"
-#include "flow/work/inputs.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
 #include "flow/sweeps/ramp_windows.h"
 #include "flow/sweeps/sweep_input.h"
 #include "flow/work/cost.h"
-#include "flow/work/inputs.h"
 
 #include "base/array.h"
 #include "base/param.h"

@@ -2,6 +2,8 @@
  * its temperature by the shift law, which is found with them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/ramp_windows.h"
+
+#include "base/array.h"
 #include "flow/sweeps/sweep_input.h"
 
 #include "base/clocale.h"
@@ -43,12 +45,6 @@ typedef struct windows {
     size_t *first;         /* [n + 1] */
     wt_isotherm *isotherm; /* [n] those of the sweep, whose arrays they borrow */
 } windows;
-
-static int by_temperature(const void *a, const void *b)
-{
-    const point *p = a, *q = b;
-    return (p->temperature > q->temperature) - (p->temperature < q->temperature);
-}
 
 static void windows_free(windows *w)
 {
@@ -146,7 +142,7 @@ static wt_status make_windows(const wt_sweep *sweep, windows *w, wt_error *err)
         take_points(&sweep->ramps[i], (n + MOST_POINTS - 1) / MOST_POINTS, w);
     if (w->n_points == 0)
         return wt_fail(err, WT_E_RANGE, "no point of the temperature sweeps has positive moduli");
-    qsort(w->point, w->n_points, sizeof *w->point, by_temperature);
+    qsort(w->point, w->n_points, sizeof *w->point, numbers_compare);
     cut_points(w, count_frequencies(sweep));
     return WT_OK;
 }

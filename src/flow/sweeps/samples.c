@@ -1,7 +1,6 @@
 /* DMA sweeps of several samples: which there are, and those of one.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/sweep_input.h"
-#include "flow/work/inputs.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/sweep_input.h"
 
+#include "data/sweep_points.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,16 +85,16 @@ static bool is_cut(const cut *c, double x)
     return x >= c->low && x <= c->high;
 }
 
-/* Moves the points that stay to the front; how many. array[0] decides. */
-static size_t keep_points(const cut *c, double *const *array, size_t arrays, size_t n)
+/* Moves the points that stay to the front; how many. */
+static size_t keep_points(const cut *c, sweep_points p)
 {
     size_t kept = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (is_cut(c, array[0][i]))
+    for (size_t i = 0; i < p.n; i++) {
+        if (is_cut(c, p.array[SWEEP_FIRST][i]))
             continue;
-        for (size_t k = 0; k < arrays; k++)
-            if (array[k] != NULL)
-                array[k][kept] = array[k][i];
+        for (size_t k = 0; k < SWEEP_ARRAYS; k++)
+            if (p.array[k] != NULL)
+                p.array[k][kept] = p.array[k][i];
         kept++;
     }
     return kept;
@@ -110,10 +112,8 @@ static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
         const size_t before = t->n;
-        double *const array[] = {t->angular_frequency, t->storage_modulus, t->loss_modulus,
-                                 t->strain, t->loss_factor};
         if (c->of_frequency)
-            t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
+            t->n = keep_points(c, points_of_isotherm(t));
         if (t->n == 0 || (!c->of_frequency && is_cut(c, t->temperature))) {
             g->sweep.isotherms[g->sweep.n_isotherms++] = *t;
         } else {
@@ -130,10 +130,8 @@ static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *t = &sweep->ramps[i];
         const size_t before = t->n;
-        double *const array[] = {t->temperature, t->storage_modulus, t->loss_modulus, t->strain,
-                                 t->loss_factor};
         if (!c->of_frequency)
-            t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
+            t->n = keep_points(c, points_of_ramp(t));
         if (t->n == 0 || (c->of_frequency && is_cut(c, t->angular_frequency))) {
             g->sweep.ramps[g->sweep.n_ramps++] = *t;
         } else {

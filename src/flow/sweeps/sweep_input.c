@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sweeps/sweep_input.h"
 
+#include "data/sweep_points.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,53 +12,43 @@ const char *flow_deformation_name(wt_deformation deformation)
     return deformation == WT_SHEAR ? "shear" : "tension";
 }
 
-static void copy_numbers(double *to, const double *from, size_t n)
+static unsigned arrays_of(sweep_points p)
 {
-    if (to != NULL)
-        memcpy(to, from, n * sizeof *to);
+    return (p.array[SWEEP_STRAIN] != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
+           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
 }
 
-static unsigned arrays_of(const double *strain, const double *loss_factor)
+/* The name of the sample, too; false if there is no memory for it. */
+static bool copy_points(sweep_points to, sweep_points from, char **sample)
 {
-    return (strain != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
-           (loss_factor != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
-}
-
-static bool copy_name(char **to, const char *from)
-{
-    *to = from != NULL ? strdup(from) : NULL;
-    return from == NULL || *to != NULL;
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++)
+        if (to.array[j] != NULL)
+            memcpy(to.array[j], from.array[j], from.n * sizeof(double));
+    *sample = from.sample != NULL ? strdup(from.sample) : NULL;
+    return from.sample == NULL || *sample != NULL;
 }
 
 static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
 {
-    wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(s->strain, s->loss_factor));
+    const sweep_points from = points_of_isotherm(s);
+    wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(from));
     if (t == NULL)
         return false;
     t->temperature = s->temperature;
     t->temperature_spread = s->temperature_spread;
     memcpy(t->source, s->source, sizeof t->source);
-    copy_numbers(t->angular_frequency, s->angular_frequency, s->n);
-    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
-    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
-    copy_numbers(t->strain, s->strain, s->n);
-    copy_numbers(t->loss_factor, s->loss_factor, s->n);
-    return copy_name(&t->sample, s->sample);
+    return copy_points(points_of_isotherm(t), from, &t->sample);
 }
 
 static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
 {
-    wt_ramp *t = wt_sweep_add_ramp(to, s->n, arrays_of(s->strain, s->loss_factor));
+    const sweep_points from = points_of_ramp(s);
+    wt_ramp *t = wt_sweep_add_ramp(to, s->n, arrays_of(from));
     if (t == NULL)
         return false;
     t->angular_frequency = s->angular_frequency;
     memcpy(t->source, s->source, sizeof t->source);
-    copy_numbers(t->temperature, s->temperature, s->n);
-    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
-    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
-    copy_numbers(t->strain, s->strain, s->n);
-    copy_numbers(t->loss_factor, s->loss_factor, s->n);
-    return copy_name(&t->sample, s->sample);
+    return copy_points(points_of_ramp(t), from, &t->sample);
 }
 
 static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
@@ -67,10 +59,7 @@ static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
     t->angular_frequency = s->angular_frequency;
     t->temperature = s->temperature;
     memcpy(t->source, s->source, sizeof t->source);
-    copy_numbers(t->strain, s->strain, s->n);
-    copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
-    copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
-    return copy_name(&t->sample, s->sample);
+    return copy_points(points_of_strain_sweep(t), points_of_strain_sweep(s), &t->sample);
 }
 
 /* `to` is empty. */

@@ -313,3 +313,17 @@ double growth_friction(const growth *g, size_t k, double time)
     const course c = growth_course(g, k);
     return growth_number_of(g, k, GROWTH_END) + course_at(&c, log(time));
 }
+
+double growth_scatter(const growth *g, growth_value *of, double time)
+{
+    double sum = 0, squares = 0, n = 0;
+    for (size_t k = 1; k <= g->n_draws; k++) {
+        const double x = of(g, k, time);
+        if (isfinite(x)) {
+            sum += x;
+            squares += x * x;
+            n++;
+        }
+    }
+    return n > 1 ? sqrt(fmax(squares - sum * sum / n, 0) / (n - 1)) : (double)NAN;
+}

@@ -39,5 +39,8 @@ double growth_number_of(const growth *g, size_t k, growth_number number);
 course growth_course(const growth *g, size_t k);
 /* Friction at a time. */
 double growth_friction(const growth *g, size_t k, double time);
+/* Standard deviation of what `of` gives of the draws that tell it; NaN of fewer than two. */
+typedef double growth_value(const growth *g, size_t k, double time);
+double growth_scatter(const growth *g, growth_value *of, double time);
 
 #endif

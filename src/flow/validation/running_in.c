@@ -157,26 +157,22 @@ static wt_interval ratio_of_run(const course_run *run)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-/* Friction in the end less that which is farthest from it. */
+/* Friction less that in the end where it is farthest from it; NaN without an end. */
+static double farthest(const growth *g, size_t k, double time)
+{
+    const course c = growth_course(g, k);
+    double most = 0;
+    (void)time;
+    for (size_t i = 0; i < c.n; i++)
+        if (fabs(c.value[i]) > fabs(most))
+            most = c.value[i];
+    return k == 0 || isfinite(growth_number_of(g, k, GROWTH_END)) ? most : (double)NAN;
+}
+
 static wt_estimate change_of(const growth *g)
 {
-    double sum = 0, squares = 0, n = 0, value = 0;
-    for (size_t k = 0; k <= g->n_draws; k++) {
-        const course c = growth_course(g, k);
-        double farthest = 0;
-        for (size_t i = 0; i < c.n; i++)
-            if (fabs(c.value[i]) > fabs(farthest))
-                farthest = c.value[i];
-        if (k == 0) {
-            value = -farthest;
-        } else if (isfinite(growth_number_of(g, k, GROWTH_END))) {
-            sum += farthest;
-            squares += farthest * farthest;
-            n++;
-        }
-    }
-    const double variance = n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : (double)NAN;
-    return (wt_estimate){value, sqrt(variance), (double)NAN, NULL};
+    const double none = (double)NAN;
+    return (wt_estimate){-farthest(g, 0, none), growth_scatter(g, farthest, none), none, NULL};
 }
 
 static void add_run(const course_run *run, const wt_sliding *sliding, table_writer *t)

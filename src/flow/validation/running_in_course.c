@@ -14,23 +14,16 @@ enum { MOST_ROWS = 48 };
 TABLE_ROW(validation_course, VALIDATION_COURSE, double time; wt_interval measured;
           wt_estimate layered, bare; double fitted; const char *file;)
 
-/* At a time, with what its draws scatter; `time` NaN: without a layer. */
-static wt_estimate predicted(const growth *g, double time)
+static double bare_friction(const growth *g, size_t k, double time)
 {
-    double sum = 0, squares = 0, n = 0;
-    for (size_t k = 1; k <= g->n_draws; k++) {
-        const double x =
-            isnan(time) ? growth_number_of(g, k, GROWTH_BARE) : growth_friction(g, k, time);
-        if (isfinite(x)) {
-            sum += x;
-            squares += x * x;
-            n++;
-        }
-    }
-    const double variance = n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : (double)NAN;
-    return (wt_estimate){isnan(time) ? growth_number_of(g, 0, GROWTH_BARE)
-                                     : growth_friction(g, 0, time),
-                         sqrt(variance), (double)NAN, NULL};
+    (void)time;
+    return growth_number_of(g, k, GROWTH_BARE);
+}
+
+/* With what its draws scatter. */
+static wt_estimate predicted(const growth *g, growth_value *of, double time)
+{
+    return (wt_estimate){of(g, 0, time), growth_scatter(g, of, time), (double)NAN, NULL};
 }
 
 /* Means first to before `end` of the series. */
@@ -50,8 +43,8 @@ static void add_row(const course_run *run, const course_series *s, size_t first,
     const validation_course_row row = {
         .time = time,
         .measured = {mean, error, mean - half, mean + half},
-        .layered = predicted(run->growth, time),
-        .bare = predicted(run->growth, (double)NAN),
+        .layered = predicted(run->growth, growth_friction, time),
+        .bare = predicted(run->growth, bare_friction, time),
         .fitted = fit->seen ? fit->level + fit->ratio * course_at(&c, log(time) - fit->log_factor)
                             : (double)NAN,
         .file = run->rec->at.file};

@@ -22,20 +22,16 @@ static double settled_of(const growth *g, size_t k)
     return course_settled(&c, RUNNING_IN_LEFT);
 }
 
+static double log_settled(const growth *g, size_t k, double time)
+{
+    (void)time;
+    return log(settled_of(g, k));
+}
+
 /* Standard deviation of the logarithm of the predicted time. */
 static double expected_error(const growth *g)
 {
-    double sum = 0, squares = 0, n = 0;
-    for (size_t k = 1; k <= g->n_draws; k++) {
-        const double x = log(settled_of(g, k));
-        if (isfinite(x)) {
-            sum += x;
-            squares += x * x;
-            n++;
-        }
-    }
-    return n > 1 ? fmax(sqrt(fmax(squares - sum * sum / n, 0) / (n - 1)), least_expected)
-                 : least_expected;
+    return fmax(growth_scatter(g, log_settled, (double)NAN), least_expected);
 }
 
 static wt_status fit_until(course_run *run, double until, double expected, wt_error *err)

@@ -4,7 +4,6 @@
 #include "flow/validation/validation.h"
 #include "flow/work/cost.h"
 
-#include "base/clocale.h"
 #include "base/param.h"
 #include "data/tables/rows.h"
 

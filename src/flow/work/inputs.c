@@ -316,6 +316,24 @@ bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *f
     return true;
 }
 
+wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take *take, void *user,
+                          size_t *n_failed, wt_error *err)
+{
+    wt_status status = WT_OK;
+    *n_failed = 0;
+    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
+        wt_error failure = WT_ERROR_INIT;
+        status = take(user, &files->file[i], i, &failure);
+        if (status == WT_OK || flow_leave_out(work, &files->file[i], &failure)) {
+            status = WT_OK;
+            continue;
+        }
+        ++*n_failed;
+        status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+    }
+    return status;
+}
+
 void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err)
 {
     bool of_folder = false;

@@ -54,8 +54,7 @@ wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role
 wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
                       wt_error *err) WT_NODISCARD;
 
-/* How a file is read: by the options of its set, as the format that was found, if any.
- */
+/* How a file is read: by the options of its set, as the format that was found, if any. */
 wt_read_options flow_read_options(const flow_file *file);
 
 /* For an error of files none of which held what is needed: how many, and where to look. */
@@ -64,6 +63,12 @@ void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
 /* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
  * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
 bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);
+
+/* Has `take` read the files in turn. What it refuses is left out of its folder or has failed, and
+ * the others go on; *n_failed: how many failed. */
+typedef wt_status flow_take(void *user, flow_file *file, size_t i, wt_error *err);
+wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take *take, void *user,
+                          size_t *n_failed, wt_error *err) WT_NODISCARD;
 
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */

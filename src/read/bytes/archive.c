@@ -8,7 +8,6 @@
 
 #include "base/mix.h"
 #include "read/bytes/bytes.h"
-#include "read/bytes/input.h"
 
 #include <libdeflate.h>
 #include <stdlib.h>

@@ -20,6 +20,17 @@ wt_status window_open(input_window *w, wt_input *input, wt_error *err)
                : status;
 }
 
+wt_status windows_open(input_window **windows, size_t n, wt_input *input, wt_error *err)
+{
+    wt_status status = WT_OK;
+    *windows = calloc(n, sizeof **windows);
+    if (*windows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the channels");
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = window_open(&(*windows)[i], input, err);
+    return status;
+}
+
 static bool make_room(input_window *w, size_t n)
 {
     if (n <= w->room)

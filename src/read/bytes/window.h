@@ -14,6 +14,8 @@ typedef struct input_window {
 } input_window;
 
 wt_status window_open(input_window *window, wt_input *input, wt_error *err);
+/* n of one input; *windows, to be closed and freed, is there on failure, too, or NULL. */
+wt_status windows_open(input_window **windows, size_t n, wt_input *input, wt_error *err);
 /* Bytes [at, at + n), which are there until the next call. */
 wt_status window_bytes(input_window *window, size_t at, size_t n, const unsigned char **bytes,
                        wt_error *err);

@@ -4,7 +4,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/number.h"
 #include "read/bytes/window.h"
 #include "read/images.h"
 #include "read/reader.h"
@@ -162,12 +161,6 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return recognised(PEEK_BEGINS(peek, first_line), 95);
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
-{
-    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
-}
-
 const file_reader reader_gsf = {
     .info = {.id = "gsf",
              .title = "Gwyddion Simple Field (.gsf), an image of any instrument",
@@ -178,5 +171,5 @@ const file_reader reader_gsf = {
              .version = "1"},
     .detect = detect,
     .read_images = gsf_images,
-    .describe = describe,
+    .describe = images_describe,
 };

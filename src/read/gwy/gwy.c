@@ -5,7 +5,6 @@
  */
 #include "read/gwy/gwy.h"
 
-#include "base/number.h"
 #include "read/gwy/gwy_graph.h"
 #include "read/images.h"
 #include "read/reader.h"
@@ -179,12 +178,6 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return recognised(PEEK_BEGINS(peek, signature), 95);
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
-{
-    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
-}
-
 const file_reader reader_gwy = {
     .info = {.id = "gwy",
              .title = "Gwyddion (.gwy), images of any instrument",
@@ -194,5 +187,5 @@ const file_reader reader_gwy = {
              .version = "1"},
     .detect = detect,
     .read_images = gwy_images,
-    .describe = describe,
+    .describe = images_describe,
 };

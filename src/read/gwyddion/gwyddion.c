@@ -126,12 +126,6 @@ static wt_status read_images(const file_reader *self, wt_input *input,
     return WT_OK;
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
-{
-    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
-}
-
 const file_reader reader_gwyddion = {
     .info = {.id = "gwyddion",
              .title = "height maps of Alicona, Digital Surf, Wyko, Dektak, SDF, WSxM, by the "
@@ -143,5 +137,5 @@ const file_reader reader_gwyddion = {
              .version = "1"},
     .detect = detect,
     .read_images = read_images,
-    .describe = describe,
+    .describe = images_describe,
 };

@@ -2,7 +2,6 @@
 #include "read/ibw/ibw.h"
 
 #include "base/clocale.h"
-#include "base/number.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>

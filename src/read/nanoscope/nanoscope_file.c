@@ -4,7 +4,6 @@
  */
 #include "read/nanoscope/nanoscope.h"
 
-#include "base/number.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>
@@ -416,17 +415,6 @@ static wt_status read_blocks(nanoscope_file *f, wt_error *err)
     return status;
 }
 
-static wt_status open_windows(nanoscope_file *f, wt_input *input, wt_error *err)
-{
-    wt_status status = WT_OK;
-    f->windows = calloc(f->n_channels, sizeof *f->windows);
-    if (f->windows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the channels");
-    for (size_t i = 0; status == WT_OK && i < f->n_channels; i++)
-        status = window_open(&f->windows[i], input, err);
-    return status;
-}
-
 wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *f, wt_error *err)
 {
     *f = (nanoscope_file){
@@ -445,7 +433,7 @@ wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file 
     if (status == WT_OK)
         status = read_blocks(f, err);
     if (status == WT_OK)
-        status = open_windows(f, input, err);
+        status = windows_open(&f->windows, f->n_channels, input, err);
     if (status == WT_OK)
         status = cut_curves(f, log, err);
     if (status == WT_OK) {

@@ -213,8 +213,7 @@ static double height_rise(const double *values, size_t n)
 }
 
 /* Whether heights fall towards the sample is known from other programs only: the first way in
- * tells.
- */
+ * tells. */
 static wt_status turn_heights(measurement *m, wt_error *err)
 {
     double way = 0;

@@ -41,8 +41,7 @@ double nid_number(const nid_header *header, const char *section, const char *key
 bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,
                size_t *count);
 /* Samples of a line of a channel (LineDim7Points), in version 3; false if missing or not
- * understood.
- */
+ * understood. */
 bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n);
 /* "D[48]*[N/m]": the number in the SI unit of the quantity; NaN if missing or of another unit. */
 double nid_typed(const nid_header *header, const char *section, const char *key,

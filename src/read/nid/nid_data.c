@@ -131,17 +131,6 @@ static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
     return WT_OK;
 }
 
-static wt_status open_windows(nid_file *file, wt_input *input, wt_error *err)
-{
-    wt_status status = WT_OK;
-    file->windows = calloc(file->n, sizeof *file->windows);
-    if (file->windows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the list of channels");
-    for (size_t i = 0; status == WT_OK && i < file->n; i++)
-        status = window_open(&file->windows[i], input, err);
-    return status;
-}
-
 wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
 {
     size_t length = 0;
@@ -152,7 +141,7 @@ wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
     if (status == WT_OK)
         status = find_channels(file, length, err);
     if (status == WT_OK)
-        status = open_windows(file, input, err);
+        status = windows_open(&file->windows, file->n, input, err);
     if (status != WT_OK)
         nid_file_close(file);
     return status;

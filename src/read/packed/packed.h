@@ -43,7 +43,7 @@ typedef struct sheet_text {
     char *bytes;
     size_t length, room, most;
     size_t row, column; /* of the next cell, from 0 */
-    bool too_long, no_memory;
+    bool no_memory;     /* else it is too long */
 } sheet_text;
 /* A cell of a row not above that of the last one; tabs and line ends in it become blanks. False if
  * there is no room for it. */

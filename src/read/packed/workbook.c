@@ -10,10 +10,8 @@
 
 static bool room_for(sheet_text *sheet, size_t n)
 {
-    if (n > sheet->most - sheet->length) {
-        sheet->too_long = true;
+    if (n > sheet->most - sheet->length)
         return false;
-    }
     size_t room = sheet->room > 0 ? sheet->room : FIRST_ROOM;
     while (room < sheet->length + n)
         room *= 2;

@@ -7,8 +7,6 @@
 
 #include "base/number.h"
 
-#include <string.h>
-
 /* How a cell is written. */
 typedef struct cell_form {
     bool number, point, exponent;

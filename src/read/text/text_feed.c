@@ -11,8 +11,7 @@ typedef struct feed_piece {
 } feed_piece;
 
 /* Where the last line ends that is there as a whole; a CR at the very end may have its LF behind
- * it.
- */
+ * it. */
 static size_t whole_lines(const unsigned char *bytes, size_t n)
 {
     for (size_t end = n; end > 0; end--)

@@ -4,7 +4,6 @@
  */
 #include "read/text/text.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,6 +4,8 @@
  */
 #include "read/text/text.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +13,6 @@
 typedef struct point {
     double frequency, density;
 } point;
-
-static int by_frequency(const void *a, const void *b)
-{
-    const point *x = a, *y = b;
-    return (x->frequency > y->frequency) - (x->frequency < y->frequency);
-}
 
 /* The densities that a table may have, the first that is there counts. */
 static const struct {
@@ -73,7 +69,7 @@ static wt_status collect_points(const text_file *file, wt_parselog *log, point *
 static wt_status fill_sorted(point *points, wt_noise_spectrum *spectrum, wt_error *err)
 {
     const size_t n = spectrum->n;
-    qsort(points, n, sizeof *points, by_frequency);
+    qsort(points, n, sizeof *points, numbers_compare);
     spectrum->frequency = malloc(n * sizeof *spectrum->frequency);
     spectrum->density = malloc(n * sizeof *spectrum->density);
     if (spectrum->frequency == NULL || spectrum->density == NULL)

@@ -4,6 +4,8 @@
  */
 #include "read/text/text.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +13,6 @@
 typedef struct point {
     double wavenumber, density;
 } point;
-
-static int by_wavenumber(const void *a, const void *b)
-{
-    const point *x = a, *y = b;
-    return (x->wavenumber > y->wavenumber) - (x->wavenumber < y->wavenumber);
-}
 
 /* What a row says of the spectrum. Wavenumber 0 of an averaged spectrum is the mean height, no
  * wave; anything else that is no point would leave a hole that nobody sees. */
@@ -105,7 +101,7 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     if (status == WT_OK && n < 2)
         status = text_fail_empty(&file, "power spectrum", err);
     if (status == WT_OK)
-        qsort(points, n, sizeof *points, by_wavenumber);
+        qsort(points, n, sizeof *points, numbers_compare);
     for (made.n = 0; status == WT_OK && made.n < n; made.n++) {
         const point *const p = &points[made.n];
         if (made.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {

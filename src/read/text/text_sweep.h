@@ -63,8 +63,7 @@ wt_status sweep_check_table(const text_file *file, text_table *table, wt_parselo
 wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n);
 
 /* ---- text_ramp.c: takes the rows of temperature sweeps out of `rows`, and adds these to the
- * sweep.
- */
+ * sweep. */
 wt_status ramps_take(sweep_builder *b, size_t *rows, size_t *n);
 
 #endif

@@ -214,12 +214,6 @@ static recognition detect(const file_reader *self, file_peek *peek)
         95);
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
-{
-    return images_facts(self, input, options, log, facts, WT_E_EMPTY, NULL);
-}
-
 const file_reader reader_x3p = {
     .info = {.id = "x3p",
              .title = "X3P (ISO 25178-72), height maps and profiles",
@@ -229,5 +223,5 @@ const file_reader reader_x3p = {
              .version = "1"},
     .detect = detect,
     .read_images = x3p_images,
-    .describe = describe,
+    .describe = images_describe,
 };

@@ -1,8 +1,6 @@
 /* main.xml of an X3P file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/x3p/x3p_document.h"
 
-#include "base/number.h"
-
 #include <libxml/parser.h>
 #include <math.h>
 #include <stdlib.h>
