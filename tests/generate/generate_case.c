@@ -69,7 +69,8 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
 {
     int result = -1;
     wt_case *c = NULL;
-    wt_surface surface = {0};
+    flow_run run = {.rubber = *rubber};
+    const wt_surface *surface = &run.surface;
     wt_layer_tables layer = {0};
     wt_friction_tables friction = {0};
     wt_job job = wt_job_defaults();
@@ -78,14 +79,16 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     char *path = wt_path_join(folder, "truth.txt");
     job.replicates = 0;
     wt_status status = wt_case_read(case_path, &c, &err);
+    run.c = c;
+    run.job = job;
     if (status == WT_OK)
-        status = flow_case_surface(c, &job, &surface, &err);
-    if (status == WT_OK && !(surface.self_affine && surface.c0.value == TRUTH_ROAD_C0 &&
-                             surface.qr == TRUTH_ROLL_OFF && surface.hurst == TRUTH_HURST))
+        status = flow_step_roughness(&run, &err);
+    if (status == WT_OK && !(surface->self_affine && surface->c0.value == TRUTH_ROAD_C0 &&
+                             surface->qr == TRUTH_ROLL_OFF && surface->hurst == TRUTH_HURST))
         status = wt_fail(&err, WT_E_ARG, "the case has another road than the maps");
     if (status != WT_OK)
         goto done;
-    wt_sliding sliding = flow_case_sliding(c, rubber, &surface);
+    wt_sliding sliding = flow_run_sliding(&run);
     status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;
