@@ -45,6 +45,14 @@ void replicates_add(replicates *r, double standard_error, flow_draw draw, const 
     }
 }
 
+void replicates_add_drawn(replicates *r, bool known, const char *words)
+{
+    if (known)
+        add_drawn(r, words);
+    else
+        add_words(r->lacks, sizeof r->lacks, words);
+}
+
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
 {
     const wt_rubber *rubber = sliding->rubber;

@@ -31,6 +31,9 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
  * stated.
  */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
+/* Something that is drawn in its own way, as a material is, or would be if its errors were known.
+ */
+void replicates_add_drawn(replicates *r, bool known, const char *words);
 /* What is drawn, as said in a table. */
 const char *replicates_include(const replicates *r);
 
