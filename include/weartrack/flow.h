@@ -847,13 +847,18 @@ typedef struct wt_layer_known {
     double ratio_lowest, ratio_highest; /* that were measured, outside of which it is constant
                                            [rad/s]; NaN: not given */
     double ratio_temperature;           /* of these frequencies [K]; NaN: that of the sliding */
-    bool bulk_shear;             /* tau_s = tau_bulk, not times the modulus ratio; default false */
+    bool by_rate;    /* of a case: the ratio goes with the rate as compared; default false */
+    bool bulk_shear; /* tau_s = tau_bulk, not times the modulus ratio; default false */
     double calibration_share;    /* of the variance of the ratio that is of spring constants and the
                                     like, not of the scatter of spots; default 0 */
     const wt_layer_shear *shear; /* of the real contact with it; NULL: as by default */
 } wt_layer_known;
 WT_API wt_layer_known wt_layer_known_defaults(void); /* no layer */
 WT_API const wt_params *wt_layer_known_params(void);
+/* Ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at their
+ * mean frequency, and how that of each rate goes with its frequency. WT_E_MISSING with one rate. */
+WT_API wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
+                                        wt_layer_known *known, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_friction_tables {
     wt_table *friction;

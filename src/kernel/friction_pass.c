@@ -130,19 +130,6 @@ static void place_omega(const node_view *view, friction_load at)
         friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega);
 }
 
-void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
-                     const double *x, size_t n, double *j1, double *j2, double *loss_j1,
-                     double *loss_j2, double *error)
-{
-    if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, q, omega, n, j1, j2, ws->loss != NULL ? loss_j2 : NULL, error);
-        return;
-    }
-    angular_eval(ws->angular, omega, x, n, j1, j2);
-    if (ws->loss != NULL)
-        angular_eval(ws->loss, omega, x, n, loss_j1, loss_j2);
-}
-
 /* J1 and J2 at n nodes whose omega has been placed. */
 static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
                            const double *q, const double *omega, size_t n)

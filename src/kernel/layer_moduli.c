@@ -11,6 +11,9 @@
 #include <float.h>
 #include <math.h>
 
+/* I is of float, and every product with it would be widened. */
+static const double complex unit = (double complex)I;
+
 /* Steps of the rule in t, and where it begins, each for tolerances down to the one that stands with
  * them: the poles of Maxwell elements and of p below are 1 beside a real t or more: e^(-2 pi/step).
  * Below the first node all is as at it. */
@@ -75,19 +78,19 @@ static void find_moduli(const layer_moduli *m, const double *omega, size_t n, do
     double storage[ANGLE_NODES], loss[ANGLE_NODES];
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
-        bulk[i] = CMPLX(storage[i], loss[i]);
+        bulk[i] = storage[i] + unit * loss[i];
     if (m->layer.own != NULL)
         m->layer.own->law->modulus(m->layer.own, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++) {
         if (m->layer.own != NULL) {
-            layer[i] = CMPLX(storage[i], loss[i]);
+            layer[i] = storage[i] + unit * loss[i];
             continue;
         }
         double log_ratio, phase;
         wt_ratio_slope_at(&m->layer.slope, omega[i], &log_ratio, &phase);
         const double ratio = m->layer.modulus_ratio * exp(log_ratio);
-        const double complex turned = bulk[i] * CMPLX(ratio * cos(phase), ratio * sin(phase));
-        layer[i] = CMPLX(creal(turned), fmax(cimag(turned), 0));
+        const double complex turned = bulk[i] * (ratio * cos(phase) + unit * (ratio * sin(phase)));
+        layer[i] = creal(turned) + unit * fmax(cimag(turned), 0);
     }
 }
 
@@ -142,12 +145,13 @@ static layered_wave layered_wave_of(double x)
 static double complex layered_stiffness(const layered_wave *w, double complex ratio)
 {
     const double x = w->x, e = w->e;
-    if (cabs(ratio) < 1) {
-        const double complex c = (1 - ratio) / (1 + ratio), rest = 2 * ratio / (1 + ratio);
+    const double complex sum = 1 / (1 + ratio);
+    if (creal(ratio * conj(ratio)) < 1) {
+        const double complex c = (1 - ratio) * sum, rest = 2 * ratio * sum;
         return ((1 + c * e) * (1 + c * e) + 4 * c * x * x * e) /
                (rest * (1 + c * e * e) + 2 * c * w->excess_2);
     }
-    const double complex c = (ratio - 1) / (ratio + 1), rest = 2 / (ratio + 1), m = csqrt(c);
+    const double complex c = (ratio - 1) * sum, rest = 2 * sum, m = csqrt(c);
     const double complex low = rest / (1 + m) * (1 + m * e) + 2 * m * w->excess;
     const double complex high = rest - c * w->expm1_2 + 2 * x * m * w->root_e;
     return low * high / ((1 + c) * rest - c * c * w->expm1_4 + 4 * c * x * e);

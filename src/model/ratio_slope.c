@@ -12,15 +12,20 @@
 #include <float.h>
 #include <math.h>
 
-/* Legendre's chi, sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1: the last term is 1e-17 of
- * the first. */
+/* A coefficient of chi. */
+#define TERM(k) (1.0 / ((k) * (k)))
+
+/* Legendre's chi, sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1. */
 static double chi_2(double z)
 {
-    enum { LAST = 35 };
+    /* from the k whose term is 1e-16 of the first down to it */
+    static const double term[] = {TERM(35), TERM(33), TERM(31), TERM(29), TERM(27), TERM(25),
+                                  TERM(23), TERM(21), TERM(19), TERM(17), TERM(15), TERM(13),
+                                  TERM(11), TERM(9),  TERM(7),  TERM(5),  TERM(3),  TERM(1)};
     const double square = z * z;
     double sum = 0;
-    for (int k = LAST; k >= 1; k -= 2)
-        sum = sum * square + 1.0 / (k * k);
+    for (size_t i = 0; i < sizeof term / sizeof term[0]; i++)
+        sum = sum * square + term[i];
     return z * sum;
 }
 

@@ -8,6 +8,8 @@
 
 #include <complex.h>
 
+static const double complex unit = (double complex)I;
+
 /* The temperature of the frequencies: that of the material. */
 #define NOT_SAID ((double)NAN)
 
@@ -118,8 +120,8 @@ static double complex felt(const wt_material *bulk, const wt_layer_state *layer,
     double storage, loss, log_ratio, phase;
     bulk->law->modulus(bulk, &omega, 1, &storage, &loss);
     wt_ratio_slope_at(&layer->slope, omega, &log_ratio, &phase);
-    const double complex below = CMPLX(storage, loss);
-    const double complex n = 1 / (layer->modulus_ratio * cexp(CMPLX(log_ratio, phase)));
+    const double complex below = storage + unit * loss;
+    const double complex n = 1 / (layer->modulus_ratio * cexp(log_ratio + unit * phase));
     const double complex c = (1 - n) / (1 + n);
     const double x = q * layer->thickness, e = exp(-2 * x);
     return below / n * (1 - 2 * c * (1 + 2 * x * x) * e + c * c * e * e) /

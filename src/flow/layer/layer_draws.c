@@ -69,7 +69,7 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
         replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
     if (friction && known != NULL)
-        sliding_layer_replicates(&d->replicates, sliding, known, "modulus ratio");
+        replicates_add_layer(&d->replicates, sliding, known, "modulus ratio");
     return status;
 }
 

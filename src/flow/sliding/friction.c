@@ -456,7 +456,7 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     if (layer != NULL) {
         replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        sliding_layer_replicates(r, task->sliding, layer, "modulus ratio of the layer");
+        replicates_add_layer(r, task->sliding, layer, "modulus ratio of the layer");
     }
     wt_status status = draw_at_nodes(task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)

@@ -44,6 +44,9 @@ static const wt_param rows[] = {
      .help =
          "of these frequencies; another one needs the shift law of the bulk, which the layer is "
          "taken to have"},
+    {PARAM_FLAG_OF("ratio-by-rate", wt_layer_known, by_rate), .flags = PARAM_NO_OPTION,
+     .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
+             "indentation rates"},
     {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };
@@ -96,19 +99,6 @@ wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, ui
     const bool drawn = replicate != WT_NO_REPLICATE;
     return wt_rubber_at(rubber, temperature, seed,
                         drawn ? replicate + rubber->n_draws / 2 : replicate, material, NULL, err);
-}
-
-void sliding_layer_replicates(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
-                              const char *ratio)
-{
-    if (sliding->layer_rubber != NULL) {
-        replicates_add_drawn(r, sliding->layer_rubber->n_draws > 0, "material of the layer");
-        return;
-    }
-    replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
-    if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
-        replicates_add(r, known->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
-                       "its slope with the frequency");
 }
 
 void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,

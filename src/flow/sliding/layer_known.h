@@ -3,7 +3,7 @@
 #ifndef WEARTRACK_FLOW_SLIDING_LAYER_KNOWN_H
 #define WEARTRACK_FLOW_SLIDING_LAYER_KNOWN_H
 
-#include "flow/sliding/replicates.h"
+#include "weartrack/flow.h"
 
 /* The parameters and what goes together; NULL: nothing is known. */
 wt_status sliding_layer_check(const wt_layer_known *known, wt_error *err) WT_NODISCARD;
@@ -24,9 +24,6 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, s
 wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
                                size_t replicate, wt_material **material,
                                wt_error *err) WT_NODISCARD;
-/* What its modulus has errors of. `ratio`: in words. */
-void sliding_layer_replicates(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
-                              const char *ratio);
 /* Its moduli in words, "" where they are one ratio. */
 void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,
                             size_t size);

@@ -45,14 +45,6 @@ void replicates_add(replicates *r, double standard_error, flow_draw draw, const 
     }
 }
 
-void replicates_add_drawn(replicates *r, bool known, const char *words)
-{
-    if (known)
-        add_drawn(r, words);
-    else
-        add_words(r->lacks, sizeof r->lacks, words);
-}
-
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
 {
     const wt_rubber *rubber = sliding->rubber;
@@ -82,6 +74,22 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
             add_line(&r, FLOW_DRAW_SOFT_LOSS);
     }
     return r;
+}
+
+void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
+                          const char *ratio)
+{
+    if (sliding->layer_rubber != NULL) {
+        if (sliding->layer_rubber->n_draws > 0)
+            add_drawn(r, "material of the layer");
+        else
+            add_words(r->lacks, sizeof r->lacks, "material of the layer");
+        return;
+    }
+    replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
+    if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
+        replicates_add(r, known->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
+                       "its slope with the frequency");
 }
 
 const char *replicates_include(const replicates *r)

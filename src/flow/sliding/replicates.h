@@ -31,9 +31,9 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
  * stated.
  */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
-/* Something that is drawn in its own way, as a material is, or would be if its errors were known.
- */
-void replicates_add_drawn(replicates *r, bool known, const char *words);
+/* What the modulus of a layer has errors of. `ratio`: in words. */
+void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
+                          const char *ratio);
 /* What is drawn, as said in a table. */
 const char *replicates_include(const replicates *r);
 

@@ -209,7 +209,7 @@ static replicates begin_replicates(const growing *g)
     if (g->job.energy == WT_LAYER_HYSTERESIS)
         replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
-    sliding_layer_replicates(&r, &g->sliding, g->known, "modulus ratio of the layer");
+    replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
     return r;
 }
 

@@ -90,7 +90,7 @@ static replicates begin_replicates(const group *g, const wt_sliding *sliding, co
     if (g->known != NULL) {
         replicates_add(&r, g->known->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        sliding_layer_replicates(&r, &g->sliding, g->known, "modulus ratio of the layer");
+        replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
     }
     return r;
 }
