@@ -269,12 +269,6 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
         wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");
         return case_at(ratio, WT_E_ARG, err);
     }
-    if (status == WT_OK && c->known.by_rate && (c->bulk.n == 0 || c->track.n == 0)) {
-        wt_fail(err, WT_E_ARG, "the modulus ratio by rate is that of curves, and there are none");
-        wt_error_advice(err, "give the curves of bulk and track, or <ratio-slope> with "
-                             "<ratio-frequency>, <ratio-lowest> and <ratio-highest>");
-        return case_at(case_child(section, "ratio-by-rate"), WT_E_ARG, err);
-    }
     return status;
 }
 

@@ -124,8 +124,12 @@ wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *mod
 {
     table_view c, m;
     rate_ratios r = {.n = 0};
-    if (comparison == NULL || modulus_rate == NULL || known == NULL)
-        return wt_fail(err, WT_E_MISSING, "no comparison of wear track and bulk at several rates");
+    if (comparison == NULL || modulus_rate == NULL || known == NULL) {
+        wt_fail(err, WT_E_MISSING, "no comparison of wear track and bulk at several rates");
+        wt_error_advice(err, "a ratio by rate needs curves of both at several rates; ratio-slope, "
+                             "ratio-frequency, ratio-lowest and ratio-highest give it otherwise");
+        return WT_E_MISSING;
+    }
     wt_status status = table_bind(comparison, &comparison_schema, "", &c, err);
     if (status == WT_OK)
         status = table_bind(modulus_rate, &modulus_rate_schema, "", &m, err);
