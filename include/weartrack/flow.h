@@ -826,26 +826,39 @@ typedef struct wt_sliding {
     size_t n_temperatures;
     const double *pressures; /* [n_pressures] Pa, likewise */
     size_t n_pressures;
-    bool decades;           /* the friction by decades of the wavenumber is asked for */
-    wt_area_law area_law;   /* likewise */
-    wt_flash flash;         /* likewise; `temperature` is then that of the surroundings */
-    wt_shear_law shear_law; /* of the shear stress, which is that of its peak */
-    bool sensitivities;     /* of the friction at the reference velocity; default false */
+    bool decades;                  /* the friction by decades of the wavenumber is asked for */
+    wt_area_law area_law;          /* likewise */
+    wt_flash flash;                /* likewise; `temperature` is then that of the surroundings */
+    wt_shear_law shear_law;        /* of the shear stress, which is that of its peak */
+    bool sensitivities;            /* of the friction at the reference velocity; default false */
+    const wt_rubber *layer_rubber; /* the material of a layer, instead of a modulus ratio, borrowed;
+                                      default NULL */
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
 
 /* What is on the surface of the track. */
 typedef struct wt_layer_known {
-    wt_estimate thickness;       /* [m] */
-    wt_estimate modulus_ratio;   /* E_track / E_bulk */
-    double modulus_ratio_df;     /* degrees of freedom of its error (Student's t); 0 = normal */
-    bool bulk_shear;             /* tau_s = tau_bulk, not times the modulus ratio; default false */
+    wt_estimate thickness;     /* [m] */
+    wt_estimate modulus_ratio; /* E_track / E_bulk */
+    double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
+    wt_estimate ratio_slope;   /* of ln modulus_ratio against ln omega; default 0: one ratio */
+    double ratio_frequency;    /* where the ratio is modulus_ratio [rad/s]; NaN: not given */
+    double ratio_lowest, ratio_highest; /* that were measured, outside of which it is constant
+                                           [rad/s]; NaN: not given */
+    double ratio_temperature;           /* of these frequencies [K]; NaN: that of the sliding */
+    bool by_rate;    /* of a case: the ratio goes with the rate as compared; default false */
+    bool bulk_shear; /* tau_s = tau_bulk, not times the modulus ratio; default false */
     double calibration_share;    /* of the variance of the ratio that is of spring constants and the
                                     like, not of the scatter of spots; default 0 */
     const wt_layer_shear *shear; /* of the real contact with it; NULL: as by default */
 } wt_layer_known;
+WT_API wt_layer_known wt_layer_known_defaults(void); /* no layer */
 WT_API const wt_params *wt_layer_known_params(void);
+/* Ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at their
+ * mean frequency, and how that of each rate goes with its frequency. WT_E_MISSING with one rate. */
+WT_API wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
+                                        wt_layer_known *known, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_friction_tables {
     wt_table *friction;

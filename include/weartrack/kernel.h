@@ -15,12 +15,15 @@ extern "C" {
 
 /* ---- contact and friction -------------------------------------------------------------------- */
 
-/* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency.
- * Its stiffness at a wavenumber is that of Burmister (1943) for nu = 1/2, whatever the material
- * says. */
+/* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency, or
+ * by a power of the frequency, or by a material of its own. Its stiffness at a wavenumber is that
+ * of Burmister (1943) for nu = 1/2, whatever the material says; of complex moduli at each
+ * frequency. */
 typedef struct wt_layer_state {
-    double thickness;     /* [m], 0 = none */
-    double modulus_ratio; /* E_layer / E_bulk, > 0 */
+    double thickness;       /* [m], 0 = none */
+    double modulus_ratio;   /* E_layer / E_bulk, > 0 */
+    wt_ratio_slope slope;   /* of that ratio; all 0: it is the same at every frequency */
+    const wt_material *own; /* the layer's material, borrowed, instead of a ratio; NULL */
 } wt_layer_state;
 
 /* How the moduli soften with strain (Payne effect; Lorenz, Oh, Nam, Jeon and Persson, J. Chem.
@@ -156,6 +159,9 @@ typedef struct wt_friction_sensitivity {
 WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
                                            double velocity, wt_friction_sensitivity *sensitivity,
                                            wt_error *err) WT_NODISCARD;
+/* |E_layer / E_bulk| of the layer of a workspace at an angular frequency > 0, without flash
+ * temperature. */
+WT_API double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega);
 /* mu = mu_hys + tau_f (A/A0) / pressure with errors carried through; shear_stress is an estimate
  * [Pa]. */
 WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

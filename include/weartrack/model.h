@@ -204,6 +204,20 @@ WT_API wt_status wt_material_transverse(wt_material *plane, wt_material *axial, 
                                         wt_material **material, wt_error *err) WT_NODISCARD;
 WT_API void wt_material_free(wt_material *material);
 
+/* How the ratio of two moduli goes with the frequency: |ratio| as omega^exponent from `low` to
+ * `high`, constant outside of them. */
+typedef struct wt_ratio_slope {
+    double exponent;    /* 0: the ratio is one number */
+    double reference;   /* where the ratio is what it is said to be [rad/s] */
+    double low, high;   /* [rad/s] */
+    double temperature; /* at which these frequencies are [K]; NaN: at that of the material */
+} wt_ratio_slope;
+/* ln |ratio| less that at the reference, and the phase of a causal ratio of minimum phase that has
+ * it (Bode 1940, by the relations of Kramers and Kronig): exponent pi/2 far inside of `low` and
+ * `high`, 0 far outside. omega > 0. */
+WT_API void wt_ratio_slope_at(const wt_ratio_slope *slope, double omega, double *log_ratio,
+                              double *phase);
+
 /* ---- roughness ------------------------------------------------------------------------------- */
 
 /* Isotropic 2-D power spectrum C(q) [m^4] on [q0, q1], 0 elsewhere. */

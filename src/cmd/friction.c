@@ -74,7 +74,7 @@ int cmd_friction(int argc, char **argv)
                  "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
                  "temperatures pressures output",
         .master = CMD_DMA_OPTIONS};
-    wt_layer_known layer = {0};
+    wt_layer_known layer = wt_layer_known_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
@@ -83,8 +83,9 @@ int cmd_friction(int argc, char **argv)
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     const bool has_layer = cmd_given(own, "layer-thickness");
-    if (has_layer != cmd_given(own, "modulus-ratio"))
-        cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio go together");
+    if (has_layer != cmd_sliding_knows_layer(&s, own))
+        cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio (or a file of it) go "
+                                    "together");
     else if (cmd_sliding_open(&s)) {
         const wt_layer_known *known = has_layer ? &layer : NULL;
         wt_cost_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");

@@ -21,6 +21,7 @@ int cmd_identify(int argc, char **argv)
     wt_table *table = NULL;
     cmd_sliding_init(&s, (cmd_part){wt_identify_job_params(), &job, NULL, 0});
     /* the energy knows nothing of the shear stress */
+    s.parts[CMD_CONTACT].only = "material dma roughness strain-softening softening-temperature";
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "

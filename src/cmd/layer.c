@@ -23,7 +23,7 @@ static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
     const wt_layer_known *known =
-        cmd_given(&s->parts[CMD_KNOWN], "modulus-ratio") ? &s->known : NULL;
+        cmd_sliding_knows_layer(s, &s->parts[CMD_KNOWN]) ? &s->known : NULL;
     wt_status made = WT_OK;
     if (job->bands || job->n_loads > 0) {
         wt_cost_stage(s->session.cost, "layer_bands");
@@ -98,7 +98,9 @@ int cmd_layer(int argc, char **argv)
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
         "heat-capacity heat-diffusivity macroscopic-area clip-heat shear-stress shear-law "
         "shear-peak-velocity shear-width shear-activation shear-temperature";
-    s.parts[CMD_KNOWN].only = "modulus-ratio bulk-shear";
+    s.parts[CMD_KNOWN].only =
+        "modulus-ratio modulus-ratio-df ratio-slope ratio-frequency ratio-lowest "
+        "ratio-highest ratio-temperature bulk-shear";
     wt_layer_tables tables = {0};
     wt_table *table[N_TABLES] = {NULL};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
@@ -106,7 +108,7 @@ int cmd_layer(int argc, char **argv)
     const bool needs = job.running_in || job.acts_back;
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
-    else if (needs && !cmd_given(&s.parts[CMD_KNOWN], "modulus-ratio"))
+    else if (needs && !cmd_sliding_knows_layer(&s, &s.parts[CMD_KNOWN]))
         cmd_usage_error(&s.session, "--running-in-friction and --acts-back need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
         const wt_status made = make_tables(&s, &job, &tables, table);

@@ -22,6 +22,13 @@ static const wt_param contact_rows[] = {
     {PARAM("softening-temperature", cmd_contact, softening_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "they are of one",
      .help = "of strain sweeps at several temperatures take those nearest to this one"},
+    {PARAM_TEXT_OF("layer-comparison", cmd_contact, layer_comparison), .value = "FILE", .unset = "",
+     .help = "output of weartrack compare, whose modulus ratios at several indentation rates are "
+             "those of the layer, instead of --modulus-ratio"},
+    {PARAM_TEXT_OF("layer-material", cmd_contact, layer_material), .value = "FILE", .unset = "",
+     .help =
+         "output of weartrack master, or as --material, of the layer's own rubber, instead of a "
+         "modulus ratio"},
 };
 
 static cmd_contact no_contact(void)
@@ -52,6 +59,7 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
         "strain sample sample-by spectrum-convention",
         0};
     s->parts[CMD_OWN] = own;
+    s->known = wt_layer_known_defaults();
     s->parts[CMD_KNOWN] = (cmd_part){wt_layer_known_params(), &s->known, "", 0};
 }
 
@@ -60,7 +68,9 @@ int cmd_sliding_free(cmd_sliding *s)
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
     wt_softness_clear(&s->softness);
+    wt_rubber_clear(&s->layer_rubber);
     wt_result_free(s->material_tables);
+    wt_result_free(s->layer_tables);
     return cmd_session_free(&s->session);
 }
 
@@ -79,6 +89,12 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
+    const bool by_files = s->contact.layer_comparison != NULL || s->contact.layer_material != NULL;
+    if ((s->contact.layer_comparison != NULL && s->contact.layer_material != NULL) ||
+        (by_files && (cmd_given(&s->parts[CMD_OWN], "modulus-ratio") ||
+                      cmd_given(&s->parts[CMD_KNOWN], "modulus-ratio"))))
+        return cmd_usage_error(session, "give one of --modulus-ratio, --layer-comparison and "
+                                        "--layer-material");
     if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
         return cmd_param_error(session);
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
@@ -155,6 +171,44 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
     return status;
 }
 
+bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
+{
+    return cmd_given(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
+           s->contact.layer_material != NULL;
+}
+
+/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
+static wt_layer_known *known_of(cmd_sliding *s)
+{
+    return s->parts[CMD_OWN].params == wt_layer_known_params()
+               ? (wt_layer_known *)s->parts[CMD_OWN].structure
+               : &s->known;
+}
+
+/* The modulus of the layer from files. */
+static wt_status read_layer(cmd_sliding *s, wt_error *err)
+{
+    const cmd_contact *c = &s->contact;
+    const wt_table *comparison = NULL, *rates = NULL;
+    wt_status status = WT_OK;
+    if (c->layer_material != NULL) {
+        status = cmd_rubber_read(c->layer_material, NULL, s->master.poisson_ratio, &s->session.work,
+                                 &s->layer_tables, &s->layer_rubber, err);
+        s->conditions.layer_rubber = &s->layer_rubber;
+        return status;
+    }
+    status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
+                            (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
+                            &s->layer_tables, err);
+    if (status == WT_OK)
+        status = cmd_table_find(s->layer_tables, c->layer_comparison, "comparison", "compare",
+                                &comparison, err);
+    if (status == WT_OK)
+        status = cmd_table_find(s->layer_tables, c->layer_comparison, "modulus_rate", "compare",
+                                &rates, err);
+    return status == WT_OK ? wt_layer_known_by_rate(comparison, rates, known_of(s), err) : status;
+}
+
 bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
@@ -187,6 +241,9 @@ bool cmd_sliding_open(cmd_sliding *s)
                                   &s->softness, err);
         s->conditions.softness = &s->softness;
     }
+    if (status == WT_OK &&
+        (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL))
+        status = read_layer(s, err);
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
     if (status != WT_OK)

@@ -13,6 +13,8 @@ typedef struct cmd_contact {
     const char *roughness;
     const char *softening;        /* output of `payne` or a table; NULL: none */
     double softening_temperature; /* of its sweeps [K]; NaN: they are of one */
+    const char *layer_comparison; /* output of `compare`: the layer's modulus by rate; NULL: none */
+    const char *layer_material;   /* output of `master`: the layer's own; likewise */
 } cmd_contact;
 
 /* Options about DMA files, which weartrack master tells. */
@@ -46,8 +48,8 @@ typedef struct cmd_sliding {
     cmd_session session;
     cmd_part parts[CMD_SLIDING_PARTS];
     /* made by cmd_sliding_open */
-    wt_result *material_tables;
-    wt_rubber rubber;
+    wt_result *material_tables, *layer_tables;
+    wt_rubber rubber, layer_rubber;
     wt_surface surface;
     wt_softness softness;
 } cmd_sliding;
@@ -60,5 +62,7 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
 /* Begins the session, reads material and roughness and fills `conditions`. False if it cannot; what
  * was wrong has been said. */
 bool cmd_sliding_open(cmd_sliding *s);
+/* Whether the call says what the modulus of a layer is: `part` has the options of what is known. */
+bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part);
 
 #endif

@@ -185,8 +185,7 @@ double contact_integral(double variance, double gamma)
     return gamma == 1 ? plain : gamma * plain + (1 - gamma) * cube_integral(variance);
 }
 
-/* exp(-x) (sinh(x) - x) for x >= 0, without cancellation. */
-static double sinh_excess(double x)
+double sinh_excess(double x)
 {
     if (x > 1)
         return -0.5 * expm1(-2 * x) - x * exp(-x);

@@ -26,5 +26,7 @@ double contact_integral(double variance, double gamma);
 /* Scale of the modulus of a bonded layer on a bulk: E_eff(q) / E_bulk with x = q thickness and
  * ratio = E_layer / E_bulk. 1 for x = 0, ratio for x = infinity. */
 double layered_scale(double x, double ratio);
+/* exp(-x) (sinh(x) - x) for x >= 0, without cancellation. */
+double sinh_excess(double x);
 
 #endif

@@ -180,11 +180,12 @@ static void find_moduli(const flash_map *map)
         s->omega[i] *= grid->q[i] * map->at.speed;
         s->x[i] = grid->log_q[i] + log_speed + s->shift[i];
     }
-    angular_eval(ws->angular, s->omega, s->x, grid->n, s->j1, s->j2);
+    double own_error = 0; /* that of the pass at these temperatures says so */
+    friction_moduli(ws, grid->q, s->omega, s->x, grid->n, s->j1, s->j2, s->loss_j1, s->loss_j2,
+                    &own_error);
     s->nodes += grid->n;
     if (ws->loss == NULL)
         return;
-    angular_eval(ws->loss, s->omega, s->x, grid->n, s->loss_j1, s->loss_j2);
     for (size_t i = 0; i < grid->n; i++) {
         const double f = grid->f[i], g = grid->g[i];
         s->j1[i] *= g;

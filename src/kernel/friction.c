@@ -103,7 +103,7 @@ static void choose_panels(wt_friction_workspace *ws)
     const wt_layer_state *layer = &ws->options.layer;
     const bool smooth =
         ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
-    const bool bulk = !(layer->thickness > 0) || layer->modulus_ratio == 1;
+    const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->own == NULL);
     panel_plan_init(&ws->plan, ws->roughness, smooth && bulk ? smooth_width : PANEL_WIDTH,
                     levels_for(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening,
                     &ws->memory);
@@ -162,6 +162,83 @@ static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
     return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
 }
 
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* From the temperature of its frequencies to that of the material. */
+static wt_status shift_slope(const wt_friction_workspace *ws, wt_ratio_slope *slope, wt_error *err)
+{
+    const double same = 1; /* [K] by which temperatures without a law may differ */
+    const double from = slope->temperature, to = ws->options.temperature;
+    if (isnan(from) || slope->exponent == 0 || from == to)
+        return WT_OK;
+    const double log_a =
+        wt_shift_law_log_a(&ws->options.shift, from) - wt_shift_law_log_a(&ws->options.shift, to);
+    if (isnan(log_a) && fabs(from - to) <= same)
+        return WT_OK;
+    if (isnan(log_a)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
+        wt_error_found(err, "%.4g K and %.4g K", from, to);
+        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
+        return WT_E_MISSING;
+    }
+    const double a = exp(M_LN10 * log_a);
+    slope->reference *= a;
+    slope->low *= a;
+    slope->high *= a;
+    return WT_OK;
+}
+
+/* A layer with moduli of its own, which are in J1 and J2 then; panels end where either material is
+ * not smooth. */
+static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
+{
+    wt_layer_state *layer = &ws->options.layer;
+    if (!layer_has_moduli(layer))
+        return WT_OK;
+    ws->own = pool_alloc(&ws->memory, 1, sizeof *ws->own);
+    if (ws->own == NULL)
+        return no_memory(err);
+    const wt_status status = shift_slope(ws, &layer->slope, err);
+    if (status != WT_OK)
+        return status;
+    *ws->own = layer_moduli_of(ws->material, *layer, ws->options.tolerance);
+    ws->own->weight = ws->anisotropic ? &ws->along : NULL;
+    size_t more = ws->own->n_edges;
+    const double *edges = ws->own->edges;
+    if (layer->own != NULL && layer->own->law->breaks != NULL)
+        edges = layer->own->law->breaks(layer->own, &more);
+    *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
+    if (more == 0)
+        return WT_OK;
+    double *all = pool_numbers(&ws->memory, ws->n_knots + more);
+    if (all == NULL)
+        return no_memory(err);
+    for (size_t k = 0; k < ws->n_knots + more; k++)
+        all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
+    qsort(all, ws->n_knots + more, sizeof *all, by_value);
+    ws->knots = all;
+    ws->n_knots += more;
+    return WT_OK;
+}
+
+/* What panels must know of the knots. */
+static void prepare_knots(wt_friction_workspace *ws)
+{
+    if (ws->n_knots > 0)
+        ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
+    if (ws->n_knots > 0)
+        ws->log_knots = pool_numbers(&ws->memory, ws->n_knots);
+    if (ws->slopes == NULL || ws->log_knots == NULL)
+        return;
+    grid_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
+    for (size_t k = 0; k < ws->n_knots; k++)
+        ws->log_knots[k] = log(ws->knots[k]);
+}
+
 /* The angular integrals of the material, if none are given, and what goes to the side. */
 static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
 {
@@ -171,7 +248,7 @@ static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
     if (o->series == NULL)
         status = new_angular(ws, ws->material, &ws->angular, err);
     if (status == WT_OK && anisotropy_is_aside(&o->anisotropy))
-        status = friction_side_new(ws->material, o, &ws->memory, &ws->side, err);
+        status = friction_side_new(ws->material, o, ws->own, &ws->memory, &ws->side, err);
     return status;
 }
 
@@ -194,19 +271,12 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->stiffness = 1 / (1 - material->poisson_ratio * material->poisson_ratio);
     if (material->law->breaks != NULL && material->law->angular == NULL)
         ws->knots = material->law->breaks(material, &ws->n_knots);
-    if (ws->n_knots > 0)
-        ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
-    if (ws->n_knots > 0)
-        ws->log_knots = pool_numbers(&ws->memory, ws->n_knots);
-    if (ws->slopes != NULL && ws->log_knots != NULL) {
-        grid_slopes(material, ws->knots, ws->n_knots, ws->slopes);
-        for (size_t k = 0; k < ws->n_knots; k++)
-            ws->log_knots[k] = log(ws->knots[k]);
-    }
-
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
     status = begin_anisotropy(ws, err);
+    if (status == WT_OK)
+        status = begin_layer(ws, err);
+    prepare_knots(ws);
     if (status == WT_OK && o.softening != NULL)
         status = begin_softening(ws, err);
     choose_panels(ws);
@@ -383,7 +453,9 @@ typedef struct compute_job {
 
 static bool with_share(const wt_friction_workspace *ws)
 {
-    return !ws->options.without_share && angular_limited(ws->angular);
+    return !ws->options.without_share &&
+           (ws->own != NULL ? !isnan(ws->own->limit[0]) || !isnan(ws->own->limit[1])
+                            : angular_limited(ws->angular));
 }
 
 /* Of a load whose temperatures are known, forwards. */
@@ -465,7 +537,7 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
-    if (status == WT_OK && n > 0 && with_share(workspace))
+    if (status == WT_OK && n > 0 && workspace->own == NULL && with_share(workspace))
         status = angular_cover_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
@@ -479,6 +551,12 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
         return status;
     }
     return status == WT_OK ? WT_OK : wt_fail(err, status, "the friction integral could not be run");
+}
+
+double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega)
+{
+    return workspace->own != NULL ? layer_moduli_ratio(workspace->own, omega)
+                                  : workspace->options.layer.modulus_ratio;
 }
 
 wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

@@ -9,6 +9,7 @@
 #include "kernel/area_law.h"
 #include "kernel/flash.h"
 #include "kernel/grid.h"
+#include "kernel/layer_moduli.h"
 
 #include <float.h>
 
@@ -31,6 +32,7 @@ typedef struct friction_scratch {
     /* [room + 1], by panel: G and the hysteresis at full contact by the first rule, and what an
      * error of G makes of the hysteresis */
     double *rough_g, *rough_mu, *of_variance;
+    double own_error;     /* relative, of J1 and J2 of a layer with moduli of its own, at most */
     size_t nodes;         /* at which J1 and J2 were evaluated so far */
     flash_scratch *flash; /* NULL: no flash temperature */
     flash_solution heat;  /* of friction_heat */
@@ -47,6 +49,7 @@ struct wt_friction_workspace {
     angular_weight along;  /* of anisotropic roughness */
     bool anisotropic;
     struct friction_side *side; /* of its force to the side; NULL: none */
+    layer_moduli *own;          /* of a layer that has some; NULL: none */
     const area_law *area;       /* NULL: that of Persson */
     flash_law *flash;           /* NULL: the rubber is as warm as its surroundings */
     double stiffness;           /* 1 / (1 - nu^2) */
@@ -107,6 +110,12 @@ void friction_record_add(friction_record *record, const double *q, const double 
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
                                 size_t n_cuts, pool *memory, wt_error *err) WT_NODISCARD;
 
+/* J1 and J2 at n wavenumbers and their frequencies, omega and x = ln omega, with a softening those
+ * of the loss modulus, too; under a layer with moduli of its own those are in them, and its
+ * `*error` is raised. */
+void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
+                     const double *x, size_t n, double *j1, double *j2, double *loss_j1,
+                     double *loss_j2, double *error);
 /* Of all threads and calls so far. */
 size_t friction_nodes(const wt_friction_workspace *ws);
 

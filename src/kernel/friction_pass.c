@@ -22,9 +22,11 @@ static double steepness(const double *j, size_t n)
     return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
-static double series_error(const wt_friction_workspace *ws, double low, double high,
-                           friction_pass *pass)
+static double series_error(const wt_friction_workspace *ws, double own_error, double low,
+                           double high, friction_pass *pass)
 {
+    if (ws->own != NULL)
+        return own_error * (ws->softening != NULL ? 2 * ws->softening->caution : 1);
     if (ws->flash != NULL) /* the frequencies need not rise from panel to panel */
         pass->piece = pass->loss_piece = 0;
     const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
@@ -37,17 +39,17 @@ static double series_error(const wt_friction_workspace *ws, double low, double h
 /* What the errors of J1 and J2 and rounding make of the part of a pass whose n nodes are at ln
  * omega = `x`; G so far contains it. Errors of the series; ln(q / q0), ln omega and the logarithms
  * of the knots are rounded, so what is steep there moves. */
-static void add_moved(const wt_friction_workspace *ws, const grid_panel *panel, const double *x,
-                      const double *j1, const double *j2, size_t n, double log_lowest,
-                      double variance, double hysteresis, double variance_so_far,
+static void add_moved(const wt_friction_workspace *ws, double own_error, const grid_panel *panel,
+                      const double *x, const double *j1, const double *j2, size_t n,
+                      double log_lowest, double variance, double hysteresis, double variance_so_far,
                       friction_pass *pass)
 {
-    const bool closed = angular_closed(ws->angular, x[0], x[n - 1]) &&
+    const bool closed = ws->own == NULL && angular_closed(ws->angular, x[0], x[n - 1]) &&
                         (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1]));
     /* ln omega is a sum of two */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
     const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
-    const double series = closed ? 0 : series_error(ws, x[0], x[n - 1], pass);
+    const double series = closed ? 0 : series_error(ws, own_error, x[0], x[n - 1], pass);
     const double steepest_closed = 2; /* of a term of a Prony series */
     const double nodes =
         DBL_EPSILON * (1 + panel->t_high) * (fabs(panel->power) + steepest_closed + 1);
@@ -130,14 +132,13 @@ static void place_omega(const node_view *view, friction_load at)
 
 /* J1 and J2 at n nodes whose omega has been placed. */
 static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const double *omega, size_t n)
+                           const double *q, const double *omega, size_t n)
 {
     const size_t from = (size_t)(omega - scratch->omega);
     scratch->nodes += n;
-    const double *x = scratch->log_omega + from;
-    angular_eval(ws->angular, omega, x, n, scratch->j1 + from, scratch->j2 + from);
-    if (ws->loss != NULL)
-        angular_eval(ws->loss, omega, x, n, scratch->loss_j1 + from, scratch->loss_j2 + from);
+    friction_moduli(ws, q, omega, scratch->log_omega + from, n, scratch->j1 + from,
+                    scratch->j2 + from, scratch->loss_j1 + from, scratch->loss_j2 + from,
+                    &scratch->own_error);
 }
 
 /* Of G at a node from J2, and of the hysteresis at full contact from J1. */
@@ -187,7 +188,7 @@ typedef struct walk {
 static void evaluate_view(const walk *w, const node_view *view)
 {
     place_omega(view, w->at);
-    evaluate_nodes(w->ws, w->scratch, view->omega, view->rule->n);
+    evaluate_nodes(w->ws, w->scratch, view->q, view->omega, view->rule->n);
     soften_moduli(w->scratch, view);
     fill_parts(view, w->scale);
 }
@@ -381,13 +382,19 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
 /* ---- one pass -------------------------------------------------------------------------------- */
 
 /* What of a part comes from frequencies outside the data. */
-static double outside_of(const angular_law *angular, const node_view *view, const pass_part *part)
+static double outside_of(const wt_friction_workspace *ws, const node_view *view,
+                         const pass_part *part)
 {
     const size_t n = view->rule->n;
     double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
+    for (size_t j = 0; ws->own != NULL && j < n; j++)
+        if (view->omega[j] < ws->own->limit[0] || view->omega[j] > ws->own->limit[1])
+            sum += part->share[j];
+    if (ws->own != NULL)
+        return sum;
     for (size_t j = 0; j < n; j++)
         j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
-    angular_outside(angular, view->omega, j1, n, outside);
+    angular_outside(ws->angular, view->omega, j1, n, outside);
     for (size_t j = 0; j < n; j++)
         if (part->share[j] > 0)
             sum += part->share[j] * (outside[j] / j1[j]);
@@ -406,10 +413,10 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     if (w->record != NULL)
         friction_record_add(w->record, view->q, part->share, n);
     if (w->with_outside)
-        pass->outside += outside_of(ws->angular, view, part);
+        pass->outside += outside_of(ws, view, part);
     pass->variance_error += part->variance_error;
-    add_moved(ws, panel, view->log_omega, view->j1, view->j2, n, w->at.log_lowest, part->variance,
-              part->hysteresis, variance, pass);
+    add_moved(ws, scratch->own_error, panel, view->log_omega, view->j1, view->j2, n,
+              w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
     double error = part->hysteresis_error + part->closed_error;
     if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
         error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);
@@ -436,7 +443,8 @@ static void begin_panels(const walk *w, size_t first, size_t last)
         const node_view view = panel_view(scratch, grid, p, p * n);
         place_omega(&view, w->at);
     }
-    evaluate_nodes(w->ws, scratch, scratch->omega + first * n, (last - first) * n);
+    evaluate_nodes(w->ws, scratch, grid->q + first * n, scratch->omega + first * n,
+                   (last - first) * n);
     for (size_t p = first; p < last; p++) {
         const node_view view = panel_view(scratch, grid, p, p * n);
         soften_moduli(scratch, &view);
@@ -569,6 +577,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
     const size_t last = plan->n_panels, n = ws->rules[RULE_FIRST]->n;
     size_t level = effort.level;
     pass_part part;
+    scratch->own_error = 0;
     begin_panels(&w, plan->levels, last);
     node_view view = find_core(&w, closed ? one_part * share : 0, &level, &part);
     begin_panels(&w, plan->levels - level, plan->levels);

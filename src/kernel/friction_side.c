@@ -15,10 +15,12 @@ struct friction_side {
     double shift;         /* K = J1 of `shifted` less so many J1 of `plain` */
     angular_law *shifted; /* weighed */
     angular_law *plain;   /* of roughness that is the same in all directions */
+    layer_moduli own[2];  /* likewise, under a layer with moduli of its own */
 };
 
 wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
-                            pool *memory, friction_side **side, wt_error *err)
+                            const layer_moduli *own, pool *memory, friction_side **side,
+                            wt_error *err)
 {
     friction_side *made = pool_alloc(memory, 1, sizeof *made);
     if (made == NULL)
@@ -30,6 +32,11 @@ wt_status friction_side_new(const wt_material *material, const wt_friction_optio
         status = angular_new(material, options->tolerance, memory, &made->shifted, err);
     if (status == WT_OK)
         angular_weigh(made->shifted, &made->weight);
+    if (own != NULL) {
+        made->own[0] = made->own[1] = *own;
+        made->own[0].weight = &made->weight;
+        made->own[1].weight = NULL;
+    }
     return status;
 }
 
@@ -90,17 +97,27 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
     if (n == 0)
         return WT_OK;
     size_t piece[2] = {0, 0};
-    angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
-    angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);
-    angular_eval(s->plain, k.omega, k.log_omega, n, k.plain, k.j2);
+    double own_error = 0;
+    if (ws->own != NULL) {
+        layer_moduli_eval(ws->own, record->q, k.omega, n, k.j1, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[0], record->q, k.omega, n, k.shifted, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[1], record->q, k.omega, n, k.plain, k.j2, NULL, &own_error);
+    } else {
+        angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
+        angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);
+        angular_eval(s->plain, k.omega, k.log_omega, n, k.plain, k.j2);
+    }
     double first = k.log_omega[0],
            last = first; /* where it is warmer, a finer scale may be slower */
     for (size_t i = 1; i < n; i++) {
         first = fmin(first, k.log_omega[i]);
         last = fmax(last, k.log_omega[i]);
     }
-    const double error_shifted = angular_error(s->shifted, first, last, &piece[0]) + closed_error;
-    const double error_plain = angular_error(s->plain, first, last, &piece[1]) + closed_error;
+    const bool own = ws->own != NULL;
+    const double error_shifted =
+        (own ? own_error : angular_error(s->shifted, first, last, &piece[0])) + closed_error;
+    const double error_plain =
+        (own ? own_error : angular_error(s->plain, first, last, &piece[1])) + closed_error;
     double largest = 0, error = 0;
     for (size_t i = 0; i < n; i++) {
         if (!(k.j1[i] > 0))

@@ -41,6 +41,11 @@ static void check_slide(slide *s, heat *h)
     slide_friction(s, 2 * c.pressure, 1, 2, &soft, &area);
     slide_friction(s, c.pressure, 0, 1, &whole, &area);
     check_near("a layer that is all", soft, whole, 1e-6);
+    const own_ratio one = {0.3, 1e-12, 1, 1e-3, 1e9}, wide = {1, 0.1, 1, 1e-9, 1e9};
+    slide_friction(s, c.pressure, 1e-6, 0.3, &soft, &area);
+    check_near("a layer of one ratio", slide_on_own(s, &state, c.pressure, 1e-6, &one),
+               soft + 0.3 * c.shear_stress * area / c.pressure, 1e-4);
+    check_near("the phase of a power", own_phase(&wide, 1), 0.05 * acos(-1), 5e-3);
     check_near("a soft layer on a stiff one", layer_seen(1, 0.1), 0.308, 2e-3);
 }
 

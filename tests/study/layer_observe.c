@@ -19,7 +19,7 @@ static const contact nominal = {.q0 = 2e3,
                                 .velocities = 1,
                                 .velocity = {0.3}};
 /* Fewer than by default: they cost most of a draw, and scatter the errors by 8 %. */
-static const char replicates[] = "80";
+static const char replicates[] = "80", few[] = "24"; /* of moduli at each wave */
 /* Edges are looked for between these velocities, which are those of the command. */
 static const char list[] = "3e-3:30m/s:log:9"; /* the middle one is that of the contact */
 static const double slowest = 3e-3, fastest = 30;
@@ -96,7 +96,14 @@ static layer_truth solve(const layer_scene *s, const contact *c, const rubber_st
     truth.first = history_first(&h, time);
     slide_make(c, state, nominal.velocity[0], &slides[LOADS_MAX]);
     heat_make(&slides[LOADS_MAX], c->pressure, s->severity, &heats[LOADS_MAX]);
-    truth.settling = settle(&heats[LOADS_MAX], ratio);
+    own_ratio own = s->own;
+    own.ratio = ratio;
+    if (own.slope == 0)
+        truth.settling = settle(&heats[LOADS_MAX], ratio);
+    else
+        truth.settling = (settling){slide_on_own(&slides[LOADS_MAX], state, c->pressure,
+                                                 heat_balance(&heats[LOADS_MAX]), &own),
+                                    (double)NAN};
     if (s->severity > 0)
         truth.edge = edge_of(c, state, s->severity);
     free(slides);
@@ -115,7 +122,8 @@ static void read_found(const layer_scene *s, const layer_truth *truth, const cha
     }
     trial_add(t, Q_HISTORY_THICKNESS, truth->thickness, place_key(found, &place_last_thickness));
     trial_add(t, Q_FIRST_APPEARANCE, truth->first, place_key(found, &place_first_appearance));
-    trial_add(t, Q_SETTLED, truth->settling.settled, place_key(found, &place_settled));
+    if (s->own.slope == 0)
+        trial_add(t, Q_SETTLED, truth->settling.settled, place_key(found, &place_settled));
     trial_add(t, Q_END_FRICTION, truth->settling.end, place_key(found, &place_end_friction));
     if (s->severity > 0)
         trial_add(t, Q_EDGE_VELOCITY, truth->edge, place_key(found, &place_edge_velocity));
@@ -142,7 +150,7 @@ static void say_loads(const layer_scene *s, char *loads, size_t size, char *time
 
 typedef struct words {
     char surface[160], pressure[48], wear[48], energy[48], shear[48], ratio[48], loads[320],
-        severity[48], times[48];
+        severity[48], times[48], slope[48], reference[48], low[48], high[48];
 } words;
 
 /* What is measured of the truth, with the errors that are stated. */
@@ -163,6 +171,11 @@ static void say_inputs(const layer_scene *s, const contact *truth, double ratio,
     snprintf(w->ratio, sizeof w->ratio, "%.9g+-%g%%", random_about(ratio, s->of_ratio, random),
              100 * s->of_ratio);
     snprintf(w->severity, sizeof w->severity, "%gW/m^2", s->severity);
+    snprintf(w->slope, sizeof w->slope, "%.9g+-%g",
+             s->own.slope + s->of_slope * random_normal(random), s->of_slope);
+    snprintf(w->reference, sizeof w->reference, "%grad/s", s->own.reference);
+    snprintf(w->low, sizeof w->low, "%grad/s", s->own.low);
+    snprintf(w->high, sizeof w->high, "%grad/s", s->own.high);
     say_loads(s, w->loads, sizeof w->loads, w->times, sizeof w->times);
 }
 
@@ -170,6 +183,7 @@ static void say_inputs(const layer_scene *s, const contact *truth, double ratio,
 static bool run_command(const layer_scene *s, const words *w, const char *material,
                         const char *made, const char *grown, trial *t)
 {
+    const char *const slope = s->own.slope != 0 && !s->as_one ? "--ratio-slope" : NULL;
     const char *const in_turn[] = {"layer",     "--material",
                                    material,    "--roughness",
                                    w->surface,  "--pressure",
@@ -204,11 +218,18 @@ static bool run_command(const layer_scene *s, const words *w, const char *materi
                                     w->ratio,
                                     "--running-in-friction",
                                     "--replicates",
-                                    replicates,
+                                    slope != NULL ? few : replicates,
                                     "-o",
                                     grown,
                                     "--no-provenance",
-                                    s->severity > 0 ? "--existence" : NULL,
+                                    s->severity > 0 ? "--existence" : slope,
+                                    s->severity > 0 ? NULL : w->slope,
+                                    "--ratio-frequency",
+                                    w->reference,
+                                    "--ratio-lowest",
+                                    w->low,
+                                    "--ratio-highest",
+                                    w->high,
                                     NULL};
     return trial_run(t, in_turn) && trial_run(t, friction);
 }

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer_physics.h"
 
+#include <complex.h>
 #include <math.h>
+#include <stdlib.h>
+
+static const double complex unit = (double complex)I;
 
 /* ---- contact --------------------------------------------------------------------------------- */
 
@@ -84,6 +88,89 @@ double heat_below(const heat *h, double depth)
     for (int i = 0; i < WAVES; i++)
         sum += h->power[i] * exp(-2 * h->slide->q[i] * depth);
     return sum;
+}
+
+/* ---- a layer with moduli of its own ---------------------------------------------------------- */
+
+double own_phase(const own_ratio *own, double omega)
+{
+    const int steps = 2000;
+    const double low = log(own->low / omega), high = log(own->high / omega),
+                 step = (high - low) / steps;
+    double sum = 0;
+    for (int k = 0; k < steps; k++) {
+        const double y = fabs(low + step * (k + 0.5)) / 2;
+        sum += step * log(1 / tanh(y > 1e-12 ? y : 1e-12));
+    }
+    return own->slope / acos(-1) * sum;
+}
+
+static double own_size(const own_ratio *own, double omega)
+{
+    const double held = fmin(fmax(omega, own->low), own->high);
+    return own->ratio * pow(held / own->reference, own->slope);
+}
+
+/* Both moduli against ln omega, in equal steps up to the highest frequency. */
+enum { TABULATED = 1601 };
+typedef struct tabulated {
+    double first, step;
+    double complex bulk[TABULATED], ratio[TABULATED];
+} tabulated;
+
+static void tabulate(const slide *s, const rubber_state *state, const own_ratio *own, tabulated *to)
+{
+    const double last = log(s->q[WAVES - 1] * s->velocity);
+    to->step = 0.02;
+    to->first = last - to->step * (TABULATED - 2);
+    for (int k = 0; k < TABULATED; k++) {
+        const double omega = exp(to->first + to->step * k);
+        double storage, loss;
+        state_moduli(state, omega, &storage, &loss);
+        to->bulk[k] = storage + unit * loss;
+        const double phase = own_phase(own, omega), size = own_size(own, omega);
+        to->ratio[k] = size * cos(phase) + unit * (size * sin(phase));
+    }
+}
+
+/* What a wave sees of both at a frequency. */
+static double complex own_seen(const tabulated *t, double log_omega, double x)
+{
+    const double place = fmax(0, (log_omega - t->first) / t->step);
+    const int k = (int)place < TABULATED - 1 ? (int)place : TABULATED - 2;
+    const double part = place - k;
+    const double complex bulk = t->bulk[k] + part * (t->bulk[k + 1] - t->bulk[k]),
+                         ratio = t->ratio[k] + part * (t->ratio[k + 1] - t->ratio[k]);
+    const double complex n = (ratio - 1) / (ratio + 1);
+    const double fall = exp(-2 * x);
+    return bulk * ratio * (1 - 2 * n * (1 + 2 * x * x) * fall + n * n * fall * fall) /
+           (1 + 4 * n * x * fall - n * n * fall * fall);
+}
+
+double slide_on_own(const slide *s, const rubber_state *state, double pressure, double thickness,
+                    const own_ratio *own)
+{
+    const contact *c = s->contact;
+    const double kappa = 1 / (1 - c->poisson * c->poisson), step = 0.25;
+    slide felt = *s;
+    tabulated *t = malloc(sizeof *t);
+    double hysteresis, area;
+    if (t == NULL)
+        abort();
+    tabulate(s, state, own, t);
+    for (int i = 0; i < WAVES; i++) {
+        felt.loss[i] = felt.square[i] = 0;
+        for (int k = 0; k <= 100; k++) {
+            const double cosine = 1 / cosh(step * k), weight = k == 0 ? step / 2 : step;
+            const double complex e =
+                own_seen(t, log(s->q[i] * s->velocity * cosine), s->q[i] * thickness);
+            felt.loss[i] += 4 * weight * cosine * cosine * kappa * cimag(e);
+            felt.square[i] += 4 * weight * cosine * kappa * kappa * creal(e * conj(e));
+        }
+    }
+    free(t);
+    slide_friction(&felt, pressure, 0, 1, &hysteresis, &area);
+    return hysteresis + own_size(own, s->velocity / thickness) * c->shear_stress * area / pressure;
 }
 
 /* ---- damage ---------------------------------------------------------------------------------- */

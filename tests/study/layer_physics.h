@@ -21,6 +21,18 @@ double layer_seen(double x, double ratio);
 void slide_friction(const slide *s, double pressure, double thickness, double ratio,
                     double *hysteresis, double *area);
 
+/* A ratio of moduli that goes as omega^slope from `low` to `high` [rad/s] and is `ratio` at the
+ * reference, constant outside; its phase by an integral over what d ln ratio / d ln omega is. */
+typedef struct own_ratio {
+    double ratio, slope, reference, low, high;
+} own_ratio;
+/* Friction on a bonded layer of such moduli, each wave at its complex stiffness: total, with the
+ * shear stress times |ratio| at velocity / thickness. */
+double slide_on_own(const slide *s, const rubber_state *state, double pressure, double thickness,
+                    const own_ratio *own);
+/* The phase of the ratio at a frequency. */
+double own_phase(const own_ratio *own, double omega);
+
 /* J of the contact on bare rubber, below a depth. */
 typedef struct heat {
     const slide *slide;

@@ -17,6 +17,9 @@ typedef struct layer_scene {
     double of_load, of_surface, of_wear, of_energy, of_shear, of_ratio;
     double wear_rate, critical_energy, ratio; /* nominal, times e^(0.1 z) */
     double severity;                          /* power [W/m^2], 0: none; then it has an edge */
+    own_ratio own;   /* slope 0: one ratio; its ratio is that of the draw */
+    double of_slope; /* the error of the slope, not relative */
+    bool as_one;     /* the command is told of one ratio all the same */
     int loads;
     layer_load load[LOADS_MAX];
 } layer_scene;

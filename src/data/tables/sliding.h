@@ -79,6 +79,12 @@
       LABEL("Change of the hysteresis in % by 1 % of the largest wavenumber"), OPTIONAL)           \
     X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER, OPTIONAL)                 \
+    X(FRICTION_KEY_LAYER_MODULI, AS(layer_moduli), TEXT, LABEL("Moduli of the layer"), OPTIONAL)   \
+    X(FRICTION_KEY_LAYER_SLOPE, "layer_ratio_slope", NUMBER, SHOWS(layer_slope),                   \
+      LABEL("Slope of the modulus ratio with the frequency"), OPTIONAL)                            \
+    X(FRICTION_KEY_LAYER_OUTSIDE, "layer_outside_share", NUMBER, SHOWS(layer_outside),             \
+      LABEL("Share of the hysteresis on the layer from frequencies at which it was not measured"), \
+      OPTIONAL)                                                                                    \
     X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER, SHOWS(with_layer),      \
       HEADLINE("Friction coefficient with layer"), OPTIONAL)                                       \
     X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER, SHOWS(change),                  \

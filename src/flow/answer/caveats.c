@@ -263,6 +263,26 @@ static void comparison_caveats(answer_story *story)
         answer_caveat(story, CAVEAT_DATA, "Comparison with DMA: %s.", statement);
 }
 
+static void tell_moduli_of_layer(telling *t, const table_view *friction)
+{
+    const char *const shear = friction_words(friction, FRICTION_KEY_LAYER_SHEAR);
+    const char *const moduli = friction_words(friction, FRICTION_KEY_LAYER_MODULI);
+    const double outside = friction_value(friction, FRICTION_KEY_LAYER_OUTSIDE).value;
+    if (moduli == NULL) {
+        tell(t,
+             " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
+             "shear stress is %s; neither is measured at the frequencies of sliding.",
+             shear != NULL ? shear : "scaled by the same ratio");
+        return;
+    }
+    tell(t, " The moduli of the layer are %s; its shear stress is %s.", moduli,
+         shear != NULL ? shear : "scaled by their ratio");
+    if (outside >= 0)
+        tell(t,
+             " %.3g %% of the hysteresis on it are of frequencies at which they were not measured.",
+             100 * outside);
+}
+
 static void material_caveats(answer_story *story)
 {
     const table_view *shifts = &story->shift_factors;
@@ -307,13 +327,8 @@ static void tell_theory(telling *t, const table_view *friction)
              "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
              "contact.",
              temperature, heating);
-    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL) {
-        const char *const shear = friction_words(friction, FRICTION_KEY_LAYER_SHEAR);
-        tell(t,
-             " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
-             "shear stress is %s; neither is measured at the frequencies of sliding.",
-             shear != NULL ? shear : "scaled by the same ratio");
-    }
+    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
+        tell_moduli_of_layer(t, friction);
 }
 
 static void friction_caveats(answer_story *story)

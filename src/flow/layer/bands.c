@@ -93,7 +93,8 @@ static wt_status loads_make(const bands_task *task, const layer_scene *scene, lo
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < task->n; i++) {
         const layer_load *load = &task->load[i];
-        const layer_spot spot = {load->pressure, load->velocity, load->temperature, {0, 1}};
+        const layer_spot spot = {load->pressure, load->velocity, load->temperature,
+                                 layer_here().layer};
         wt_layer_stage *stage = &l->stage[i];
         const wt_status status = layer_at(scene, spot, &l->energy[i], &stage->parameters, err);
         if (status != WT_OK)

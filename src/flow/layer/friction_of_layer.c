@@ -22,6 +22,7 @@ static wt_status take_nodes(friction_of_layer *f, double thinnest, double thicke
         f->value[OF_HYSTERESIS][i] = at.hysteresis;
         f->value[OF_AREA][i] = at.area_ratio;
         f->value[OF_BULK_STRESS][i] = at.bulk_stress;
+        f->value[OF_RATIO][i] = at.ratio;
         f->pressure = at.pressure;
     }
     f->n = n;
@@ -57,7 +58,7 @@ wt_status friction_of_layer_at(const friction_of_layer *of, double thickness, la
     const double unknown = (double)NAN;
     const layer_spot spot = layer_under(of->scene, thickness);
     *f = (layer_friction){unknown, unknown, unknown, unknown, unknown,
-                          unknown, unknown, unknown, unknown};
+                          unknown, unknown, unknown, unknown, unknown};
     if (!isfinite(thickness))
         return WT_OK;
     if (of->n == 0 || !(thickness > 0))
@@ -68,6 +69,8 @@ wt_status friction_of_layer_at(const friction_of_layer *of, double thickness, la
     f->area_ratio = curve_at(of->curve[OF_AREA], x);
     f->bulk_stress = curve_at(of->curve[OF_BULK_STRESS], x);
     f->pressure = of->pressure;
+    const bool own = of->scene->sliding->layer_rubber != NULL || spot.layer.slope.exponent != 0;
+    f->ratio = own ? curve_at(of->curve[OF_RATIO], x) : spot.layer.modulus_ratio;
     layer_friction_join(of->scene->job, spot.layer, f);
     return WT_OK;
 }

@@ -7,7 +7,7 @@
 #include "kernel/curve.h"
 
 /* What is interpolated; the shear stress of the layer, which may jump, is a law of these. */
-enum { OF_HYSTERESIS, OF_AREA, OF_BULK_STRESS, OF_CURVES };
+enum { OF_HYSTERESIS, OF_AREA, OF_BULK_STRESS, OF_RATIO, OF_CURVES };
 
 typedef struct friction_of_layer {
     const layer_scene *scene; /* borrowed */

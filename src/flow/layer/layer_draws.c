@@ -35,11 +35,12 @@ static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = wt_layer_job_check(job, err);
-    if (status == WT_OK && known != NULL && !(known->modulus_ratio.value > 0)) {
+    if (status == WT_OK && known != NULL && sliding->layer_rubber == NULL &&
+        !(known->modulus_ratio.value > 0)) {
         status = wt_fail(err, WT_E_MISSING, "the modulus of the layer is not known");
         wt_error_expected(err, "modulus-ratio above 0");
     }
-    return status;
+    return status == WT_OK ? sliding_layer_check(known, err) : status;
 }
 
 wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
@@ -58,7 +59,8 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
                       .job = &d->stated,
                       .work = work,
                       .replicate = WT_NO_REPLICATE,
-                      .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN};
+                      .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
+                      .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
     status = layer_job_calibrated(&d->values, &d->calibrated, err);
     d->values.job = &d->calibrated;
     d->replicates = replicates_of(sliding, work, what);
@@ -67,8 +69,7 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
         replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
     if (friction && known != NULL)
-        replicates_add(&d->replicates, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
-                       "modulus ratio");
+        replicates_add_layer(&d->replicates, sliding, known, "modulus ratio");
     return status;
 }
 
@@ -79,6 +80,7 @@ wt_status layer_draws_scene(const layer_draws *d, size_t replicate, wt_layer_job
     scene->job = &d->stated;
     scene->replicate = replicate;
     scene->drawn = d->replicates.drawn;
+    scene->slope = sliding_layer_slope(d->known, scene->work->seed, replicate);
     if (d->known != NULL)
         scene->modulus_ratio =
             flow_draw_positive_t(d->known->modulus_ratio, d->known->modulus_ratio_df,

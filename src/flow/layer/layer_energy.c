@@ -33,9 +33,9 @@ static wt_status find_area(const wt_sliding *sliding, const wt_layer_job *job,
     if (status != WT_OK)
         return status;
     const double area = e->point.area_ratio.value;
-    e->shear_power =
-        wt_layer_shear_stress(&job->shear, sliding_shear(sliding, c, &e->point), layer, area) *
-        area * fabs(velocity);
+    e->shear_power = wt_layer_shear_stress(&job->shear, sliding_shear(sliding, c, &e->point),
+                                           sliding_layer_sheared(c, layer, velocity), area) *
+                     area * fabs(velocity);
     return WT_OK;
 }
 

@@ -39,6 +39,7 @@ typedef struct layer_scene {
     size_t replicate;     /* WT_NO_REPLICATE: the values themselves */
     wt_drawn *drawn;      /* materials of the replicates; NULL: none is kept */
     double modulus_ratio; /* of the layer; NaN: not known */
+    wt_ratio_slope slope; /* of that */
 } layer_scene;
 
 /* Where a layer is looked at. What is given has the relative error of that of the sliding, a
@@ -60,6 +61,7 @@ typedef struct layer_friction {
     double hysteresis, area_ratio, shear_stress, total;
     double hysteresis_error, area_error, total_error;
     double bulk_stress, pressure; /* of which the others are made */
+    double ratio;                 /* of the moduli, where the layer is sheared; likewise */
 } layer_friction;
 wt_status layer_friction_at(const layer_scene *scene, layer_spot spot, layer_friction *friction,
                             wt_error *err) WT_NODISCARD;

@@ -7,14 +7,18 @@
 
 layer_spot layer_here(void)
 {
-    return (layer_spot){(double)NAN, (double)NAN, (double)NAN, {0, 1}};
+    return (layer_spot){.pressure = (double)NAN,
+                        .velocity = (double)NAN,
+                        .temperature = (double)NAN,
+                        .layer = {.modulus_ratio = 1}};
 }
 
 layer_spot layer_under(const layer_scene *scene, double thickness)
 {
     layer_spot spot = layer_here();
     if (thickness > 0)
-        spot.layer = (wt_layer_state){thickness, scene->modulus_ratio};
+        spot.layer = (wt_layer_state){
+            .thickness = thickness, .modulus_ratio = scene->modulus_ratio, .slope = scene->slope};
     return spot;
 }
 
@@ -53,6 +57,7 @@ static wt_status contact_at(const layer_scene *scene, const wt_sliding *s, layer
 
 void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
 {
+    layer.modulus_ratio = f->ratio;
     const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer, f->area_ratio);
     f->shear_stress = stress;
     f->total = f->hysteresis + stress * f->area_ratio / f->pressure;
@@ -73,12 +78,14 @@ static wt_status find_friction(const layer_scene *scene, const wt_sliding *s,
         wt_friction_compute(c->workspace, c->pressure, s->velocity, 1, &p, err);
     if (status != WT_OK)
         return status;
-    *friction = (layer_friction){.hysteresis = p.hysteresis.value,
-                                 .area_ratio = p.area_ratio.value,
-                                 .hysteresis_error = p.hysteresis.numerical_error,
-                                 .area_error = p.area_ratio.numerical_error,
-                                 .bulk_stress = sliding_shear(s, c, &p),
-                                 .pressure = c->pressure};
+    *friction = (layer_friction){
+        .hysteresis = p.hysteresis.value,
+        .area_ratio = p.area_ratio.value,
+        .hysteresis_error = p.hysteresis.numerical_error,
+        .area_error = p.area_ratio.numerical_error,
+        .bulk_stress = sliding_shear(s, c, &p),
+        .pressure = c->pressure,
+        .ratio = sliding_layer_sheared(c, spot.layer, s->velocity[0]).modulus_ratio};
     layer_friction_join(scene->job, spot.layer, friction);
     return WT_OK;
 }

@@ -307,6 +307,12 @@ wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_er
     known->modulus_ratio = run->modulus_ratio;
     known->modulus_ratio_df = run->modulus_ratio_df;
     known->calibration_share = run->calibration_share;
+    if (!isnan(known->modulus_ratio.value) && known->by_rate) {
+        if (isnan(known->ratio_temperature))
+            known->ratio_temperature = run->c->compare.temperature.value;
+        return wt_layer_known_by_rate(run->table[FLOW_COMPARISON], run->table[FLOW_MODULUS_RATE],
+                                      known, err);
+    }
     if (!isnan(known->modulus_ratio.value))
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");

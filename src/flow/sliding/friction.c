@@ -36,6 +36,9 @@ typedef struct friction_task {
     wt_friction_sensitivity by; /* likewise; NaN: not asked for */
     replicates replicates;
     size_t drawn; /* velocities of all replicates */
+    double
+        layer_outside; /* of the hysteresis on a layer with moduli of its own, at the reference */
+    char layer_says[160]; /* what must be said of those */
 } friction_task;
 
 static double *numbers_of_kind(double *values, size_t n, int kind)
@@ -73,8 +76,10 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
     return status;
 }
 
+/* What must be said of the contact, or NULL. */
 static wt_status compute_layered(const friction_task *task, size_t replicate,
-                                 wt_friction_point *points, double *out, wt_error *err)
+                                 wt_friction_point *points, double *out, char says[160],
+                                 wt_error *err)
 {
     wt_layer_state layer = layer_of(task, replicate);
     sliding_contact c = {0};
@@ -83,15 +88,18 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
+        const wt_layer_state sheared = sliding_layer_sheared(&c, layer, task->velocity[i]);
         double with = points[i].hysteresis.value +
                       sliding_layer_shear(task->layer, sliding_shear(task->sliding, &c, &points[i]),
-                                          layer, points[i].area_ratio.value) *
+                                          sheared, points[i].area_ratio.value) *
                           points[i].area_ratio.value / c.pressure;
         double without = numbers_of_kind(out, task->n, TOTAL)[i];
         numbers_of_kind(out, task->n, LAYERED)[i] = with;
         numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
         numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
     }
+    if (status == WT_OK && says != NULL)
+        sliding_layer_says(&c, task->sliding, says);
     sliding_contact_clear(&c);
     return status;
 }
@@ -105,7 +113,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
         return WT_E_MEMORY;
     wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
-        status = compute_layered(task, i, points, out, err);
+        status = compute_layered(task, i, points, out, NULL, err);
     sliding_contact_clear(&c);
     free(points);
     return status;
@@ -127,6 +135,7 @@ TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
 TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate pressure, temperature, shear_stress, total, hysteresis, area, strain;
            wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
+           wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
            wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
@@ -179,7 +188,18 @@ static void find_layer_keys(friction_task *task, friction_keys *keys)
         keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
     }
     keys->layer_thickness = flow_as_stated(task->layer->thickness);
-    keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
+    sliding_layer_describe(task->sliding, task->layer, keys->layer_moduli,
+                           sizeof keys->layer_moduli);
+    if (task->sliding->layer_rubber == NULL)
+        keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
+    if (keys->layer_moduli[0] != '\0') {
+        const size_t used = strlen(keys->layer_moduli);
+        snprintf(keys->layer_moduli + used, sizeof keys->layer_moduli - used, "%s%s",
+                 task->layer_says[0] != '\0' ? "; " : "", task->layer_says);
+        keys->layer_outside.value = task->layer_outside;
+        if (keys->layer_modulus_ratio.value > 0)
+            keys->layer_slope = flow_as_stated(task->layer->ratio_slope);
+    }
     keys->with_layer = with_error(task, LAYERED, last, task->numerical[1]);
     keys->change = with_error(task, CHANGE, last, both);
     keys->relative_change = with_error(task, RELATIVE, last,
@@ -235,6 +255,8 @@ static void set_keys(friction_task *task, const sliding_contact *c, table_writer
         .by_cutoff = flow_as_stated((wt_estimate){.value = task->by.cutoff}),
         .layer_thickness = not_known,
         .layer_modulus_ratio = not_known,
+        .layer_slope = not_known,
+        .layer_outside = not_known,
         .with_layer = not_known,
         .change = not_known,
         .relative_change = not_known,
@@ -303,34 +325,16 @@ static void release_numbers(friction_task *task)
     replicates_clear(&task->replicates);
 }
 
-static wt_layer_known no_layer(void)
-{
-    return (wt_layer_known){.thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}};
-}
-
-static const wt_param rows[] = {
-    LAYER_STATE_ROWS(wt_layer_known, ),
-    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
-     .value = "N",
-     .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
-             "them; 0: a normal error"},
-    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
-     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
-};
-PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, no_layer, NO_PARTS)
-
 static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
 {
-    if (layer == NULL)
-        return WT_OK;
-    if (isinf(layer->thickness.value)) {
+    if (layer != NULL && isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
         wt_error_found(err, "%g m", layer->thickness.value);
         wt_error_advice(err, "without wear, or where it ages, the layer grows without end: give a "
                              "specific wear rate or an observed thickness, or leave out ageing");
         return WT_E_RANGE;
     }
-    return param_check(wt_layer_known_params(), layer, err);
+    return sliding_layer_check(layer, err);
 }
 
 /* Numerical error of hysteresis + shear x area. */
@@ -396,8 +400,9 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     wt_friction_point *layered = malloc(task->n * sizeof *layered);
     if (layered == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
+    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, task->layer_says, err);
     if (status == WT_OK) {
+        task->layer_outside = layered[last].extrapolated_share;
         task->numerical[1] = total_error(
             &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
                                                 layered[last].area_ratio.value) /
@@ -451,8 +456,7 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     if (layer != NULL) {
         replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        replicates_add(r, layer->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
-                       "modulus ratio of the layer");
+        replicates_add_layer(r, task->sliding, layer, "modulus ratio of the layer");
     }
     wt_status status = draw_at_nodes(task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)

@@ -76,6 +76,22 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     return r;
 }
 
+void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
+                          const char *ratio)
+{
+    if (sliding->layer_rubber != NULL) {
+        if (sliding->layer_rubber->n_draws > 0)
+            add_drawn(r, "material of the layer");
+        else
+            add_words(r->lacks, sizeof r->lacks, "material of the layer");
+        return;
+    }
+    replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
+    if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
+        replicates_add(r, known->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
+                       "its slope with the frequency");
+}
+
 const char *replicates_include(const replicates *r)
 {
     return r->varies                 ? r->includes

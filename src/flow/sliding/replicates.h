@@ -30,6 +30,9 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
 /* Something else that is drawn by `draw` (standard_error > 0), or would be if its error were
  * stated. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
+/* What the modulus of a layer has errors of. `ratio`: in words. */
+void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
+                          const char *ratio);
 /* What is drawn, as said in a table. */
 const char *replicates_include(const replicates *r);
 

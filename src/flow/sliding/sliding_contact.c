@@ -174,7 +174,9 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
         isnan(temperature) ? sliding->rubber->prony.reference_temperature : temperature;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
-    options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
+    const bool layered = layer.thickness > 0, own = layered && sliding->layer_rubber != NULL;
+    options.without_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
+                            (work->left_out & WT_EXTRA_SHARE) != 0;
     drawn_material kept = {0};
     wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err)
                        : drawn        ? WT_OK
@@ -189,6 +191,9 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
         status = flow_surface_draw(sliding->surface, factor, seed, replicate, &c.roughness, err);
     if (status == WT_OK)
         status = check_material(sliding, &c, err);
+    if (status == WT_OK && own)
+        status = sliding_layer_rubber(sliding, c.temperature, seed, replicate, &c.layer, err);
+    options.layer.own = c.layer;
     if (status == WT_OK)
         status = make_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
@@ -207,55 +212,28 @@ double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
                                                    isnan(warm) ? contact->temperature : warm);
 }
 
-wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)
+wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
+                                     double velocity)
 {
-    wt_layer_state state = {.modulus_ratio = 1};
-    if (known == NULL)
-        return state;
-    const double thickness =
-        flow_draw_value(known->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
-    state.thickness = thickness > 0 ? thickness : 0;
-    if (state.thickness > 0)
-        state.modulus_ratio = flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
-                                                   seed, replicate, FLOW_DRAW_RATIO);
-    return state;
+    const double rate = fabs(velocity) / layer.thickness;
+    if (contact->workspace->own != NULL && rate > 0)
+        layer.modulus_ratio = wt_friction_layer_ratio(contact->workspace, rate);
+    return layer;
 }
 
-wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
+void sliding_layer_says(const sliding_contact *contact, const wt_sliding *sliding, char says[160])
 {
-    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
-    if (known->bulk_shear)
-        shear.exponent = 0;
-    return shear;
-}
-
-double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
-                           double area_ratio)
-{
-    if (known == NULL)
-        return bulk;
-    const wt_layer_shear shear = sliding_layer_shear_of(known);
-    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
-}
-
-bool sliding_layer_shear_is_plain(const wt_layer_shear *shear)
-{
-    return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
-}
-
-void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
-{
-    char reach[64] = "", cracks[96] = "";
-    if (shear->reach > 0)
-        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
-                      1e6 * shear->reach);
-    if (shear->crack_energy > 0)
-        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
-                      shear->crack_energy, 1e6 * shear->spacing);
-    clocale_print(text, size,
-                  "that of the bulk times the modulus ratio to the power of %.3g "
-                  "(reconstructed)%s%s",
-                  shear->exponent, reach, cracks);
+    const layer_moduli *own = contact->workspace->own;
+    double range[2];
+    says[0] = '\0';
+    if (own != NULL &&
+        layer_moduli_gain(own, contact->roughness->q0 * sliding->velocity[0],
+                          contact->roughness->q1 * sliding->velocity[sliding->n_velocity - 1],
+                          range))
+        clocale_print(says, 160,
+                      "from %.2g to %.2g rad/s its loss modulus would be below 0 by such a slope, "
+                      "and is taken as 0",
+                      range[0], range[1]);
 }
 
 void sliding_contact_clear(sliding_contact *contact)
@@ -266,5 +244,6 @@ void sliding_contact_clear(sliding_contact *contact)
     wt_roughness_free(contact->roughness);
     if (!contact->shared)
         wt_material_free(contact->material);
+    wt_material_free(contact->layer);
     *contact = (sliding_contact){0};
 }

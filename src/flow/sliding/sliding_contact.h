@@ -4,12 +4,14 @@
 #define WEARTRACK_FLOW_SLIDING_SLIDING_CONTACT_H
 
 #include "flow/sliding/drawn_materials.h"
+#include "flow/sliding/layer_known.h"
 
 typedef struct sliding_contact {
     double pressure, shear_stress;
     double temperature; /* of the rubber, or of its surroundings [K] */
     wt_material *material;
-    bool shared; /* it is that of `drawn` */
+    bool shared;        /* it is that of `drawn` */
+    wt_material *layer; /* of a layer that has one of its own; NULL: none */
     wt_roughness *roughness;
     wt_friction_workspace *workspace;
     wt_cost *cost;       /* of its nodes */
@@ -34,17 +36,13 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
 /* Shear stress of the contact at a point, by the temperature there. */
 double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
                      const wt_friction_point *point);
-/* The layer of a replicate, a bare one where its thickness is drawn below 0; `known` NULL: none. */
-wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate);
-/* Shear stress with a layer, of that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or as the
- * layer says; cracks are opened without one, too. `known` NULL: that of the bulk. */
-/* Its law: that of the bulk has no power of the modulus ratio. */
-wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known);
-double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
-                           double area_ratio);
-/* The modulus ratio at once and no cracks, which need no words; the law in words. */
-bool sliding_layer_shear_is_plain(const wt_layer_shear *shear);
-void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);
+/* The layer of a contact, whose modulus ratio is that at which it is sheared: at the frequency
+ * velocity / thickness, which is the rate of its shear and that of a wave as long as it is thick.
+ */
+wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
+                                     double velocity);
+/* What must be said of its moduli, "" if nothing. */
+void sliding_layer_says(const sliding_contact *contact, const wt_sliding *sliding, char says[160]);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif

@@ -38,7 +38,11 @@ static wt_status scene_of(const growing *g, size_t replicate, wt_drawn *drawn, w
 {
     const wt_layer_known *const known = g->known;
     const uint64_t seed = g->work->seed;
-    *scene = (layer_scene){g->stated, &g->job, g->work, replicate, NULL, (double)NAN};
+    *scene = (layer_scene){.sliding = g->stated,
+                           .job = &g->job,
+                           .work = g->work,
+                           .replicate = replicate,
+                           .modulus_ratio = (double)NAN};
     const wt_status status = layer_job_calibrated(scene, job, err);
     job->velocity = g->velocity;
     job->time = NULL;
@@ -49,7 +53,8 @@ static wt_status scene_of(const growing *g, size_t replicate, wt_drawn *drawn, w
                            .drawn = drawn,
                            .modulus_ratio =
                                flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
-                                                    seed, replicate, FLOW_DRAW_RATIO)};
+                                                    seed, replicate, FLOW_DRAW_RATIO),
+                           .slope = sliding_layer_slope(known, seed, replicate)};
     return status;
 }
 
@@ -204,8 +209,7 @@ static replicates begin_replicates(const growing *g)
     if (g->job.energy == WT_LAYER_HYSTERESIS)
         replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
-    replicates_add(&r, g->known->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
-                   "modulus ratio of the layer");
+    replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
     return r;
 }
 

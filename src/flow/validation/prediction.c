@@ -31,13 +31,14 @@ static wt_status compute_contact(const group *g, wt_drawn *drawn, size_t replica
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, g->velocity, g->n, points, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++) {
+        const wt_layer_state sheared = sliding_layer_sheared(&c, layer, g->velocity[i]);
         const double warm = points[i].temperature.value, area = points[i].area_ratio.value,
-                     cracks = sliding_layer_shear(g->known, 0, layer, area),
+                     cracks = sliding_layer_shear(g->known, 0, sheared, area),
                      of_bulk = wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
                                                isnan(warm) ? c.temperature : warm);
         hysteresis[i] = points[i].hysteresis.value + cracks * area / c.pressure;
         by_shear[i] =
-            (sliding_layer_shear(g->known, of_bulk, layer, area) - cracks) * area / c.pressure;
+            (sliding_layer_shear(g->known, of_bulk, sheared, area) - cracks) * area / c.pressure;
     }
     sliding_contact_clear(&c);
     return status;
@@ -89,8 +90,7 @@ static replicates begin_replicates(const group *g, const wt_sliding *sliding, co
     if (g->known != NULL) {
         replicates_add(&r, g->known->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        replicates_add(&r, g->known->modulus_ratio.standard_error, FLOW_DRAW_RATIO,
-                       "modulus ratio of the layer");
+        replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
     }
     return r;
 }

@@ -28,8 +28,10 @@ typedef enum flow_draw {
     /* of replicates again: what stands before keeps its numbers */
     FLOW_DRAW_SOFT_STORAGE,
     FLOW_DRAW_SOFT_LOSS,
-    /* of the points of a spectrum, each behind the one before: the last */
-    FLOW_DRAW_MODES
+    /* of the points of a spectrum, each behind the one before */
+    FLOW_DRAW_MODES,
+    /* beyond as many points as there can be */
+    FLOW_DRAW_RATIO_SLOPE = 1 << 24
 } flow_draw;
 
 /* Standard normal; 0 for WT_NO_REPLICATE. */

@@ -1,0 +1,171 @@
+/* What is known of a layer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/sliding/layer_known.h"
+#include "flow/work/draws.h"
+#include "kernel/params.h"
+
+#include "base/clocale.h"
+#include "base/quantity.h"
+
+#include <math.h>
+#include <string.h>
+
+wt_layer_known wt_layer_known_defaults(void)
+{
+    const double unknown = (double)NAN;
+    return (wt_layer_known){.thickness = {0, 0, 0, "m"},
+                            .modulus_ratio = {1, 0, 0, "1"},
+                            .ratio_slope = {0, 0, 0, "1"},
+                            .ratio_frequency = unknown,
+                            .ratio_lowest = unknown,
+                            .ratio_highest = unknown,
+                            .ratio_temperature = unknown};
+}
+
+static const wt_param rows[] = {
+    LAYER_STATE_ROWS(wt_layer_known, ),
+    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
+     .value = "N",
+     .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
+             "them; 0: a normal error"},
+    {PARAM("ratio-slope", wt_layer_known, ratio_slope, WT_Q_NONE, ANY_NUMBER), .value = "S",
+     .help =
+         "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
+         "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
+    {PARAM("ratio-frequency", wt_layer_known, ratio_frequency, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope",
+     .help = "angular frequency at which the modulus ratio is as given"},
+    {PARAM("ratio-lowest", wt_layer_known, ratio_lowest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope",
+     .help = "lowest angular frequency measured; below it the ratio is constant"},
+    {PARAM("ratio-highest", wt_layer_known, ratio_highest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
+    {PARAM("ratio-temperature", wt_layer_known, ratio_temperature, WT_Q_TEMPERATURE, AT_LEAST(0)),
+     .value = "T", .unset = "that of the sliding",
+     .help =
+         "of these frequencies; another one needs the shift law of the bulk, which the layer is "
+         "taken to have"},
+    {PARAM_FLAG_OF("ratio-by-rate", wt_layer_known, by_rate), .flags = PARAM_NO_OPTION,
+     .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
+             "indentation rates"},
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
+     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
+};
+PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, wt_layer_known_defaults, NO_PARTS)
+
+/* What a slope needs beside itself. */
+static wt_status check_slope(const wt_layer_known *k, wt_error *err)
+{
+    if (k->ratio_slope.value == 0 && !(k->ratio_slope.standard_error > 0))
+        return WT_OK;
+    if (!(k->ratio_frequency > 0 && k->ratio_lowest > 0 && k->ratio_highest > 0)) {
+        wt_fail(err, WT_E_MISSING, "the slope of a modulus ratio needs the frequencies of it");
+        wt_error_expected(err, "ratio-frequency, ratio-lowest and ratio-highest");
+        return WT_E_MISSING;
+    }
+    if (k->ratio_lowest <= k->ratio_highest)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "the lowest frequency of a modulus ratio is above the highest");
+    wt_error_found(err, "%g to %g rad/s", k->ratio_lowest, k->ratio_highest);
+    return WT_E_RANGE;
+}
+
+wt_status sliding_layer_check(const wt_layer_known *known, wt_error *err)
+{
+    if (known == NULL)
+        return WT_OK;
+    const wt_status status = param_check(wt_layer_known_params(), known, err);
+    return status == WT_OK ? check_slope(known, err) : status;
+}
+
+wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, size_t replicate)
+{
+    wt_ratio_slope slope = {.exponent = 0};
+    if (known == NULL || !(known->ratio_frequency > 0))
+        return slope;
+    slope.exponent = flow_draw_value(known->ratio_slope, seed, replicate, FLOW_DRAW_RATIO_SLOPE);
+    slope.reference = known->ratio_frequency;
+    slope.low = known->ratio_lowest;
+    slope.high = known->ratio_highest;
+    const double at = known->ratio_temperature;
+    slope.temperature = at > 0 ? at : (double)NAN;
+    return slope;
+}
+
+wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
+                               size_t replicate, wt_material **material, wt_error *err)
+{
+    const wt_rubber *rubber = sliding->layer_rubber;
+    /* draws of two materials may come from the same numbers: not those at the same place */
+    const bool drawn = replicate != WT_NO_REPLICATE;
+    return wt_rubber_at(rubber, temperature, seed,
+                        drawn ? replicate + rubber->n_draws / 2 : replicate, material, NULL, err);
+}
+
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,
+                            size_t size)
+{
+    const wt_estimate slope = known->ratio_slope;
+    text[0] = '\0';
+    if (sliding->layer_rubber != NULL)
+        snprintf(text, size, "those of a material of its own, bonded on the bulk");
+    else if (slope.value != 0 || slope.standard_error > 0)
+        clocale_print(
+            text, size,
+            "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
+            "causal ratio (reconstructed) from %.3g to %.3g rad/s, constant outside; "
+            "sheared at the frequency velocity over thickness",
+            known->modulus_ratio.value, known->ratio_frequency, slope.value, known->ratio_lowest,
+            known->ratio_highest);
+}
+
+wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)
+{
+    wt_layer_state state = {.modulus_ratio = 1};
+    if (known == NULL)
+        return state;
+    const double thickness =
+        flow_draw_value(known->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+    state.thickness = thickness > 0 ? thickness : 0;
+    if (state.thickness > 0)
+        state.modulus_ratio = flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                   seed, replicate, FLOW_DRAW_RATIO);
+    state.slope = sliding_layer_slope(known, seed, replicate);
+    return state;
+}
+
+wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
+{
+    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
+    if (known->bulk_shear)
+        shear.exponent = 0;
+    return shear;
+}
+
+double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+                           double area_ratio)
+{
+    if (known == NULL)
+        return bulk;
+    const wt_layer_shear shear = sliding_layer_shear_of(known);
+    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
+}
+
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear)
+{
+    return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
+}
+
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
+{
+    char reach[64] = "", cracks[96] = "";
+    if (shear->reach > 0)
+        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
+                      1e6 * shear->reach);
+    if (shear->crack_energy > 0)
+        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
+                      shear->crack_energy, 1e6 * shear->spacing);
+    clocale_print(text, size,
+                  "that of the bulk times the modulus ratio to the power of %.3g "
+                  "(reconstructed)%s%s",
+                  shear->exponent, reach, cracks);
+}

@@ -1,0 +1,31 @@
+/* What is known of a layer: its state in a replicate, how its modulus ratio goes with the
+ * frequency, what shearing it costs. Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SLIDING_LAYER_KNOWN_H
+#define WEARTRACK_FLOW_SLIDING_LAYER_KNOWN_H
+
+#include "weartrack/flow.h"
+
+/* The parameters and what goes together; NULL: nothing is known. */
+wt_status sliding_layer_check(const wt_layer_known *known, wt_error *err) WT_NODISCARD;
+/* The layer of a replicate, a bare one where its thickness is drawn below 0; `known` NULL: none. */
+wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate);
+/* Its law: that of the bulk has no power of the modulus ratio. */
+wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known);
+/* Shear stress with a layer, of that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or as the
+ * layer says; cracks are opened without one, too. `known` NULL: that of the bulk. */
+double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+                           double area_ratio);
+/* The modulus ratio at once and no cracks, which need no words; the law in words. */
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear);
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);
+/* How its modulus ratio goes with the frequency, in a replicate; `known` NULL: it does not. */
+wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, size_t replicate);
+/* The material of a layer that has one, at a temperature. */
+wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
+                               size_t replicate, wt_material **material,
+                               wt_error *err) WT_NODISCARD;
+/* Its moduli in words, "" where they are one ratio. */
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,
+                            size_t size);
+
+#endif
