@@ -130,7 +130,7 @@ static void check_friction(const rig *r, const double *v)
     shear.exponent = 0.5;
     shear.crack_energy = 0.5;
     shear.spacing = 1e-5;
-    const wt_layer_state layer = {v[0], r->ratio};
+    const wt_layer_state layer = {.thickness = v[0], .modulus_ratio = r->ratio};
     const wt_friction_point p = friction_at(r, v[0]);
     const double tau = wt_layer_shear_stress(&shear, 4e6, layer, p.area_ratio.value);
     assert_near(p.hysteresis.value, v[1], 1e-9);
