@@ -29,11 +29,12 @@ static const double loading[STUDY_RATES] = {0.7, 0.07, 0.007}; /* s: 0.1, 1 and 
 static const double stiffer[COMPOUNDS] = {1, 1.5};
 enum { FREE = 600, FINE = 4 };
 
-/* The times between those of a sample and a thousandfold of the slowest loading, two terms as one:
- * what is faster is relaxed at once, what is slower is elastic. */
+/* The times up to a thousandfold of the slowest loading, two terms as one: what is slower is
+ * elastic, what is faster is relaxed at once. A glassy term of 1 us still adds to the force of the
+ * fastest loading: without those down to 0.1 us it lacks 0.24 %, and its modulus 0.1 %. */
 static relaxation slow_part(const rubber *r)
 {
-    const double fastest = 1e-6, slowest = 1e3;
+    const double fastest = 1e-8, slowest = 1e3;
     relaxation to = {.rest = r->equilibrium};
     for (size_t i = 0; i < r->n; i++) {
         if (r->tau[i] > slowest)
