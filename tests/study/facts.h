@@ -97,6 +97,7 @@ typedef struct facts {
     /* The author of the method switches these on: the short run then fails when chance cannot
      * explain what it finds. */
     bool intervals_promised, verdict_promised;
+    bool sometimes_silent; /* some draws state nothing, and rightly; less than half of them */
     given given[GIVEN_MAX];
 } facts;
 /* How the row of a scene begins. */

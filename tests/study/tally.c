@@ -128,9 +128,9 @@ static int interval_complaints(const facts *s, const draw *draws, int n, FILE *w
         const char *name = quantities[q].name;
         if (t.draws == 0)
             continue;
-        if (t.draws_stated == 0)
+        if (t.draws_stated == 0 && (!s->sometimes_silent || pow(0.5, n) < by_chance))
             complaints += complain(words, s->name, name, "no draw states it, share", t.stated);
-        else if (tally_at_most(draws_covered(&t), t.draws_stated, covered_right) < by_chance)
+        if (tally_at_most(draws_covered(&t), t.draws_stated, covered_right) < by_chance)
             complaints +=
                 complain(words, s->name, name, "holds the truth too rarely, share", t.coverage);
     }

@@ -28,6 +28,8 @@ static const expectation list[] = {
     {&friction_schema, "strain", "...."}, /* no softening */
     {&friction_schema, "layer_thickness", "knnn"},
     {&friction_schema, "layer_modulus_ratio", "knnn"},
+    {&friction_schema, "layer_ratio_slope", "...."}, /* one ratio */
+    {&friction_schema, "layer_outside_share", "...."},
     {&friction_schema, "friction_with_layer_at_reference", "kkkn"},
     {&friction_schema, "friction_change_at_reference", "kkkn"},
     {&friction_schema, "relative_change_at_reference", "kkkn"},
