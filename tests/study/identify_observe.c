@@ -1,6 +1,7 @@
 /* A thickness and a wear rate through weartrack identify. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "identify_observe.h"
+#include "collection_sample.h"
 #include "contact.h"
 #include "dma_sample.h"
 #include "identify_scene.h"
@@ -50,17 +51,7 @@ static void read_found(const contact *truth, const char *path, trial *t)
 
 /* ---- several cases --------------------------------------------------------------------------- */
 
-/* What all of them are given of the rubber: a verdict needs all of the error. */
-static const dma_scene isotherms = {.law = {900, -90, 0, (double)NAN, 1, 0},
-                                    .reference = 20,
-                                    .first = -20,
-                                    .last = 80,
-                                    .step = 10,
-                                    .lg_first = -1,
-                                    .lg_last = 2,
-                                    .frequencies = 13,
-                                    .noise_storage = 0.01,
-                                    .noise_loss = 0.01};
+/* The isotherms are those of whole studies: a verdict needs all of the error. */
 static const double of_temperature = 0.2; /* K */
 
 static bool write_isotherms(const rubber *r, random_source *random, const char *path)
@@ -68,8 +59,8 @@ static bool write_isotherms(const rubber *r, random_source *random, const char *
     sample *measured = calloc(1, sizeof *measured);
     if (measured == NULL)
         return false;
-    sample_draw(&isotherms, r, random, measured);
-    const bool written = sample_write(&isotherms, measured, path) == 0;
+    sample_draw(&study_isotherms, r, random, measured);
+    const bool written = sample_write(&study_isotherms, measured, path) == 0;
     free(measured);
     return written;
 }
@@ -87,7 +78,7 @@ static bool write_case(const identify_scene *s, const char *sweep, const contact
         "<case version=\"1\"><sample>HC</sample><condition>%d</condition>\n<dma><poisson-ratio>%g"
         "</poisson-ratio><reference-temperature>%gdegC</reference-temperature><files>%s</files>"
         "</dma>\n",
-        number, stated.poisson, isotherms.reference, slash != NULL ? slash + 1 : sweep);
+        number, stated.poisson, study_isotherms.reference, slash != NULL ? slash + 1 : sweep);
     fprintf(out,
             "<roughness><self-affine><q0>%grad/m</q0><qr>%grad/m</qr><q1>%grad/m</q1>"
             "<hurst>%g</hurst><c0>%gm^4 +- %g%%</c0></self-affine></roughness>\n<sliding><pressure>"
@@ -160,7 +151,7 @@ static void collect_cases(const identify_scene *s, const contact *common, random
             truth.wear_rate *= s->wear_factor > 0 ? s->wear_factor : 1;
         }
         const rubber_state state = dma_state(
-            &isotherms, &broad, stated.temperature + of_temperature * random_normal(random));
+            &study_isotherms, &broad, stated.temperature + of_temperature * random_normal(random));
         const double thickness = contact_solve(&truth, &state, INTERVALS).thickness;
         const char *const run[] = {"run",         path,        "-o", result,
                                    "--no-report", "--threads", "1",  NULL};

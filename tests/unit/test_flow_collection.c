@@ -402,6 +402,19 @@ static void says(const wt_collection_tables *t, const char *one_u_c, const char 
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_energy"), one_u_c);
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_wear"), one_k);
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_pair"), both);
+    assert_string_equal(wt_table_key(t->shared_pairs, "one_layer_constants"), both);
+}
+
+/* The one sentence about them; the table goes with it. */
+static void tells(wt_collection_tables *t, const char *expected)
+{
+    char sentence[1000];
+    wt_result *result = wt_result_new();
+    add(result, t->shared_pairs);
+    t->shared_pairs = NULL;
+    assert_true(wt_result_sentence(result, sentence, sizeof sentence) < sizeof sentence);
+    assert_string_equal(sentence, expected);
+    wt_result_free(result);
 }
 
 /* Half as much again of each is within the errors of each, and no way for a pair whose product is
@@ -418,9 +431,14 @@ static void test_pairs(void **state)
     wt_collection_tables_clear(&t);
     t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
     says(&t, "one", "one", "one");
+    tells(&t, "one U_c and k of 2 cases by thickness and wear rate: one, U_c = 12.2 GJ/m^3 "
+              "(95 %: 9.28 GJ/m^3 to 16.2 GJ/m^3), k = 0.000816 mm^3/(N m) (0.000619 to 0.00108), "
+              "correlation -0.99; known least is U_c k^-1.00, to a factor of 1.48");
     wt_collection_tables_clear(&t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);
     says(&t, "differs", "one", "differs");
+    tells(&t,
+          "one U_c and k of 2 cases by thickness and wear rate: differs (U_c: differs; k: one)");
     wt_collection_tables_clear(&t);
     t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
     says(&t, "cannot say", "cannot say", "cannot say");

@@ -14,6 +14,25 @@ typedef struct told_pair {
     const char *loose;
 } told_pair;
 
+/* Value, error and ends of either follow one another, as do the correlation and what is known
+ * least.
+ */
+static told_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
+{
+    enum { ERROR = 1, LOW, HIGH, NEXT };
+    const table_schema *const of = v->schema;
+    const unsigned wear = energy + NEXT;
+    return (told_pair){.energy = view_number(v, of, row, energy),
+                       .energy_low = view_number(v, of, row, energy + LOW),
+                       .energy_high = view_number(v, of, row, energy + HIGH),
+                       .wear = view_number(v, of, row, wear),
+                       .wear_low = view_number(v, of, row, wear + LOW),
+                       .wear_high = view_number(v, of, row, wear + HIGH),
+                       .correlation = view_number(v, of, row, correlation),
+                       .loose = view_text(v, of, row, correlation + 1),
+                       .loose_error = view_number(v, of, row, correlation + 2)};
+}
+
 /* Numbers of which each is known hang together: what they leave open is one combination of them. */
 static void tell_pair(telling *t, const told_pair *p)
 {
@@ -37,15 +56,7 @@ void tell_identification(telling *t, const table_view *v)
              "before a wear rate or a running-in time is known",
              words_of_known(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
     for (size_t i = 1; i < v->n_rows; i++) {
-        const told_pair p = {identification_get(v, i, IDENTIFICATION_ENERGY),
-                             identification_get(v, i, IDENTIFICATION_ENERGY_LOW),
-                             identification_get(v, i, IDENTIFICATION_ENERGY_HIGH),
-                             identification_get(v, i, IDENTIFICATION_WEAR),
-                             identification_get(v, i, IDENTIFICATION_WEAR_LOW),
-                             identification_get(v, i, IDENTIFICATION_WEAR_HIGH),
-                             identification_get(v, i, IDENTIFICATION_CORRELATION),
-                             identification_get(v, i, IDENTIFICATION_LOOSE_ERROR),
-                             identification_text(v, i, IDENTIFICATION_LOOSE)};
+        const told_pair p = pair_at(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
         tell(t, "%sby %s ", i > 1 ? "; " : "", identification_text(v, i, IDENTIFICATION_BY));
         if (isnan(p.energy_low))
             tell(t, "U_c = %s, k = %.3g mm^3/(N m) (%s)", words_of(p.energy, "J/m^3").text,
@@ -65,15 +76,7 @@ void tell_shared_pairs(telling *t, const table_view *v)
     bool open = false, told = false;
     for (size_t i = 0; i < v->n_rows; i++) {
         const char *const one = shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR);
-        const told_pair p = {shared_pairs_get(v, i, SHARED_PAIRS_ENERGY),
-                             shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_LOW),
-                             shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_HIGH),
-                             shared_pairs_get(v, i, SHARED_PAIRS_WEAR),
-                             shared_pairs_get(v, i, SHARED_PAIRS_WEAR_LOW),
-                             shared_pairs_get(v, i, SHARED_PAIRS_WEAR_HIGH),
-                             shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION),
-                             shared_pairs_get(v, i, SHARED_PAIRS_LOOSE_ERROR),
-                             shared_pairs_text(v, i, SHARED_PAIRS_LOOSE)};
+        const told_pair p = pair_at(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
         if (strcmp(shared_pairs_text(v, i, SHARED_PAIRS_OVER), "all cases") != 0)
             continue;
         tell(t, "%sone U_c and k of %.0f cases by %s: %s", told ? "; " : "",
