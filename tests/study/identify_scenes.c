@@ -21,8 +21,8 @@ const identify_scene identify_scenes[] = {
      .of_wear = 0.1, .of_inputs = 0.02, .critical_energy = 2e10, .cases = 3, .energy_factor = 2},
     {NAMED("U8", "two layers, one of 1.5 times the k"), PROMISED, .of_thickness = 0.05,
      .of_wear = 0.05, .of_inputs = 0.02, .critical_energy = 2e10, .cases = 2, .wear_factor = 1.5},
-    {NAMED("U9", "two layers, apart along what is known least"), PROMISED, .of_thickness = 0.03,
-     .of_wear = 0.3, .of_inputs = 0.02, .critical_energy = 2e10, .cases = 2, .energy_factor = 1.5,
-     .wear_factor = 1 / 1.5},
+    {NAMED("U9", "two layers, apart along what is known least"), PROMISED,
+     .facts.sometimes_silent = true, .of_thickness = 0.03, .of_wear = 0.3, .of_inputs = 0.02,
+     .critical_energy = 2e10, .cases = 2, .energy_factor = 1.5, .wear_factor = 1 / 1.5},
 };
 const int n_identify_scenes = sizeof identify_scenes / sizeof identify_scenes[0];
