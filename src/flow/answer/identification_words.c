@@ -19,13 +19,13 @@ typedef struct told_pair {
  */
 static told_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
 {
-    enum { ERROR = 1, LOW, HIGH, NEXT };
+    enum { VALUE, ERROR, LOW, HIGH, NEXT };
     const table_schema *const of = v->schema;
     const unsigned wear = energy + NEXT;
-    return (told_pair){.energy = view_number(v, of, row, energy),
+    return (told_pair){.energy = view_number(v, of, row, energy + VALUE),
                        .energy_low = view_number(v, of, row, energy + LOW),
                        .energy_high = view_number(v, of, row, energy + HIGH),
-                       .wear = view_number(v, of, row, wear),
+                       .wear = view_number(v, of, row, wear + VALUE),
                        .wear_low = view_number(v, of, row, wear + LOW),
                        .wear_high = view_number(v, of, row, wear + HIGH),
                        .correlation = view_number(v, of, row, correlation),
