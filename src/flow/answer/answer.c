@@ -521,6 +521,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&existence_schema, "", &story->existence},
         {&running_in_schema, "", &story->running_in},
         {&track_layer_schema, "", &story->track_layer},
+        {&identification_schema, "", &story->identification},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -547,6 +548,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_thickness(&story);
     answer_track_layer(&story);
     answer_layer_models(&story);
+    answer_identification(&story);
     answer_friction(&story);
     answer_running_in(&story);
     answer_validation(&story);
