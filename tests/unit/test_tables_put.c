@@ -762,7 +762,7 @@ static void test_layer_models(void **state)
     wt_layer_tables_clear(&tables);
     job.closure = WT_CLOSURE_ENERGY;
     job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
-    work.replicates = 8;
+    work.replicates = 2;
     assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
     assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
