@@ -389,6 +389,7 @@ static void test_slope(void **state)
     wt_layer_known known = with_slope(0.1, 0);
     wt_table *exact = NULL, *table = NULL;
     sliding_set_up_uncertain();
+    work.replicates = 16;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &exact, NULL),
                      WT_OK);
     assert_non_null(strstr(wt_table_key(exact, "lacks"), slope));
@@ -423,13 +424,15 @@ static void test_cover_slope(void **state)
     const wt_layer_known known = with_slope(0.1, 0.05);
     sliding_set_up_uncertain();
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
+    work.replicates = 8;
     covered = &known;
-    wt_table *table = cover(40, 2);
+    wt_table *table = cover(8, 2);
     covered = NULL;
     assert_string_equal(wt_table_key(table, "regenerated"),
                         "material as given, slope of the modulus ratio");
     const size_t row = row_where(table, "number", "friction coefficient with layer");
-    assert_true(fabs(number_cell(table, row, "scatter") - 1) < 0.4);
+    const double scatter = number_cell(table, row, "scatter"); /* nan or 0 if it were held */
+    assert_true(scatter > 0.3 && scatter < 3);
     wt_table_free(table);
 }
 
