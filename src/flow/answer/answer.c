@@ -459,12 +459,15 @@ static void say_change(const answer_story *story)
              words_of(friction_get(friction, n - 1, FRICTION_VELOCITY), "m/s").text,
              100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
              100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
+    const wt_estimate ratio = friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO);
+    const bool own = isnan(ratio.value) && friction_words(friction, FRICTION_KEY_LAYER_MODULI);
     answer_say(story, what_friction, "friction",
-               "With the layer (%s thick, modulus ratio %s), at %s, mu "
+               "With the layer (%s thick, %s%s), at %s, mu "
                "= %s.",
                words_of_value(friction_value(friction, FRICTION_KEY_LAYER_THICKNESS)).text,
-               words_of_value(friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO)).text,
-               words_of(with_layer.velocity, "m/s").text, words_of_finding(&with_layer).text);
+               own ? "of a material of its own" : "modulus ratio ",
+               own ? "" : words_of_value(ratio).text, words_of(with_layer.velocity, "m/s").text,
+               words_of_finding(&with_layer).text);
     answer_say(story, what_friction, "friction", "%c%s.", toupper((unsigned char)text[0]),
                text + 1);
     if (change.range.widest != NULL)
