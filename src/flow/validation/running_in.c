@@ -150,6 +150,18 @@ static wt_interval factor_of(const course_run *run, run_number number)
     return i;
 }
 
+/* The one end that a record tells is that of the verdict. */
+static wt_interval time_ratio_of(const course_run *run)
+{
+    wt_interval i = factor_of(run, RUN_TIME_RATIO);
+    const double end = exp(course_run_time_end(run));
+    if (isnan(i.value) && !isnan(i.low))
+        i.low = end;
+    if (isnan(i.value) && !isnan(i.high))
+        i.high = end;
+    return i;
+}
+
 static wt_interval ratio_of_run(const course_run *run)
 {
     const double value = course_run_value(run, 0, RUN_RATIO), error = error_of(run, RUN_RATIO),
@@ -195,7 +207,7 @@ static void add_run(const course_run *run, const wt_sliding *sliding, table_writ
         row.change_ratio = ratio_of_run(run);
         if (run->fit.seen) {
             row.settled = factor_of(run, RUN_MEASURED);
-            row.time_ratio = factor_of(run, RUN_TIME_RATIO);
+            row.time_ratio = time_ratio_of(run);
         }
     }
     validation_running_in_add_row(t, &row);

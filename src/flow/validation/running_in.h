@@ -43,6 +43,9 @@ double course_run_value(const course_run *run, size_t k, run_number number);
 /* Variance by the record alone, and what its draws scatter. */
 double course_run_own(const course_run *run, run_number number);
 double course_run_spread(const course_run *run, run_number number);
+/* The end of ln of the time ratio that the record tells alone, 95 % with the error of the
+ * prediction; NaN without that error. */
+double course_run_time_end(const course_run *run);
 
 /* The level of a number over the runs that tell it, with both errors. */
 typedef struct run_level {

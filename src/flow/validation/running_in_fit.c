@@ -196,6 +196,15 @@ double course_run_spread(const course_run *run, run_number number)
     return covariance(run, run, number, &variance) > 1 ? sqrt(variance) : (double)NAN;
 }
 
+double course_run_time_end(const course_run *run)
+{
+    const bool least = isnan(run->fit.high);
+    const double spread = NORMAL_95 * course_run_spread(run, RUN_TIME_RATIO),
+                 at = run->fit.log_factor,
+                 move = hypot((least ? run->fit.low : run->fit.high) - at, spread);
+    return least ? at - move : at + move;
+}
+
 /* ---- several runs ---------------------------------------------------------------------------- */
 
 bool course_run_tells(const course_run *run, run_number number)

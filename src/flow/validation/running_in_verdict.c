@@ -14,15 +14,12 @@ static const double least_doubt = 0.025;
 
 /* ---- two questions --------------------------------------------------------------------------- */
 
-/* An end of the time of a run that tells the other one alone, with the error of the prediction. */
 static bool contradicts_at_one_end(const course_run *run, double margin)
 {
     if (run->value == NULL || !run->fit.seen || course_run_is_closed(run))
         return false;
-    const double spread = NORMAL_95 * course_run_spread(run, RUN_TIME_RATIO),
-                 at = run->fit.log_factor;
-    return isnan(run->fit.high) ? at - hypot(at - run->fit.low, spread) > log1p(margin)
-                                : at + hypot(run->fit.high - at, spread) < -log1p(margin);
+    const double end = course_run_time_end(run);
+    return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
 }
 
 /* The first run that contradicts at the one end that it tells; NULL. */
@@ -71,6 +68,7 @@ static agreement_verdict judge_change(const run_set *all)
 static void tell_open(const course_run *run, char *text, size_t size)
 {
     const course_fit *const fit = &run->fit;
+    const double with_prediction = course_run_time_end(run);
     if (!fit->seen)
         clocale_print(
             text, size,
@@ -84,12 +82,12 @@ static void tell_open(const course_run *run, char *text, size_t size)
         clocale_print(text, size,
                       "the record ends before friction is steady, after %.3g times the time "
                       "predicted at least",
-                      exp(fit->low));
+                      exp(isnan(with_prediction) ? fit->low : with_prediction));
     else
         clocale_print(text, size,
                       "friction is steady within the first cycles, after %.3g times the time "
                       "predicted at most",
-                      exp(fit->high));
+                      exp(isnan(with_prediction) ? fit->high : with_prediction));
 }
 
 /* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
@@ -120,11 +118,13 @@ static void tell_change(const run_set *all, char *text, size_t size)
 static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
 {
     char time[160], change[120];
+    /* The one that decides comes first. */
+    const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
     tell_time(all, time, sizeof time);
     tell_change(all, change, sizeof change);
     clocale_print(text, size, "%s: %s; %s, and %.3g to %.3g is asked for",
-                  validation_verdict(verdict), time, change, 1 / (1 + all->margin),
-                  1 + all->margin);
+                  validation_verdict(verdict), by_change ? change : time, by_change ? time : change,
+                  1 / (1 + all->margin), 1 + all->margin);
 }
 
 /* ---- what would settle it -------------------------------------------------------------------- */
