@@ -69,6 +69,27 @@ void tell_wear(telling *t, const table_view *v)
     tell_ball(t, v);
 }
 
+void answer_wear_of_layer(const answer_story *story, const char *question)
+{
+    const table_view *const layer = &story->found.layer;
+    if (story->wear.table == NULL || layer->table == NULL)
+        return;
+    const wt_estimate is = wear_value(&story->wear, WEAR_KEY_RATE),
+                      used = layer_value(layer, LAYER_KEY_WEAR_RATE);
+    if (!(is.value > 0) || !(used.value > 0))
+        return;
+    if (used.value == is.value)
+        answer_say(story, question, "thickness",
+                   "Its specific wear rate is the one measured by the records: %s.",
+                   words_of_positive(is).text);
+    else
+        answer_say(
+            story, question, "thickness",
+            "Its specific wear rate is the one given, %s; the one measured by the records is "
+            "%.3g times that: %s.",
+            words_of_value(used).text, is.value / used.value, words_of_positive(is).text);
+}
+
 void answer_record(const answer_story *story)
 {
     char text[900];

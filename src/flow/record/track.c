@@ -58,10 +58,11 @@ static wt_status measure_profile(const wt_job *work, flow_file *file, several *a
 wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
                                 wt_error *err)
 {
-    wt_file_set set = job->sets[0];
+    wt_file_set set = job->profile_set != NULL ? *job->profile_set : job->sets[0];
     set.patterns = &job->profile;
     set.n_patterns = 1;
-    set.read.format = NULL;
+    if (job->profile_set == NULL)
+        set.read.format = NULL; /* that of the records */
     flow_files files = {NULL, 0, NULL};
     several areas = {.n = 0};
     size_t n_failed = 0;
