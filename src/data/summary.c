@@ -139,7 +139,7 @@ static void put_misfit(table_writer *t, const table_view *shifts)
 
 /* The tables that have headlines beside those of the findings; behind the first ones all are keys.
  */
-enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 15 };
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 17 };
 static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       [NOTES] = &notes_schema,
                                                       [FAILURES] = &failures_schema,
@@ -153,6 +153,8 @@ static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       &material_ratio_schema,
                                                       &common_law_schema,
                                                       &ratio_pairs_schema,
+                                                      &identification_schema,
+                                                      &shared_pairs_schema,
                                                       &validation_schema,
                                                       &validation_running_in_schema,
                                                       &record_schema,

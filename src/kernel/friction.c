@@ -162,12 +162,6 @@ static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
     return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* From the temperature of its frequencies to that of the material. */
 static wt_status shift_slope(const wt_friction_workspace *ws, wt_ratio_slope *slope, wt_error *err)
 {
@@ -219,7 +213,7 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
         return no_memory(err);
     for (size_t k = 0; k < ws->n_knots + more; k++)
         all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
-    qsort(all, ws->n_knots + more, sizeof *all, by_value);
+    numbers_sort(all, ws->n_knots + more);
     ws->knots = all;
     ws->n_knots += more;
     return WT_OK;

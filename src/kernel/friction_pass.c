@@ -135,10 +135,11 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
                            const double *q, const double *omega, size_t n)
 {
     const size_t from = (size_t)(omega - scratch->omega);
+    double *loss_j1 = ws->loss != NULL ? scratch->loss_j1 + from : NULL;
+    double *loss_j2 = ws->loss != NULL ? scratch->loss_j2 + from : NULL;
     scratch->nodes += n;
     friction_moduli(ws, q, omega, scratch->log_omega + from, n, scratch->j1 + from,
-                    scratch->j2 + from, scratch->loss_j1 + from, scratch->loss_j2 + from,
-                    &scratch->own_error);
+                    scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
 }
 
 /* Of G at a node from J2, and of the hysteresis at full contact from J1. */

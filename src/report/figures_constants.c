@@ -23,16 +23,14 @@ typedef struct known_pair {
     char room[128]; /* of the name */
 } known_pair;
 
-/* "balance of rates" of "thickness and running-in, by the balance of rates", "wear rate" of
- * "thickness and wear rate": what tells the ways apart. */
+/* What tells the ways apart, at the end of their words. */
 static const char *heading_of(const char *by)
 {
-    static const char *const before[] = {" by the ", " and "};
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
-        const char *found = strstr(by, before[i]);
-        if (found != NULL)
-            return found + strlen(before[i]);
-    }
+    static const char *const ends[] = {"wear rate", "balance of rates", "transport of damage"};
+    const size_t length = strlen(by);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        if (length >= strlen(ends[i]) && strcmp(by + length - strlen(ends[i]), ends[i]) == 0)
+            return ends[i];
     return by;
 }
 
@@ -127,7 +125,7 @@ static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, siz
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     if (r->n_panels > 1)
-        plot_heading(d, heading_of(r->by[panel]));
+        plot_heading(d, say(d->language, heading_of(r->by[panel])));
     text_add(&d->script, panel == 1 ? "unset key\n" : "");
     for (size_t i = 0; i < r->n; i++) {
         known_pair p;
@@ -136,7 +134,7 @@ static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, siz
         read(d->table, r->of[i].row, &p);
         plot_item(d, r->of[i].section, "($1*x_unit):($2*y_unit) with lines ls %zu",
                   1 + shown % STYLES + (shown < STYLES ? 0 : DASHED));
-        plot_title(d, p.name);
+        plot_title(d, say(d->language, p.name));
         shown++;
     }
     plot_end(d);

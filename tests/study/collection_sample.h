@@ -5,6 +5,7 @@
 #include "afm_sample.h"
 #include "collection_scene.h"
 #include "contact.h"
+#include "dma_scene.h"
 #include "material.h"
 #include "trial.h"
 
@@ -36,6 +37,9 @@ typedef struct study_truth {
 } study_truth;
 
 study_truth study_draw(const collection_scene *s, const study_prepared *p, random_source *random);
+
+/* How the isotherms of a rubber are measured. */
+extern const dma_scene study_isotherms;
 
 /* Files of the counter surface and of the isotherms of the compounds, which the cases have in
  * common. */

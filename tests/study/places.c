@@ -52,6 +52,8 @@ static const char record[] = "record";
 const place place_steady = {record, "friction_coefficient", NULL, "friction_coefficient_low",
                             "friction_coefficient_high"};
 const place place_running_in = {record, "running_in", NULL, "running_in_low", "running_in_high"};
+const place place_running_in_time = {record, "running_in_time", NULL, "running_in_time_low",
+                                     "running_in_time_high"};
 const place place_drift = {record, "drift", NULL, "drift_low", "drift_high"};
 const place place_wear_rate = {"wear", "specific_wear_rate", NULL, "specific_wear_rate_low",
                                "specific_wear_rate_high"};
@@ -60,6 +62,11 @@ const place place_energy = {"identification", "critical_energy", NULL, "critical
                             "critical_energy_high"};
 const place place_energy_wear = {"identification", "specific_wear_rate", NULL,
                                  "specific_wear_rate_low", "specific_wear_rate_high"};
+static const char pairs[] = "shared_pairs";
+const place place_common_energy = {pairs, "critical_energy", NULL, "critical_energy_low",
+                                   "critical_energy_high"};
+const place place_common_wear = {pairs, "specific_wear_rate", NULL, "specific_wear_rate_low",
+                                 "specific_wear_rate_high"};
 const place place_friction_ratio = {PLACE_VALIDATION, "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_needed_shear = {PLACE_VALIDATION, "shear_stress_needed", NULL,
                                   "shear_stress_needed_low", "shear_stress_needed_high"};

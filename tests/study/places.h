@@ -29,9 +29,11 @@ extern const place place_hurst, place_roll_off, place_c0;
 extern const place place_rms_height, place_rms_slope;
 extern const place place_anisotropy, place_texture;
 
-extern const place place_steady, place_running_in, place_drift; /* of a record, a row for a step */
-extern const place place_wear_rate;                             /* a row for each way to tell it */
+extern const place place_steady, place_running_in, place_running_in_time,
+    place_drift;                    /* of a record, a row for a step */
+extern const place place_wear_rate; /* a row for each way to tell it */
 
+extern const place place_common_energy, place_common_wear; /* of shared_pairs */
 extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
 
@@ -52,6 +54,10 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_RATE_FACTOR "modulus over a decade of rate"
 #define PLACE_SUFFICES "suffices" /* one value: */
 #define PLACE_ONE "one"
+#define PLACE_ONE_ENERGY "one_energy"
+#define PLACE_ONE_WEAR "one_wear"
+#define PLACE_ONE_PAIR "one_pair"
+#define PLACE_PAUSED "paused_time"
 #define PLACE_SHARED_DIFFERS "differs"
 #define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
 

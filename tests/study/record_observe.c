@@ -18,6 +18,8 @@ typedef struct made_record {
     double steady;  /* what it is behind the running-in, of the first step */
     double drift;   /* of a lap */
     double scatter; /* of a lap */
+    int pause_at;   /* laps before it */
+    double paused;  /* s */
 } made_record;
 
 static double running_in(const record_scene *s, double scatter, int lap, int end, int laps)
@@ -47,6 +49,10 @@ static made_record make_record(const record_scene *s, random_source *random)
     r.scatter = (s->scatter > 0 ? s->scatter : 0.02) * r.steady;
     r.end = s->form == NO_RUNNING_IN ? 0 : (int)(length * r.laps);
     r.drift = s->drift * r.scatter / r.laps;
+    if (s->pause != NO_PAUSE) { /* anywhere within, of five laps to half of the record */
+        r.pause_at = (int)((0.05 + 0.9 * random_uniform(random)) * r.laps);
+        r.paused = lap_time * 5 * pow(0.1 * r.laps, random_uniform(random));
+    }
     r.lap = malloc((size_t)r.laps * sizeof *r.lap);
     for (int i = 0; r.lap != NULL && i < r.laps; i++) {
         const double step = s->steps > 0 ? pow(per_step, i / STEP_LAPS) : 1;
@@ -58,6 +64,29 @@ static made_record make_record(const record_scene *s, random_source *random)
         walk += s->moving * random_normal(random);
     }
     return r;
+}
+
+/* A disc that stands for a time. What the load cell shows of a disc at rest is no friction of
+ * sliding. */
+static void write_paused(const record_scene *s, const made_record *r, FILE *out)
+{
+    const int samples = 25;
+    const double speed = 1e3 * 2 * pi * radius / lap_time, at_rest = 0.3;
+    double time = 0;
+    const bool rests = s->pause == A_REST;
+    fprintf(out, rests ? "time (s),velocity (mm/s),mu,Fn (N)\n" : "time (s),laps,mu,Fn (N)\n");
+    for (int i = 0; i <= r->laps * samples; i++) {
+        const int lap = i < r->laps * samples ? i / samples : r->laps - 1;
+        const double step = lap_time / samples;
+        if (i == r->pause_at * samples) {
+            for (double rest = 0; rests && rest < r->paused; rest += step)
+                fprintf(out, "%.9g,0,%.9g,%.9g\n", time + rest, at_rest * r->steady, load);
+            time += r->paused;
+        }
+        fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", time, rests ? speed : i / (double)samples,
+                r->lap[lap], load);
+        time += step;
+    }
 }
 
 /* Samples of a lap: a wave that goes round with it. */
@@ -126,6 +155,9 @@ static void read_step(const record_scene *s, const made_record *r, const stream 
     trial_add(t, Q_STEADY, truth, place_row(found, &place_steady, row));
     if (s->form == NO_RUNNING_IN)
         trial_add(t, Q_DRIFT, 0, drift);
+    else if (s->pause != NO_PAUSE) /* of sliding */
+        trial_add(t, Q_RUNNING_IN, lap_time * r->end,
+                  place_row(found, &place_running_in_time, row));
     else if (s->form != EXPONENTIAL)
         trial_add(t, Q_RUNNING_IN, r->end, place_row(found, &place_running_in, row));
 }
@@ -162,8 +194,13 @@ static void read_record(const record_scene *s, const made_record *r, double rate
     stream *found = stream_read(path);
     const int rows = found != NULL ? stream_rows(found, place_steady.table) : 0,
               steps = s->steps > 0 ? s->steps : 1;
+    const double paused = rows > 0 && s->pause != NO_PAUSE
+                              ? stream_cell(found, place_steady.table, PLACE_PAUSED, 0)
+                              : 0;
     if (rows != steps) {
         trial_broke(t, "another number of steps");
+    } else if (s->pause != NO_PAUSE && !(fabs(paused - r->paused) < 0.2 * lap_time)) {
+        trial_broke(t, "another time of rest");
     } else {
         for (int row = 0; row < rows; row++)
             read_step(s, r, found, row, t);
@@ -188,7 +225,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     if (out == NULL) {
         trial_broke(t, "the record cannot be written");
     } else {
-        (s->strokes ? write_strokes : write_disc)(s, &r, out);
+        (s->strokes ? write_strokes : s->pause != NO_PAUSE ? write_paused : write_disc)(s, &r, out);
         if (ferror(out) == 0 && fclose(out) == 0 && trial_run(t, arguments))
             read_record(s, &r, rate, made, t);
     }

@@ -13,6 +13,12 @@ typedef enum running_in_form {
     RUNNING_IN_FORMS
 } running_in_form;
 
+typedef enum pause_form {
+    NO_PAUSE,
+    A_REST, /* recorded: velocity and time alone are written, no laps */
+    A_GAP,  /* nothing is recorded, laps go on behind it */
+} pause_form;
+
 /* A pin on a disc, of which laps, time and the coefficient are written, or a slider that goes there
  * and back. Scatter is of a lap, as a part of the coefficient. */
 typedef struct record_scene {
@@ -33,6 +39,7 @@ typedef struct record_scene {
     int steps;          /* of velocity; 0: one */
     double area_error;  /* relative, stated; the specific wear rate is asked for */
     double mass_error;  /* likewise */
+    pause_form pause;   /* in mid-record, of drawn place and length */
 } record_scene;
 
 extern const record_scene record_scenes[];

@@ -31,5 +31,9 @@ const record_scene record_scenes[] = {
     {NAMED("F16", "wear by mass, 20 %"), PROMISED, .mass_error = 0.2},
     {NAMED("F17", "a jump, scatter that wanders with the square root of the time"), .form = A_JUMP,
      .height = 6, .moving = 0.05, .slow = 0.5},
+    {NAMED("F18", "a rest of drawn place and length, wear 10 %"), PROMISED, .form = A_LINE,
+     .height = 6, .area_error = 0.1, .pause = A_REST},
+    {NAMED("F19", "a gap of drawn place and length, wear 10 %"), PROMISED, .form = A_LINE,
+     .height = 6, .area_error = 0.1, .pause = A_GAP},
 };
 const int n_record_scenes = sizeof record_scenes / sizeof record_scenes[0];

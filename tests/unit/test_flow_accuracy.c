@@ -369,17 +369,71 @@ static void test_calibration(void **state)
     wt_table_free(table);
 }
 
+static wt_layer_known with_slope(double slope, double error)
+{
+    return (wt_layer_known){.thickness = {5e-6, 0, 0, "m"},
+                            .modulus_ratio = {0.6, 0, 0, "1"},
+                            .ratio_slope = {slope, error, 0, "1"},
+                            .ratio_frequency = 1e3,
+                            .ratio_lowest = 10,
+                            .ratio_highest = 1e5,
+                            .ratio_temperature = (double)NAN};
+}
+
+/* A slope is a source by itself, and no other row has its error. */
+static void test_slope(void **state)
+{
+    (void)state;
+    static const char number[] = "friction coefficient with layer",
+                      slope[] = "slope of the modulus ratio";
+    wt_layer_known known = with_slope(0.1, 0);
+    wt_table *exact = NULL, *table = NULL;
+    sliding_set_up_uncertain();
+    work.replicates = 16;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &exact, NULL),
+                     WT_OK);
+    assert_non_null(strstr(wt_table_key(exact, "lacks"), slope));
+    known.ratio_slope.standard_error = 0.05;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
+                     WT_OK);
+    assert_true(relative(table, number, slope) > 0.001);
+    assert_near(relative(table, number, "pressure"), relative(exact, number, "pressure"), 1e-12);
+    wt_table_free(exact);
+    wt_table_free(table);
+}
+
 /* ---- coverage -------------------------------------------------------------------------------- */
+
+static const wt_layer_known *covered; /* of the layer, or NULL */
 
 static wt_table *cover(size_t trials, unsigned threads)
 {
-    const wt_coverage_job job = {.sliding = &sliding, .trials = trials};
+    const wt_coverage_job job = {.sliding = &sliding, .known = covered, .trials = trials};
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     work.threads = threads;
     if (wt_coverage_make(&job, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
+}
+
+/* The slope of a trial is another one: nothing else of this layer is uncertain. */
+static void test_cover_slope(void **state)
+{
+    (void)state;
+    const wt_layer_known known = with_slope(0.1, 0.05);
+    sliding_set_up_uncertain();
+    sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
+    work.replicates = 8;
+    covered = &known;
+    wt_table *table = cover(8, 2);
+    covered = NULL;
+    assert_string_equal(wt_table_key(table, "regenerated"),
+                        "material as given, slope of the modulus ratio");
+    const size_t row = row_where(table, "number", "friction coefficient with layer");
+    const double scatter = number_cell(table, row, "scatter"); /* nan or 0 if it were held */
+    assert_true(scatter > 0.3 && scatter < 3);
+    wt_table_free(table);
 }
 
 /* The friction scatters over the trials as it says, and the share is what is stated. */
@@ -551,6 +605,8 @@ int main(void)
         cmocka_unit_test(test_nothing_stated),
         cmocka_unit_test(test_exact_ratio),
         cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_cover_slope),
         cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_verdicts_of_shares),
         cmocka_unit_test(test_nothing_to_cover),

@@ -234,6 +234,108 @@ static void test_settled(void **state)
     check(one, other, "cannot say", "settled_by", "by a factor of about 2.5,");
 }
 
+/* ---- moduli against rate --------------------------------------------------------------------- */
+
+/* Two spots a group, at two rates a decade apart, moduli that double; `wide`: the interval of the
+ * loss factor of the DMA by whose spectrum they are fitted, NaN: there is none. */
+static void add_curves(const char *group, double wide, wt_result *to)
+{
+    wt_table *curves = NULL;
+    wt_error err = WT_ERROR_INIT;
+    const table_schema *schema = &indentation_schema;
+    table_writer t = table_begin_variant(schema, (table_variant){.suffix = group}, &err);
+    for (int i = 0; i < 4; i++) {
+        table_row(&t);
+        for (unsigned c = 0; c < schema->n_columns; c++)
+            if (schema->columns[c].kind == SCHEMA_TEXT)
+                indentation_put_text(&t, (indentation_column)c,
+                                     c == INDENTATION_SPOT      ? (i < 2 ? "a" : "b")
+                                     : c == INDENTATION_VERDICT ? "accepted"
+                                                                : group);
+            else
+                indentation_put(&t, (indentation_column)c,
+                                c == INDENTATION_MODULUS     ? 1e6 * (1 + i % 2)
+                                : c == INDENTATION_RATE      ? (i % 2 > 0 ? 1e-5 : 1e-6)
+                                : c == INDENTATION_LOAD_TIME ? (i % 2 > 0 ? 0.01 : 0.1)
+                                                             : 0);
+    }
+    if (!isnan(wide))
+        indentation_set_value(&t, INDENTATION_KEY_SPECTRUM_TEMPERATURE, 293.15, 0, 0);
+    if (table_end(&t, &curves) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    add(to, curves);
+}
+
+static void add_master(double wide, double reference, wt_result *to)
+{
+    wt_table *master = NULL;
+    wt_error err = WT_ERROR_INIT;
+    table_writer t = table_begin(&master_curve_schema, &err);
+    for (int i = 0; i < 3; i++) { /* the last one is at no rate of the curves */
+        const double half = i < 2 ? wide / 2 : 10 * wide;
+        table_row(&t);
+        for (unsigned c = 0; c < master_curve_schema.n_columns; c++)
+            master_curve_put(&t, (master_curve_column)c,
+                             c == MASTER_CURVE_ANGULAR_FREQUENCY         ? pow(10, i + 1)
+                             : c == MASTER_CURVE_FITTED_LOSS_FACTOR      ? 0.5
+                             : c == MASTER_CURVE_FITTED_LOSS_FACTOR_LOW  ? 0.5 - half
+                             : c == MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH ? 0.5 + half
+                                                                         : 1);
+    }
+    for (master_curve_key k = MASTER_CURVE_KEY_NOISE_STORAGE; k <= MASTER_CURVE_KEY_DEFORMATION;
+         k++)
+        if (k == MASTER_CURVE_KEY_REFERENCE_TEMPERATURE)
+            master_curve_set_value(&t, k, reference, 0, 0);
+        else
+            master_curve_set_text(&t, k, "0");
+    if (table_end(&t, &master) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    add(to, master);
+}
+
+static wt_collection_tables rates_of(double wide, double reference)
+{
+    wt_collect_job job = wt_collect_job_defaults();
+    wt_collection_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_result *both = wt_result_new();
+    wt_table *answer = NULL;
+    table_writer a = table_begin(&answer_schema, NULL);
+    answer_set_text(&a, ANSWER_KEY_CASE_SAMPLE, "HC");
+    assert_int_equal(table_end(&a, &answer), WT_OK);
+    add(both, answer);
+    add_curves("bulk", wide, both);
+    add_curves("track", wide, both);
+    if (!isnan(wide))
+        add_master(wide, reference, both);
+    const wt_collected cases[] = {{both, "first.h5"}};
+    if (wt_collect(cases, 1, &job, &tables, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    wt_result_free(both);
+    return tables;
+}
+
+/* Spots that do not scatter at all: what is left is the spectrum that their curves share, of bulk
+ * and track alike. */
+static void test_spectrum(void **state)
+{
+    (void)state;
+    const double wide = 0.01, exponent = wide / (2 * 1.959964) * M_2_PI / 1.25, /* 1 + tan^2 */
+        error = 0.9228 * exponent * M_SQRT2;
+    wt_collection_tables t = rates_of(wide, 293.15);
+    assert_int_equal(wt_table_n_rows(t.shared_constants), 1);
+    assert_near(number_cell(t.shared_constants, 0, "value"), 2, 1e-12);
+    assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 1.959964 * error, 1e-6);
+    wt_collection_tables_clear(&t);
+    t = rates_of(wide, 303.15); /* which of its frequencies the curves are at is not known */
+    assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 20 * 1.959964 * error,
+                1e-5);
+    wt_collection_tables_clear(&t);
+    t = rates_of((double)NAN, 0);
+    assert_null(t.shared_constants);
+    wt_collection_tables_clear(&t);
+}
+
 /* ---- critical energy and wear rate ----------------------------------------------------------- */
 
 /* A case that knows both by thickness and wear rate. */
@@ -300,6 +402,19 @@ static void says(const wt_collection_tables *t, const char *one_u_c, const char 
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_energy"), one_u_c);
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_wear"), one_k);
     assert_string_equal(text_cell(t->shared_pairs, 0, "one_pair"), both);
+    assert_string_equal(wt_table_key(t->shared_pairs, "one_layer_constants"), both);
+}
+
+/* The one sentence about them; the table goes with it. */
+static void tells(wt_collection_tables *t, const char *expected)
+{
+    char sentence[1000];
+    wt_result *result = wt_result_new();
+    add(result, t->shared_pairs);
+    t->shared_pairs = NULL;
+    assert_true(wt_result_sentence(result, sentence, sizeof sentence) < sizeof sentence);
+    assert_string_equal(sentence, expected);
+    wt_result_free(result);
 }
 
 /* Half as much again of each is within the errors of each, and no way for a pair whose product is
@@ -316,9 +431,14 @@ static void test_pairs(void **state)
     wt_collection_tables_clear(&t);
     t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
     says(&t, "one", "one", "one");
+    tells(&t, "one U_c and k of 2 cases by thickness and wear rate: one, U_c = 12.2 GJ/m^3 "
+              "(95 %: 9.28 GJ/m^3 to 16.2 GJ/m^3), k = 0.000816 mm^3/(N m) (0.000619 to 0.00108), "
+              "correlation -0.99; known least is U_c k^-1.00, to a factor of 1.48");
     wt_collection_tables_clear(&t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);
     says(&t, "differs", "one", "differs");
+    tells(&t,
+          "one U_c and k of 2 cases by thickness and wear rate: differs (U_c: differs; k: one)");
     wt_collection_tables_clear(&t);
     t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
     says(&t, "cannot say", "cannot say", "cannot say");
@@ -339,6 +459,7 @@ int main(void)
         cmocka_unit_test(test_shared_file), cmocka_unit_test(test_partly_known),
         cmocka_unit_test(test_counts_once), cmocka_unit_test(test_left_out),
         cmocka_unit_test(test_settled),     cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_spectrum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -738,7 +738,12 @@ static void test_layer_models(void **state)
 {
     (void)state;
     static const double velocity[] = {1e-3, 0.1, 10}, pressures[] = {0.1e6, 1e6};
-    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"},
+                                  .ratio_slope = {0.05, 0.01, 0, "1"},
+                                  .ratio_frequency = 1e3,
+                                  .ratio_lowest = 10,
+                                  .ratio_highest = 1e5,
+                                  .ratio_temperature = (double)NAN};
     wt_layer_job job = wt_layer_job_defaults();
     wt_layer_tables tables = {0};
     wt_table *table[4] = {NULL};
@@ -757,7 +762,7 @@ static void test_layer_models(void **state)
     wt_layer_tables_clear(&tables);
     job.closure = WT_CLOSURE_ENERGY;
     job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
-    work.replicates = 8;
+    work.replicates = 2;
     assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
     assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
@@ -769,8 +774,9 @@ static void test_layer_models(void **state)
     see_both_edges();
     sliding_set_up(velocity, 3);
     const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
-    const wt_layer_known sheared = {
-        .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &shear};
+    wt_layer_known sheared = known;
+    sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
+    sheared.shear = &shear;
     wt_friction_tables friction = {0};
     assert_int_equal(wt_friction_make(&sliding, &sheared, &work, &friction, &err), WT_OK);
     see(friction.friction);

@@ -158,6 +158,8 @@
       "number of tests of the table",                                                              \
       NUMBER, LABEL("p (Holm)"), DIGITS(2))
 #define SHARED_PAIRS_KEYS(X)                                                                       \
+    X(SHARED_PAIRS_KEY_ONE, "one_layer_constants", TEXT, SHOWS(one_of_all),                        \
+      HEADLINE("One critical energy and wear rate of all layers"), OPTIONAL)                       \
     X(SHARED_PAIRS_KEY_TESTS, "tests", NUMBER, SHOWS(tests), LABEL("Tests"))                       \
     X(SHARED_PAIRS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),          \
       OPTIONAL)                                                                                    \

@@ -30,7 +30,12 @@
       NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(IDENTIFICATION_NOTE, AS(note), "what is lacking, or taken from elsewhere", TEXT,             \
       LABEL("Note"))
+/* The first two are those of the first way that has an interval. */
 #define IDENTIFICATION_KEYS(X)                                                                     \
+    X(IDENTIFICATION_KEY_ENERGY, "identified_critical_energy", SI(ENERGY_DENSITY),                 \
+      HEADLINE("Critical energy by the layer"), OPTIONAL)                                          \
+    X(IDENTIFICATION_KEY_WEAR, "identified_wear_rate", SI(WEAR_RATE),                              \
+      HEADLINE("Specific wear rate by the layer"), OPTIONAL)                                       \
     X(IDENTIFICATION_KEY_PRODUCT, "wear_times_energy", NUMBER,                                     \
       LABEL("k U_c, which the thickness alone tells"))                                             \
     X(IDENTIFICATION_KEY_RATIO, "formation_wear_ratio", NUMBER,                                    \

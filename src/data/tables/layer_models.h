@@ -50,7 +50,7 @@
 #define RUNNING_IN_KEYS(X)                                                                         \
     X(RUNNING_IN_KEY_VELOCITY, AS(velocity), SI(VELOCITY))                                         \
     X(RUNNING_IN_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER,                                     \
-      LABEL("Modulus of the layer over that of the bulk"))                                         \
+      LABEL("Modulus of the layer over that of the bulk"), OPTIONAL)                               \
     X(RUNNING_IN_KEY_BARE, "bare_friction", NUMBER, SHOWS(bare),                                   \
       LABEL("Friction coefficient at the start"))                                                  \
     X(RUNNING_IN_KEY_BALANCE, "balance_friction", NUMBER, SHOWS(balance),                          \
@@ -66,7 +66,9 @@
       LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
     X(RUNNING_IN_KEY_SHEAR, AS(shear), TEXT, LABEL("Shear stress of the layer"))                   \
     X(RUNNING_IN_KEY_BACK, AS(back), TEXT, LABEL("Layer and energy"))                              \
-    X(RUNNING_IN_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"))
+    X(RUNNING_IN_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"))                   \
+    X(RUNNING_IN_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),    \
+      OPTIONAL)
 
 #define LAYER_BALANCES_COLUMNS(X)                                                                  \
     X(LAYER_BALANCES_KIND, AS(kind),                                                               \
@@ -95,13 +97,15 @@
       LABEL("Balance if the layer did not act back"))                                              \
     X(LAYER_BALANCES_KEY_RATIO, "bare_formation_wear_ratio", NUMBER, SHOWS(ratio),                 \
       LABEL("Formation over wear on a bare surface, R"))                                           \
-    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER)                                 \
+    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, OPTIONAL)                       \
     X(LAYER_BALANCES_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
     X(LAYER_BALANCES_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
     X(LAYER_BALANCES_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \
     X(LAYER_BALANCES_KEY_AGREEMENT, AS(agreement), TEXT,                                           \
       LABEL("Whether their number is known within the errors"), OPTIONAL)                          \
-    X(LAYER_BALANCES_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)
+    X(LAYER_BALANCES_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)     \
+    X(LAYER_BALANCES_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                              \
+      LABEL("Moduli of the layer"), OPTIONAL)
 
 #define EXISTENCE_COLUMNS(X)                                                                       \
     X(EXISTENCE_PRESSURE, AS(pressure), "nominal pressure", SI(PRESSURE))                          \
@@ -139,6 +143,8 @@
     X(EXISTENCE_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                         \
     X(EXISTENCE_KEY_KNOWN, AS(known), TEXT,                                                        \
       LABEL("Whether the edges are known within the errors"), OPTIONAL)                            \
-    X(EXISTENCE_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)
+    X(EXISTENCE_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)          \
+    X(EXISTENCE_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),     \
+      OPTIONAL)
 
 #endif

@@ -460,12 +460,15 @@ static void say_change(const answer_story *story)
              words_of(friction_get(friction, n - 1, FRICTION_VELOCITY), "m/s").text,
              100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
              100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
+    const wt_estimate ratio = friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO);
+    const bool own = isnan(ratio.value) && friction_words(friction, FRICTION_KEY_LAYER_MODULI);
     answer_say(story, what_friction, "friction",
-               "With the layer (%s thick, modulus ratio %s), at %s, mu "
+               "With the layer (%s thick, %s%s), at %s, mu "
                "= %s.",
                words_of_value(friction_value(friction, FRICTION_KEY_LAYER_THICKNESS)).text,
-               words_of_value(friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO)).text,
-               words_of(with_layer.velocity, "m/s").text, words_of_finding(&with_layer).text);
+               own ? "of a material of its own" : "modulus ratio ",
+               own ? "" : words_of_value(ratio).text, words_of(with_layer.velocity, "m/s").text,
+               words_of_finding(&with_layer).text);
     answer_say(story, what_friction, "friction", "%c%s.", toupper((unsigned char)text[0]),
                text + 1);
     if (change.range.widest != NULL)
@@ -522,6 +525,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&existence_schema, "", &story->existence},
         {&running_in_schema, "", &story->running_in},
         {&track_layer_schema, "", &story->track_layer},
+        {&identification_schema, "", &story->identification},
     };
     wt_status status = findings_bind(result, &story->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
@@ -548,6 +552,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_thickness(&story);
     answer_track_layer(&story);
     answer_layer_models(&story);
+    answer_identification(&story);
     answer_friction(&story);
     answer_running_in(&story);
     answer_validation(&story);

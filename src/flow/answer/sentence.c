@@ -359,31 +359,20 @@ static void say_friction(sentence *s, const table_view *v)
         words_of_finding(&area).text);
 }
 
-/* The rows behind the first are the ways that need no range of the literature. */
 static void say_identification(sentence *s, const table_view *v)
 {
-    if (v->n_rows == 1) {
-        next(s);
-        say(s, "the thickness alone tells k U_c = %s and neither of them",
-            words_of_known(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
-    }
-    for (size_t i = 1; i < v->n_rows; i++) {
-        const double energy = identification_get(v, i, IDENTIFICATION_ENERGY),
-                     wear = MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR);
-        next(s);
-        say(s, "by %s U_c = %s", identification_text(v, i, IDENTIFICATION_BY),
-            words_of(energy, "J/m^3").text);
-        if (isnan(identification_get(v, i, IDENTIFICATION_ENERGY_LOW))) {
-            say(s, ", k = %.3g mm^3/(N m) (%s)", wear,
-                identification_text(v, i, IDENTIFICATION_NOTE));
-            continue;
-        }
-        say(s, " (95 %%: %s to %s), k = %.3g mm^3/(N m) (%.3g to %.3g)",
-            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_LOW), "J/m^3").text,
-            words_of(identification_get(v, i, IDENTIFICATION_ENERGY_HIGH), "J/m^3").text, wear,
-            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_LOW),
-            MM3_PER_N_M * identification_get(v, i, IDENTIFICATION_WEAR_HIGH));
-    }
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_identification(&s->told, v);
+}
+
+static void say_shared_pairs(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_shared_pairs(&s->told, v);
 }
 
 static void say_validation(sentence *s, const table_view *v)
@@ -443,6 +432,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer},
                  {&identification_schema, say_identification},
+                 {&shared_pairs_schema, say_shared_pairs},
                  {&validation_schema, say_validation},
                  {&validation_running_in_schema, say_validation_running_in}};
     sentence s = {.told = {buffer, size, 0}, .result = result};

@@ -36,7 +36,7 @@ typedef struct answer_story {
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_balances, existence, running_in, track_layer;
+    table_view layer_bands, layer_balances, existence, running_in, track_layer, identification;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
@@ -62,6 +62,8 @@ void answer_layer_models(const answer_story *story);
 void answer_running_in(const answer_story *story);
 /* What a measured counter surface is like. */
 void answer_surface(const answer_story *story);
+/* Critical energy and wear rate by what is seen of the layer. */
+void answer_identification(const answer_story *story);
 /* Friction and wear as measured. */
 void answer_record(const answer_story *story);
 /* Whether the theory explains the friction that was measured. */

@@ -73,6 +73,11 @@ void tell_change(telling *t, const finding_tables *tables, bool with_choices);
  * "specific wear rate ..." */
 void tell_record(telling *t, const table_view *record);
 void tell_wear(telling *t, const table_view *wear);
+/* Critical energy and wear rate of a layer by each way to know them: "by thickness and wear rate
+ * U_c = ... (95 %: ...), k = ... (...), correlation -0.98", and what they leave open. */
+void tell_identification(telling *t, const table_view *identification);
+/* "one U_c and k in all 4 cases, by ...: one: U_c = ..." */
+void tell_shared_pairs(telling *t, const table_view *shared_pairs);
 /* "the theory (friction with the layer) against the record: explains: ..." */
 void tell_verdict(telling *t, const table_view *validation);
 /* "the running-in with the layer against the record: explains: ..." and what the time asks for */

@@ -47,6 +47,7 @@ void wt_case_free(wt_case *c)
         return;
     for (case_setting *s = c->settings; s != NULL; s = s->next)
         wt_params_clear(s->params, s->structure, &s->given);
+    wt_case_free(c->layer_material);
     pool_free(&c->memory);
     free(c);
 }

@@ -74,6 +74,7 @@ struct wt_case {
     wt_layer_job layer;
     bool has_modulus_ratio; /* given instead of measured */
     wt_layer_known known;
+    struct wt_case *layer_material; /* the layer's own, a case of nothing else; NULL: none */
     bool identifies;
     wt_identify_job identify;
 

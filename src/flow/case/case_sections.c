@@ -5,6 +5,7 @@
 #include "flow/record/record.h"
 #include "flow/sliding/counter_surface.h"
 
+#include "base/array.h"
 #include "flow/work/inputs.h"
 #include "report/files.h"
 
@@ -254,9 +255,40 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
+/* As that of the bulk, and its files with those of the case. */
+static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    static const char *const instead[] = {"modulus-ratio", "ratio-slope", "ratio-by-rate"};
+    wt_case *own = c->layer_material = case_new();
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < COUNT_OF(instead); i++)
+        if (case_child(node->parent, instead[i]) != NULL) {
+            wt_fail(err, WT_E_ARG, "the layer has a material of its own and a modulus ratio");
+            wt_error_advice(err, "delete <material> or <%s>", instead[i]);
+            return case_at(case_child(node->parent, instead[i]), WT_E_ARG, err);
+        }
+    own->path = c->path;
+    own->folder = c->folder;
+    wt_status status = case_read_dma(own, node, err);
+    if (status == WT_OK && own->is_transverse) {
+        wt_fail(err, WT_E_ARG, "a layer's own material is the same in all directions");
+        wt_error_advice(err, "delete <transverse>");
+        return case_at(case_child(node, "transverse"), WT_E_ARG, err);
+    }
+    while (own->roles != NULL) {
+        case_files *const role = own->roles;
+        own->roles = role->next;
+        role->next = c->roles;
+        c->roles = role;
+    }
+    return status;
+}
+
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
 {
-    const xmlNode *ratio = case_child(section, "modulus-ratio");
+    const xmlNode *ratio = case_child(section, "modulus-ratio"),
+                  *material = case_child(section, "material");
     c->has_layer = true;
     c->has_modulus_ratio = ratio != NULL;
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
@@ -269,6 +301,8 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     }
     if (status == WT_OK)
         status = case_at_param(section, wt_layer_job_check(&checked, err), err);
+    if (status == WT_OK && material != NULL)
+        status = read_layer_material(c, material, err);
     if (status == WT_OK && ratio != NULL && c->bulk.n > 0 && c->track.n > 0) {
         wt_fail(err, WT_E_ARG, "the modulus ratio is given and measured");
         wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");

@@ -21,6 +21,8 @@
     X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
       c->has_modulus_ratio)                                                                        \
+    X(GIVEN_LAYER_MATERIAL, "material of the layer",                                               \
+      "no material of the layer (<material> in <layer>)", c->layer_material != NULL)               \
     X(GIVEN_DIRECTIONS, "directions of the material",                                              \
       "no directions of the material (<transverse> in <dma>)", c->is_transverse)                   \
     X(GIVEN_SOFTENING, "given softening", "no table of softening (<file> in <strain-softening>)",  \

@@ -34,6 +34,7 @@ typedef enum shared_files {
     SHARED_LAW,
     SHARED_ROUGHNESS,
     SHARED_SOFTENING,
+    SHARED_SPECTRUM, /* of curves that are fitted with it */
     SHARED_FILES_N
 } shared_files;
 

@@ -58,7 +58,7 @@ files_common files_in_common(const collected_case *a, const collected_case *b,
     return most;
 }
 
-/* Sources as the table of them begins, and the roles of their files. */
+/* Sources as the table of them begins (NULL: it has none of that), and the roles of their files. */
 static const struct {
     const char *source;
     const char *roles[5];
@@ -66,12 +66,15 @@ static const struct {
     [SHARED_MATERIAL] = {VALIDATION_OF_MATERIAL, {"dma", "material", "topography", "roughness"}},
     [SHARED_LAW] = {"shift law", {"dma", "material"}},
     [SHARED_ROUGHNESS] = {"roughness", {"topography", "roughness"}},
-    [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}}};
+    [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}},
+    [SHARED_SPECTRUM] = {NULL, {"dma", "material"}}};
 
 shared_files shared_files_of(const char *source)
 {
     shared_files i = 0;
-    while (i < SHARED_FILES_N && strncmp(source, sources[i].source, strlen(sources[i].source)) != 0)
+    while (i < SHARED_FILES_N &&
+           (sources[i].source == NULL ||
+            strncmp(source, sources[i].source, strlen(sources[i].source)) != 0))
         i++;
     return i;
 }

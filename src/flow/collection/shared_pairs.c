@@ -25,8 +25,8 @@ TABLE_ROW(collected_constants, COLLECTED_CONSTANTS, const char *sample, *conditi
 TABLE_ROW(shared_pairs, SHARED_PAIRS, const char *by, *over, *of; double n;
           const char *one_energy, *one_wear, *one_pair; wt_interval energy, wear;
           constant_axes axes; double chi_squared, df, holm_p;)
-TABLE_KEYS(shared_pairs, SHARED_PAIRS, double tests; const char *left_out, *settled_by;
-           double margin;)
+TABLE_KEYS(shared_pairs, SHARED_PAIRS, const char *one_of_all; double tests;
+           const char *left_out, *settled_by; double margin;)
 
 /* What a case knows in one way, a row of its table "identification". */
 typedef struct told_pair {
@@ -304,6 +304,18 @@ static void say_settled_by(const pair_rows *rows, char *text, size_t size)
     }
 }
 
+/* Of all cases, by every way to know them: where one differs the layers do. */
+static const char *say_all(const pair_rows *rows)
+{
+    const char *said = NULL;
+    for (size_t i = 0; i < rows->n; i++) {
+        const char *const here = rows->of[i].says[OF_PAIR_];
+        if (rows->of[i].common == OF_ALL && (said == NULL || here == differs || said == one))
+            said = here;
+    }
+    return said;
+}
+
 static wt_status list_rows(const pair_rows *rows, const told_pairs *told, double margin,
                            wt_table **table, wt_error *err)
 {
@@ -319,7 +331,8 @@ static wt_status list_rows(const pair_rows *rows, const told_pairs *told, double
                   f->chi_squared, 2 * ((double)r->n - 1), r->holm_p[OF_PAIR_]);
     }
     say_settled_by(rows, settled_by, sizeof settled_by);
-    TABLE_SET(shared_pairs, &w, (double)(TESTS * rows->n), told->left_out, settled_by, margin);
+    TABLE_SET(shared_pairs, &w, say_all(rows), (double)(TESTS * rows->n), told->left_out,
+              settled_by, margin);
     return table_end(&w, table);
 }
 

@@ -168,14 +168,84 @@ typedef struct spot_line {
     double n, x, y, xx, xy;
 } spot_line;
 
+/* The curves that were taken: of lg rate and angular frequency of equal loading. */
+typedef struct rate_ends {
+    double low, high, slow, fast;
+} rate_ends;
+
+/* What a fit by the spectrum of the DMA takes from it is the modulus at 1/(loading time) over what
+ * the whole way in sees. Where |E*| is as omega^n and the force as depth^m that is
+ * Gamma(m + 1 - n) but for a factor, so that an error of n goes into ln E with the digamma function
+ * there: at m = 2 and n = 0, of cones and pyramids, the largest of all tips and rubbers. */
+static const double per_exponent = 0.9228;
+
+/* The error of n at a frequency, by that of tan delta = tan(pi n / 2) of the nearest point. */
+static double exponent_error(const table_view *master, double frequency)
+{
+    double nearest = (double)INFINITY, error = 0;
+    for (size_t row = 0; row < master->n_rows; row++) {
+        const double off = fabs(log(master_curve_get(master, row, MASTER_CURVE_ANGULAR_FREQUENCY) /
+                                    frequency)),
+                     tan_delta = master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR),
+                     wide = master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH) -
+                            master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR_LOW);
+        if (off < nearest && isfinite(wide)) {
+            nearest = off;
+            error = wide / (2 * NORMAL_95) * M_2_PI / (1 + tan_delta * tan_delta);
+        }
+    }
+    return error;
+}
+
+/* Of the slope, by the spectrum that all curves have in common, which no scatter of spots shows: 0
+ * where the curves are without it, or the result does not hold what it was made of. At another
+ * temperature frequencies are reduced ones, of which the shift is not known here: then the largest
+ * error of all. */
+static wt_status find_spectrum_variance(const collected_case *c, const table_view *curves,
+                                        const rate_ends *ends, double *variance, wt_error *err)
+{
+    table_view master;
+    const double temperature =
+        indentation_value(curves, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value;
+    const wt_status status = bind(c, &master_curve_schema, "", &master, err);
+    *variance = 0;
+    if (status != WT_OK || isnan(temperature) || master.n_rows == 0 || !(ends->high > ends->low))
+        return status;
+    const double close = 0.01, /* K, of temperatures that are written in both scales */
+        reference = master_curve_value(&master, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
+    double slow = exponent_error(&master, ends->slow), fast = exponent_error(&master, ends->fast);
+    if (!(fabs(temperature - reference) < close))
+        for (size_t row = 0; row < master.n_rows; row++) {
+            const double of = exponent_error(
+                &master, master_curve_get(&master, row, MASTER_CURVE_ANGULAR_FREQUENCY));
+            slow = fmax(slow, of);
+            fast = fmax(fast, of);
+        }
+    const double error = per_exponent * hypot(slow, fast) / (ends->high - ends->low);
+    *variance = error * error;
+    return WT_OK;
+}
+
 static const char *spot_of(const table_view *curves, size_t row)
 {
     const char *spot = indentation_text(curves, row, INDENTATION_SPOT);
     return spot != NULL && spot[0] != '\0' ? spot : indentation_text(curves, row, INDENTATION_FILE);
 }
 
+static void widen_ends(rate_ends *ends, double rate, double frequency)
+{
+    if (!(rate > ends->low)) {
+        ends->low = rate;
+        ends->slow = frequency;
+    }
+    if (!(rate < ends->high)) {
+        ends->high = rate;
+        ends->fast = frequency;
+    }
+}
+
 static wt_status add_curve(const table_view *curves, size_t row, spot_line **lines, size_t *n,
-                           wt_error *err)
+                           rate_ends *ends, wt_error *err)
 {
     const char *spot = spot_of(curves, row),
                *verdict = indentation_text(curves, row, INDENTATION_VERDICT);
@@ -195,6 +265,7 @@ static wt_status add_curve(const table_view *curves, size_t row, spot_line **lin
         grown[(*n)++] = (spot_line){.spot = spot};
     }
     spot_line *l = &(*lines)[i];
+    widen_ends(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
     l->n += 1;
     l->x += x;
     l->y += y;
@@ -230,16 +301,25 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
 {
     table_view curves;
     spot_line *lines = NULL;
+    rate_ends ends = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     size_t n = 0;
+    double variance = 0;
     wt_status status = bind(c, &indentation_schema, group, &curves, err);
     for (size_t row = 0; status == WT_OK && row < curves.n_rows; row++)
-        status = add_curve(&curves, row, &lines, &n, err);
+        status = add_curve(&curves, row, &lines, &n, &ends, err);
     if (status == WT_OK)
-        status = add_value(
-            to,
-            (case_value){
-                .constant = SHARED_RATE, .of = c, .group = group, .log = slope_of(lines, n)},
-            err);
+        status = find_spectrum_variance(c, &curves, &ends, &variance, err);
+    if (status == WT_OK) {
+        case_value v = {
+            .constant = SHARED_RATE, .of = c, .group = group, .log = slope_of(lines, n)};
+        v.by_files[SHARED_SPECTRUM] = variance;
+        if (variance > 0) {
+            const t_error all = t_error_with((t_error){v.log.standard_error, v.log.df}, variance);
+            v.log.standard_error = all.error;
+            v.log.df = all.df;
+        }
+        status = add_value(to, v, err);
+    }
     free(lines);
     return status;
 }

@@ -56,6 +56,7 @@ OF_ESTIMATE(wear, layer.specific_wear_rate)
 OF_ESTIMATE(energy, layer.critical_energy)
 OF_ESTIMATE(observed, layer.observed_thickness)
 OF_ESTIMATE(thickness, known.thickness)
+OF_ESTIMATE(slope, known.ratio_slope)
 
 /* As stated, or of a measured surface what its places, its modes and its law scatter by. */
 static bool stated_roughness(const setting *s)
@@ -80,6 +81,16 @@ static void hold_ratio(setting *s)
 {
     s->known.modulus_ratio.standard_error *= sqrt(s->known.calibration_share);
     s->known.calibration_share = 1;
+}
+
+static bool stated_layer_rubber(const setting *s)
+{
+    return s->layer_rubber.n_draws > 0;
+}
+
+static void hold_layer_rubber(setting *s)
+{
+    s->layer_rubber.n_draws = 0;
 }
 
 static bool stated_calibration(const setting *s)
@@ -133,15 +144,26 @@ static bool has_thickness(const setting *s)
     return s->has_known && !s->has_layer;
 }
 
+static bool has_layer_rubber(const setting *s)
+{
+    return s->has_known && s->has_layer_rubber;
+}
+
 static bool has_ratio(const setting *s)
 {
-    return s->has_known;
+    return s->has_known && !s->has_layer_rubber;
+}
+
+/* Else the ratio does not go with the frequency. */
+static bool has_slope(const setting *s)
+{
+    return has_ratio(s) && (s->known.ratio_slope.value != 0 || stated_slope(s));
 }
 
 /* Else there is none, or it cancels. */
 static bool has_calibration(const setting *s)
 {
-    return s->has_known && s->known.calibration_share > 0;
+    return has_ratio(s) && s->known.calibration_share > 0;
 }
 
 static const char calibration_remedy[] = "one cantilever for both groups, or spring constants, "
@@ -168,6 +190,10 @@ static const source sources[] = {
      hold_thickness},
     {"modulus ratio", "more spots: four times as many halve it", has_ratio, stated_ratio,
      hold_ratio},
+    {"slope of the modulus ratio", "more spots indented at rates further apart", has_slope,
+     stated_slope, hold_slope},
+    {"material of the layer", "a second DMA run of the layer's rubber", has_layer_rubber,
+     stated_layer_rubber, hold_layer_rubber},
     {"calibration", calibration_remedy, has_calibration, stated_calibration, hold_calibration},
 };
 enum { SOURCES = COUNT_OF(sources) };

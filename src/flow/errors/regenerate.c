@@ -155,6 +155,7 @@ static const struct {
     {"observed thickness", offsetof(setting, layer.observed_thickness), FLOW_DRAW_OBSERVED},
     {"layer thickness", offsetof(setting, known.thickness), FLOW_DRAW_THICKNESS},
     {"modulus ratio", offsetof(setting, known.modulus_ratio), FLOW_DRAW_RATIO},
+    {"slope of the modulus ratio", offsetof(setting, known.ratio_slope), FLOW_DRAW_RATIO_SLOPE},
 };
 
 /* Of the layer only where there is one. */
@@ -177,7 +178,7 @@ void regenerate_inputs(setting *s, uint64_t seed)
             continue;
         const double value = e->value;
         const bool ratio = inputs[i].what == FLOW_DRAW_RATIO;
-        if (inputs[i].what == FLOW_DRAW_TEMPERATURE) {
+        if (inputs[i].what == FLOW_DRAW_TEMPERATURE || inputs[i].what == FLOW_DRAW_RATIO_SLOPE) {
             e->value = flow_draw_value(*e, seed, 0, inputs[i].what);
             continue;
         }

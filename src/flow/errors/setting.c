@@ -35,6 +35,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
                    .given = sliding->rubber,
                    .surface = *sliding->surface,
                    .has_softness = sliding->softness != NULL,
+                   .has_layer_rubber = sliding->layer_rubber != NULL,
                    .has_layer = layer != NULL,
                    .has_known = known != NULL,
                    .vertical = sliding->rubber->fit.vertical};
@@ -45,6 +46,8 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
     s->surface.q1 = law->q1;
     if (s->has_softness)
         s->softness = *sliding->softness;
+    if (s->has_layer_rubber)
+        s->layer_rubber = *sliding->layer_rubber;
     if (layer != NULL)
         s->layer = *layer;
     if (known != NULL)
@@ -97,6 +100,7 @@ wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, w
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
     s->sliding.softness = s->has_softness ? &s->softness : NULL;
+    s->sliding.layer_rubber = s->has_layer_rubber ? &s->layer_rubber : NULL;
     s->sliding.velocity = &s->velocity;
     wt_status status = s->has_layer ? compute_layer(s, work, &known, err) : WT_OK;
     if (status == WT_OK && s->has_layer)

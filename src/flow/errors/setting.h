@@ -15,8 +15,9 @@ typedef struct setting {
     wt_rubber rubber;       /* borrowed, or another one */
     const wt_rubber *given; /* whose copy `rubber` is; NULL once something of it is changed */
     wt_surface surface;     /* borrowed; its cut-offs are numbers */
-    bool has_softness;
-    wt_softness softness; /* borrowed */
+    bool has_softness, has_layer_rubber;
+    wt_softness softness;   /* borrowed */
+    wt_rubber layer_rubber; /* likewise, that of the layer */
     bool has_layer, has_known;
     wt_layer_job layer;
     wt_layer_known known;

@@ -23,7 +23,7 @@ TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
           wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
           friction;)
 TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio, modulus_ratio;
-           double low, high; const char *words, *agreement, *errors;)
+           double low, high; const char *words, *agreement, *errors, *moduli;)
 
 wt_status acts_back_energy(double thickness, void *user, wt_energy_source *source,
                            wt_layer_parameters *parameters, wt_error *err)
@@ -346,8 +346,8 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
     say_errors(task);
     table_writer t = table_begin(&layer_balances_schema, err);
     add_rows(task, &t);
-    TABLE_SET(layer_balances, &t, one_way, ratio, flow_as_stated(task->draws.known->modulus_ratio),
-              b->loop.low, b->loop.high, say_loop(&b->loop), task->agreement, task->errors);
+    TABLE_SET(layer_balances, &t, one_way, ratio, layer_draws_ratio(&task->draws), b->loop.low,
+              b->loop.high, say_loop(&b->loop), task->agreement, task->errors, task->draws.moduli);
     return table_end(&t, table);
 }
 

@@ -4,6 +4,7 @@
 #include "flow/layer/layer_draws.h"
 #include "flow/work/cost.h"
 
+#include "base/array.h"
 #include "base/clocale.h"
 #include "data/tables/rows.h"
 #include "model/root.h"
@@ -21,7 +22,7 @@ TABLE_KEYS(existence, EXISTENCE, double pressure;
            wt_estimate from_velocity, to_velocity, from_power, to_power;
            double from_velocity_low, from_velocity_high, to_velocity_low, to_velocity_high,
            from_power_low, from_power_high, to_power_low, to_power_high;
-           const char *words, *known, *errors;)
+           const char *words, *known, *errors, *moduli;)
 
 /* ---- at one velocity and pressure ------------------------------------------------------------ */
 
@@ -318,7 +319,8 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
                            .to_power_high = power[TO].high,
                            .words = task->edges.words,
                            .known = task->known,
-                           .errors = task->errors};
+                           .errors = task->errors,
+                           .moduli = task->draws.moduli};
     wt_estimate *const ends[] = {&keys.from_velocity, &keys.to_velocity, &keys.from_power,
                                  &keys.to_power};
     const wt_interval *const of[] = {&velocity[FROM], &velocity[TO], &power[FROM], &power[TO]};
@@ -328,12 +330,6 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
     }
     existence_set_keys(&t, &keys);
     return table_end(&t, table);
-}
-
-static int by_value(const void *left, const void *right)
-{
-    const double *const a = left, *const b = right;
-    return (*a > *b) - (*a < *b);
 }
 
 /* The same with its velocities from the least on, between which edges are looked for. */
@@ -347,7 +343,7 @@ static wt_status order_velocities(existence_task *task, const wt_sliding *slidin
     if (task->velocity == NULL || task->at == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     memcpy(task->velocity, sliding->velocity, n * sizeof *task->velocity);
-    qsort(task->velocity, n, sizeof *task->velocity, by_value);
+    numbers_sort(task->velocity, n);
     task->sliding = *sliding;
     task->sliding.velocity = task->velocity;
     return WT_OK;

@@ -240,6 +240,23 @@ static void add_way(const identify_task *task, way by, const identified *found, 
     identification_add_row(t, &row);
 }
 
+/* By the first way with an interval; a number without one is no headline. */
+static void set_headline(const identify_task *task, const identified *found, table_writer *t)
+{
+    way by = BY_WEAR;
+    while (by < WAYS && (isnan(found->value[LN_ENERGY + by]) ||
+                         no_interval(task, by == BY_WEAR, by != BY_WEAR) != NULL))
+        by++;
+    if (by == WAYS)
+        return;
+    const wt_interval energy = interval_of(found, LN_ENERGY + by),
+                      wear = interval_of(found, LN_WEAR + by);
+    identification_set_value(t, IDENTIFICATION_KEY_ENERGY, energy.value, energy.standard_error,
+                             (double)NAN);
+    identification_set_value(t, IDENTIFICATION_KEY_WEAR, wear.value, wear.standard_error,
+                             (double)NAN);
+}
+
 /* Of the thickness alone: what the ranges of the literature leave of each. */
 static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
 {
@@ -313,6 +330,7 @@ static wt_status make_table(const identify_task *task, const identified *found, 
     add_thickness_alone(task, product, &t);
     for (way by = 0; by < WAYS; by++)
         add_way(task, by, found, &t);
+    set_headline(task, found, &t);
     identification_set_value(&t, IDENTIFICATION_KEY_PRODUCT, product.value, product.standard_error,
                              (double)NAN);
     identification_set_value(&t, IDENTIFICATION_KEY_RATIO, ratio, ratio * found->error[LN_RATIO],

@@ -52,6 +52,8 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
     if (status != WT_OK)
         return status;
     d->stated = *job;
+    if (known != NULL)
+        sliding_layer_describe(sliding, known, d->moduli, sizeof d->moduli);
     if (known != NULL && known->bulk_shear)
         d->stated.shear.exponent = 0;
     d->values =
@@ -95,6 +97,13 @@ void layer_draws_say(const layer_draws *d, char *text, size_t size)
     const char *const lacks = d->replicates.lacks;
     snprintf(text, size, "%s%s%s", replicates_include(&d->replicates),
              lacks[0] != '\0' ? "; no error is known of: " : "", lacks);
+}
+
+wt_estimate layer_draws_ratio(const layer_draws *d)
+{
+    if (d->values.sliding->layer_rubber == NULL)
+        return flow_as_stated(d->known->modulus_ratio);
+    return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
 }
 
 void layer_draws_clear(layer_draws *d)

@@ -16,6 +16,7 @@ typedef struct layer_draws {
     wt_layer_job stated, calibrated;
     const wt_layer_known *known; /* of the layer; NULL: none */
     replicates replicates;
+    char moduli[512]; /* of the layer, in words; "": one ratio, or nothing is known */
 } layer_draws;
 
 /* With the shear stress of the layer as `known` has it (NULL: nothing is known of its modulus).
@@ -28,6 +29,8 @@ wt_status layer_draws_scene(const layer_draws *draws, size_t replicate, wt_layer
                             layer_scene *scene, wt_error *err) WT_NODISCARD;
 /* "pressure, roughness; no error is known of: temperature". */
 void layer_draws_say(const layer_draws *draws, char *text, size_t size);
+/* The ratio of a layer without a material of its own. */
+wt_estimate layer_draws_ratio(const layer_draws *draws);
 void layer_draws_clear(layer_draws *draws);
 
 /* Rows of tables that are hundreds of contacts or sections are looked at by so many replicates,

@@ -2,17 +2,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/layer/replicate_ends.h"
 
+#include "base/array.h"
 #include "fit/students_t.h"
 #include "model/cholesky.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static int by_value(const void *left, const void *right)
-{
-    const double *const a = left, *const b = right;
-    return (*a > *b) - (*a < *b);
-}
 
 /* Of n in order, the value below which so large a part of them is; NaN beyond the last of m that
  * are known. */
@@ -103,7 +98,7 @@ wt_status replicate_ends(const replicates *r, size_t k, double beyond, wt_interv
             sorted[m++] = value + move[i];
     }
     if (status == WT_OK) {
-        qsort(sorted, m, sizeof *sorted, by_value);
+        numbers_sort(sorted, m);
         interval->low = exp(quantile(sorted, m, r->n, beyond));
         interval->high = exp(quantile(sorted, m, r->n, 1 - beyond));
     }

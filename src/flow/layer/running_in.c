@@ -5,6 +5,7 @@
 #include "flow/layer/friction_of_layer.h"
 #include "flow/work/cost.h"
 
+#include "base/array.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ TABLE_ROW(running_in, RUNNING_IN, double time;
           wt_estimate thickness, hysteresis, area_ratio, shear_stress, friction;)
 TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
            wt_estimate bare, balance, thickness, settled; double settled_low, settled_high;
-           const char *known, *shear, *back, *errors;)
+           const char *known, *shear, *back, *errors, *moduli;)
 
 /* ---- thickness ------------------------------------------------------------------------------- */
 
@@ -265,23 +266,17 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
     say_shear(task);
     layer_draws_say(&task->draws, task->errors, sizeof task->errors);
     TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
-              flow_as_stated(task->draws.known->modulus_ratio),
+              layer_draws_ratio(&task->draws),
               with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
               with_errors(layer_friction_known(&r->balance), e[BALANCE], known_error(&r->balance)),
               with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
               with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED], (double)NAN),
               settled.low, settled.high, task->known, task->shear, say_back(values->job),
-              task->errors);
+              task->errors, task->draws.moduli);
     return table_end(&t, table);
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
-
-static int by_time(const void *left, const void *right)
-{
-    const double *const a = left, *const b = right;
-    return (*a > *b) - (*a < *b);
-}
 
 /* Those of the balance without acting back, in order: what is left is looked for from the last on.
  */
@@ -296,7 +291,7 @@ static wt_status take_times(running_task *task, wt_error *err)
     if (status == WT_OK)
         status = layer_times_choose(task->draws.values.job, &balance, &task->time, &task->n, err);
     if (status == WT_OK)
-        qsort(task->time, task->n, sizeof *task->time, by_time);
+        numbers_sort(task->time, task->n);
     wt_energy_source_clear(&source);
     return status;
 }

@@ -35,6 +35,8 @@ typedef enum flow_extra {
       B(PAYNE) | B(PAYNE_SWEEP), flow_step_payne)                                                  \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL), 0,       \
       FLOW_NO_MORE, B(RUBBER), flow_step_given_material)                                           \
+    X(LAYER_MATERIAL, layer_material, "Material of the layer", B(GIVEN_LAYER_MATERIAL), 0,         \
+      FLOW_NO_MORE, B(MODULUS_RATIO), flow_step_layer_material)                                    \
     X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
       B(BULK_CURVES), 0, FLOW_BY_SPECTRUM, B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK),    \
       flow_step_bulk)                                                                              \

@@ -449,6 +449,21 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     return status;
 }
 
+typedef struct record_task {
+    const wt_record_job *job;
+    const wt_job *work;
+    writers *w;
+    wt_error *all; /* of the tables, whatever the file */
+} record_task;
+
+static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+{
+    const record_task *const task = user;
+    (void)i;
+    return is_stored(file) ? take_stored(task->work, file, task->w, task->all, err)
+                           : measure_file(task->job, task->work, file, task->w, err);
+}
+
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made)
@@ -471,8 +486,7 @@ static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made
 static wt_status make_tables(const wt_record_job *job, const wt_job *work, const flow_files *files,
                              wt_record_tables *made, wt_error *err)
 {
-    wt_status status = WT_OK;
-    size_t n_failed = 0;
+    size_t n_failed;
     writers w = {.record = table_begin(&record_schema, err),
                  .cycles = table_begin(&record_cycles_schema, err)};
     if (wear_is_asked(job))
@@ -480,18 +494,8 @@ static wt_status make_tables(const wt_record_job *job, const wt_job *work, const
     record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
                            job->cycle == WT_CYCLE_AUTO ? "what each record tells"
                                                        : kind_words(job->cycle));
-    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        status = is_stored(&files->file[i])
-                     ? take_stored(work, &files->file[i], &w, err, &failure)
-                     : measure_file(job, work, &files->file[i], &w, &failure);
-        if (status != WT_OK && flow_leave_out(work, &files->file[i], &failure)) {
-            status = WT_OK;
-        } else if (status != WT_OK) {
-            n_failed++;
-            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
-        }
-    }
+    record_task task = {job, work, &w, err};
+    wt_status status = flow_files_take(files, work, take_file, &task, &n_failed, err);
     if (status == WT_OK && w.n_files == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no record of friction could be read");
         flow_tell_files(files, n_failed, err);

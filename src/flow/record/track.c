@@ -26,11 +26,18 @@ static wt_status find_track(const wt_image *image, wt_track *track, wt_error *er
     return status;
 }
 
-static wt_status measure_profile(const wt_job *work, flow_file *file, several *areas, wt_error *err)
+typedef struct profiles {
+    const wt_job *work;
+    several areas;
+} profiles;
+
+static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error *err)
 {
+    profiles *const to = user;
+    (void)i;
     wt_image image = {.values = NULL};
     wt_track track = {.found = false};
-    wt_status status = flow_heights_read(file, NULL, true, "profile", work, &image, err);
+    wt_status status = flow_heights_read(file, NULL, true, "profile", to->work, &image, err);
     if (status == WT_OK && image.n_rows > 1) {
         status = wt_fail(err, WT_E_ARG, "a height map, and the track is measured across it");
         wt_error_advice(err, "export profiles across the track, a file each");
@@ -47,9 +54,9 @@ static wt_status measure_profile(const wt_job *work, flow_file *file, several *a
         wt_error_advice(err, "measure across the whole track, with as much beside it");
         return WT_E_EMPTY;
     }
-    several_add(areas, track.area);
+    several_add(&to->areas, track.area);
     if (track.ridges > track.area.value)
-        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+        wt_parselog_add(to->work->log, WT_WARNING, file->name, NULL,
                         "more stands above the surface beside the track than is missing in it: "
                         "material was pushed aside or transferred, and its volume is no wear");
     return WT_OK;
@@ -64,27 +71,17 @@ wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt
     if (job->profile_set == NULL)
         set.read.format = NULL; /* that of the records */
     flow_files files = {NULL, 0, NULL};
-    several areas = {.n = 0};
+    profiles found = {.work = work};
     size_t n_failed = 0;
     wt_status status = flow_files_list(&set, 1, work, &files, err);
-    for (size_t i = 0; status == WT_OK && i < files.n; i++) {
-        wt_error failure = WT_ERROR_INIT;
-        status = measure_profile(work, &files.file[i], &areas, &failure);
-        if (status == WT_OK)
-            continue;
-        if (flow_leave_out(work, &files.file[i], &failure)) {
-            status = WT_OK;
-        } else {
-            n_failed++;
-            status = wt_job_failed(work, files.file[i].name, status, &failure, err);
-        }
-    }
-    if (status == WT_OK && !(areas.n > 0)) {
+    if (status == WT_OK)
+        status = flow_files_take(&files, work, measure_profile, &found, &n_failed, err);
+    if (status == WT_OK && !(found.areas.n > 0)) {
         status = wt_fail(err, WT_E_EMPTY, "no profile shows the track");
         flow_tell_files(&files, n_failed, err);
     }
     flow_files_clear(&files);
     if (status == WT_OK)
-        *area = several_mean(&areas, "m^2");
+        *area = several_mean(&found.areas, "m^2");
     return status;
 }

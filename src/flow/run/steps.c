@@ -16,6 +16,7 @@ void flow_run_clear(flow_run *run)
     for (int g = 0; g < 2; g++)
         wt_curve_set_free(run->kept[g]);
     wt_rubber_clear(&run->rubber);
+    wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
     wt_softness_clear(&run->softness);
     *run = (flow_run){0};
@@ -166,15 +167,23 @@ wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
+/* Of the DMA files of a case, which may be that of a layer. */
+static wt_status read_master(const wt_case *c, const wt_job *work, wt_master_tables *tables,
+                             wt_rubber *rubber, wt_error *err)
+{
+    wt_master_job job = c->master;
+    job.sets = c->dma.sets;
+    job.n_sets = c->dma.n;
+    const wt_status status = wt_master_make(&job, work, tables, rubber, err);
+    return status == WT_OK && c->rubber.moduli == WT_MODULI_POINTS
+               ? wt_rubber_tabulate(rubber, tables->master_curve, &c->rubber, err)
+               : status;
+}
+
 wt_status flow_step_master(flow_run *run, wt_error *err)
 {
     wt_master_tables tables = {0};
-    wt_master_job job = run->c->master;
-    job.sets = run->c->dma.sets;
-    job.n_sets = run->c->dma.n;
-    wt_status status = wt_master_make(&job, &run->job, &tables, &run->rubber, err);
-    if (status == WT_OK && run->c->rubber.moduli == WT_MODULI_POINTS)
-        status = wt_rubber_tabulate(&run->rubber, tables.master_curve, &run->c->rubber, err);
+    const wt_status status = read_master(run->c, &run->job, &tables, &run->rubber, err);
     flow_run_set_direction(run);
     flow_run_keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
     flow_run_keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
@@ -184,6 +193,24 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     flow_run_keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     flow_run_keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the fit */
+    return status;
+}
+
+/* Its tables are not kept: those of the names are the bulk's. */
+wt_status flow_step_layer_material(flow_run *run, wt_error *err)
+{
+    const wt_case *own = run->c->layer_material;
+    wt_master_tables tables = {0};
+    wt_job work = run->job;
+    work.dma = NULL; /* the bulk's */
+    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    const wt_status status = own->has_material
+                                 ? flow_run_given_rubber(own, &work, &run->layer_rubber, err)
+                                 : read_master(own, &work, &tables, &run->layer_rubber, err);
+    wt_master_tables_clear(&tables);
+    run->has_layer_rubber = status == WT_OK;
+    if (status == WT_OK)
+        wt_rubber_cost(&run->layer_rubber, &run->job);
     return status;
 }
 
@@ -272,6 +299,7 @@ wt_sliding flow_run_sliding(const flow_run *run)
     sliding.surface = &run->surface;
     if (isnan(sliding.reference_velocity))
         sliding.reference_velocity = run->c->layer.velocity;
+    sliding.layer_rubber = run->has_layer_rubber ? &run->layer_rubber : NULL;
     sliding.softness = run->softness.table.n > 0 ? &run->softness : NULL;
     return sliding;
 }
@@ -309,6 +337,16 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
                                    &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
+/* A layer of its own material has no ratio, whatever was indented, and no other stands in. */
+static wt_status known_by_material(const flow_run *run, wt_layer_known *known, wt_error *err)
+{
+    known->modulus_ratio = wt_layer_known_defaults().modulus_ratio;
+    known->modulus_ratio_df = known->calibration_share = 0;
+    return run->has_layer_rubber
+               ? WT_OK
+               : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
+}
+
 wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
 {
     *known = run->c->known;
@@ -317,6 +355,8 @@ wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_er
     known->modulus_ratio = run->modulus_ratio;
     known->modulus_ratio_df = run->modulus_ratio_df;
     known->calibration_share = run->calibration_share;
+    if (run->c->layer_material != NULL)
+        return known_by_material(run, known, err);
     if (!isnan(known->modulus_ratio.value) && known->by_rate) {
         if (isnan(known->ratio_temperature))
             known->ratio_temperature = run->c->compare.temperature.value;

@@ -13,7 +13,8 @@ typedef struct flow_run {
     wt_table *table[FLOW_N_THINGS]; /* of the things that are a table of their own */
     wt_indent_tables curves;        /* only the curve tables */
     wt_curve_set *kept[2];          /* curves of bulk and track, for the coverage */
-    wt_rubber rubber;
+    wt_rubber rubber, layer_rubber;
+    bool has_layer_rubber;
     wt_surface surface;
     wt_softness softness;
     wt_layer_job layer; /* of the case, with the wear rate as measured where it gives none */
@@ -26,6 +27,9 @@ typedef struct flow_run {
 } flow_run;
 
 void flow_run_clear(flow_run *run);
+/* The rubber as given in a case, which may be that of a layer. */
+wt_status flow_run_given_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                wt_error *err) WT_NODISCARD;
 /* The rubber has the directions that the case says. */
 void flow_run_set_direction(flow_run *run);
 

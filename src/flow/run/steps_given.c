@@ -50,8 +50,8 @@ static wt_status given_points(const wt_case *c, const wt_job *work, wt_rubber *r
     return status;
 }
 
-/* As given in the case. */
-static wt_status make_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber, wt_error *err)
+wt_status flow_run_given_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                wt_error *err)
 {
     const double reference = c->master.fit.reference_temperature;
     wt_status status = c->kind == WT_RUBBER_TABLE ? given_points(c, work, rubber, err)
@@ -77,7 +77,7 @@ void flow_run_set_direction(flow_run *run)
 
 wt_status flow_step_given_material(flow_run *run, wt_error *err)
 {
-    const wt_status status = make_rubber(run->c, &run->job, &run->rubber, err);
+    const wt_status status = flow_run_given_rubber(run->c, &run->job, &run->rubber, err);
     flow_run_set_direction(run);
     if (status == WT_OK)
         wt_rubber_cost(&run->rubber, &run->job);

@@ -107,7 +107,10 @@ void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *kno
     const wt_estimate slope = known->ratio_slope;
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
-        snprintf(text, size, "those of a material of its own, bonded on the bulk");
+        snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
+                 sliding->flash.on ? ", warmed by the flash temperature with the shift law of the "
+                                     "bulk and not its own"
+                                   : "");
     else if (slope.value != 0 || slope.standard_error > 0)
         clocale_print(
             text, size,
