@@ -333,12 +333,13 @@ typedef struct wt_record_job {
     wt_estimate load;         /* [N] where the record says none; NaN: none */
     wt_estimate track_radius; /* [m] instead of that of the file; NaN: that */
     /* Wear, NaN: not known; one of the first three, else the depth of the record under a ball. */
-    wt_estimate track_area;   /* cross-section that is missing [m^2] */
-    const char *profile;      /* files of profiles across the track that tell it; NULL: none */
-    wt_estimate mass_loss;    /* [kg], with */
-    wt_estimate density;      /* [kg/m^3] */
-    wt_estimate track_length; /* [m]; NaN: circumference of the track, or the stroke */
-    wt_estimate ball_radius;  /* [m] */
+    wt_estimate track_area; /* cross-section that is missing [m^2] */
+    const char *profile;    /* files of profiles across the track that tell it; NULL: none */
+    const wt_file_set *profile_set; /* how they are read; NULL: as the records */
+    wt_estimate mass_loss;          /* [kg], with */
+    wt_estimate density;            /* [kg/m^3] */
+    wt_estimate track_length;       /* [m]; NaN: circumference of the track, or the stroke */
+    wt_estimate ball_radius;        /* [m] */
     /* Nominal pressure of the ball. */
     wt_estimate modulus;  /* Young's, at the frequency of the contact [Pa] */
     double poisson_ratio; /* of the rubber */

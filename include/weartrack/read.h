@@ -111,6 +111,13 @@ typedef enum wt_spectrum_convention {
     WT_CONVENTION_CONTACT_ENGINEERING /* (2 pi)^2 C of an area, 2 pi C1 of a profile */
 } wt_spectrum_convention;
 
+/* What became of a unit that is given for columns of files of several kinds. */
+typedef struct wt_unit_use {
+    bool used;       /* a file has that column, without a unit or in the same */
+    bool overruled;  /* a file has it in another unit, which stands */
+    char stated[32]; /* that of the first such file */
+} wt_unit_use;
+
 /* Nothing that is not asked for is decoded. */
 typedef struct wt_read_options {
     const char *format;   /* id that overrules detection, or NULL */
@@ -123,10 +130,10 @@ typedef struct wt_read_options {
     double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
-    bool *unit_used; /* [n_units] of files of several kinds: set where one has that column, and no
-                        file without it is warned of; NULL = each is. May be set by any thread. */
-    bool any_temperature; /* a sweep without a temperature is read, as NaN */
-    bool one_height;      /* of the heights wanted only that of a sensor, where there is one */
+    wt_unit_use *unit_use; /* [n_units] of files of several kinds: set by what each has, by any
+                              thread, and no file is warned of; NULL = each is */
+    bool any_temperature;  /* a sweep without a temperature is read, as NaN */
+    bool one_height;       /* of the heights wanted only that of a sensor, where there is one */
     const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the
                           other; NULL = the only one that is */
     wt_read_deformation deformation; /* one that the file contradicts is WT_E_UNIT */

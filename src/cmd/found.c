@@ -86,6 +86,17 @@ static void read_fact(const char *item, const char *value, const char *unit, con
     }
 }
 
+/* A column that says no unit is told with a --units of its own. */
+static void read_unitless(const char *item, const char *value, found_file *found)
+{
+    static const char column[] = "column \"";
+    const size_t used = strlen(found->unitless), begin = sizeof column - 1, length = strlen(item);
+    if (strncmp(item, column, begin) == 0 && strstr(value, "give --units") != NULL &&
+        length - begin + used < sizeof found->unitless)
+        snprintf(found->unitless + used, sizeof found->unitless - used, "%.*s\n",
+                 (int)(length - begin - 1), item + begin);
+}
+
 static void read_facts(const wt_formats *formats, const wt_table *facts, found_file *found)
 {
     const wt_format_info *format = NULL;
@@ -97,6 +108,7 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, found_f
             snprintf(found->words, sizeof found->words, "%s", value);
         }
         found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
+        read_unitless(item, value, found);
         read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT),
                   wt_table_text(facts, row, FACTS_SOURCE), found);
     }

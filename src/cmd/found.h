@@ -18,6 +18,7 @@ typedef struct found_file {
     bool is_result;                /* tables of this program */
     const char *next;              /* subcommand, NULL: by its kind; static */
     bool missing[FOUND_N_MISSING]; /* see above */
+    char unitless[256];            /* names of columns that carry no unit, a line each */
     char tip[64];                  /* that the file says, as --tip takes it; "" if it says none */
     bool nothing;                  /* it holds nothing that is read, whatever one says */
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */

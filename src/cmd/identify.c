@@ -21,7 +21,8 @@ int cmd_identify(int argc, char **argv)
     wt_table *table = NULL;
     cmd_sliding_init(&s, (cmd_part){wt_identify_job_params(), &job, NULL, 0});
     /* the energy knows nothing of the shear stress */
-    s.parts[CMD_CONTACT].only = "material dma roughness strain-softening softening-temperature";
+    s.parts[CMD_CONTACT].only =
+        "material dma roughness strain-softening softening-temperature wear-of";
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
@@ -29,6 +30,7 @@ int cmd_identify(int argc, char **argv)
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     if (cmd_sliding_open(&s)) {
+        cmd_sliding_wear(&s, &job.specific_wear_rate);
         wt_cost_stage(s.session.cost, "identify");
         wt_table **const parts[] = {&table};
         cmd_finish(&s.session,

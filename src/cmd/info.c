@@ -62,6 +62,24 @@ static void print_word(const char *word)
     fputs(mark, stdout);
 }
 
+/* What the user must say. Units that a column does not say are not guessed. */
+static void print_missing(const found_file *found)
+{
+    const char *name = found->unitless;
+    for (size_t k = 0; k < FOUND_N_MISSING; k++) {
+        const bool units = strcmp(found_missing_rows[k].name, "units") == 0;
+        if (found->missing[k] && (!units || *name == '\0'))
+            printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
+    }
+    for (size_t n = 0; *name != '\0'; name += n + 1) {
+        char given[sizeof found->unitless + sizeof "=UNIT"];
+        n = strcspn(name, "\n");
+        snprintf(given, sizeof given, "%.*s=UNIT", (int)n, name);
+        fputs(" --units", stdout);
+        print_word(given);
+    }
+}
+
 /* The command to type next for the only file, or for all of them. */
 static void print_next(const char *const *files, size_t n, const found_file *found)
 {
@@ -81,9 +99,7 @@ static void print_next(const char *const *files, size_t n, const found_file *fou
                                                                   : "convert");
     if (!found->is_result && found->kind == WT_KIND_FORCE)
         print_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
-    for (size_t k = 0; k < FOUND_N_MISSING; k++)
-        if (found->missing[k])
-            printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
+    print_missing(found);
     print_word(files[0]);
     char *output = found->is_result ? NULL
                                     : cmd_default_name(files[0], cmd_is_store(files[0])
@@ -95,6 +111,8 @@ static void print_next(const char *const *files, size_t n, const found_file *fou
     }
     free(output);
     putchar('\n');
+    if (*found->unitless != '\0')
+        puts("      with, for each UNIT, the one that the instrument exports, such as mm");
 }
 
 int cmd_info(int argc, char **argv)

@@ -76,8 +76,9 @@ int cmd_layer(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "layer",
-        .arguments = "--material FILE --roughness R --pressure P --velocity V --specific-wear-rate "
-                     "K [--critical-energy U | --observed-thickness D] [OPTION]...",
+        .arguments = "--material FILE --roughness R --pressure P --velocity V "
+                     "{--specific-wear-rate K | --wear-of FILE} [--critical-energy U | "
+                     "--observed-thickness D] [OPTION]...",
         .what =
             "Energy density with depth, formation and wear rate, balance and thickness in time "
             "of the modified layer, at constant load and the velocity given (the middle one of a "
@@ -92,6 +93,7 @@ int cmd_layer(int argc, char **argv)
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
+    s.parts[CMD_CONTACT].only = NULL;
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity pressures sliding-temperature gamma strain-factor anisotropy "
         "texture-angle "
@@ -106,11 +108,12 @@ int cmd_layer(int argc, char **argv)
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     const bool needs = job.running_in || job.acts_back;
-    if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
+    if (s.contact.wear_of == NULL && wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (needs && !cmd_sliding_knows_layer(&s, &s.parts[CMD_KNOWN]))
         cmd_usage_error(&s.session, "--running-in-friction and --acts-back need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
+        cmd_sliding_wear(&s, &job.specific_wear_rate);
         const wt_status made = make_tables(&s, &job, &tables, table);
         wt_table **parts[N_TABLES];
         for (size_t i = 0; i < N_TABLES; i++)

@@ -431,7 +431,9 @@ static void put_rest(FILE *out, const new_case *c)
           "    <shear-stress>" FILL_IN ", such as 5MPa; may be left out</shear-stress>\n"
           "  </sliding> -->\n"
           "\n  <!-- For the thickness of the layer, with one of the last two:\n  <layer>\n"
-          "    <specific-wear-rate>" FILL_IN ", such as 1e-3mm^3/(N m)</specific-wear-rate>\n"
+          "    <specific-wear-rate>" FILL_IN
+          ", such as 1e-3mm^3/(N m); may be left out where a record tells "
+          "what was worn</specific-wear-rate>\n"
           "    <critical-energy>" FILL_IN ", such as 2e10J/m^3</critical-energy>\n"
           "    <observed-thickness>" FILL_IN ", such as 3um</observed-thickness>\n"
           "  </layer> -->\n",

@@ -95,19 +95,28 @@ static void say_columns(cmd_session *s)
 
 bool cmd_share_units(cmd_session *s, wt_read_options *read)
 {
-    read->unit_used = calloc(read->n_units + 1, sizeof *read->unit_used);
+    read->unit_use = calloc(read->n_units + 1, sizeof *read->unit_use);
     s->shared = read;
-    if (read->unit_used == NULL)
+    if (read->unit_use == NULL)
         cmd_end(s, wt_fail(&s->err, WT_E_MEMORY, "out of memory"));
-    return read->unit_used != NULL;
+    return read->unit_use != NULL;
 }
 
 static void say_units(cmd_session *s)
 {
-    for (size_t u = 0; s->shared != NULL && u < s->shared->n_units; u++)
-        if (!s->shared->unit_used[u])
+    for (size_t u = 0; s->shared != NULL && u < s->shared->n_units; u++) {
+        const wt_unit_use *const use = &s->shared->unit_use[u];
+        if (use->used)
+            continue;
+        if (use->overruled)
+            wt_parselog_add(s->log, WT_WARNING, NULL, NULL,
+                            "--units %s does not apply: every file with such a column says its "
+                            "unit, \"%s\"",
+                            s->shared->units[u], use->stated);
+        else
             wt_parselog_add(s->log, WT_WARNING, NULL, NULL, "--units %s: no file has such a column",
                             s->shared->units[u]);
+    }
 }
 
 wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user)
@@ -193,8 +202,8 @@ int cmd_session_free(cmd_session *s)
         wt_params_clear(s->parts[i].params, s->parts[i].structure, &s->parts[i].given);
     wt_strings_free((char **)s->common.columns, s->common.n_columns);
     if (s->shared != NULL) {
-        free(s->shared->unit_used);
-        s->shared->unit_used = NULL;
+        free(s->shared->unit_use);
+        s->shared->unit_use = NULL;
     }
     free(s->files);
     free(s->names);

@@ -29,6 +29,9 @@ static const wt_param contact_rows[] = {
      .help =
          "output of weartrack master, or as --material, of the layer's own rubber, instead of a "
          "modulus ratio"},
+    {PARAM_TEXT_OF("wear-of", cmd_contact, wear_of), .value = "FILE", .unset = "",
+     .help = "output of weartrack record, whose specific wear rate is that of the layer unless "
+             "--specific-wear-rate gives one"},
 };
 
 static cmd_contact no_contact(void)
@@ -47,7 +50,11 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
     s->contact = no_contact();
-    s->parts[CMD_CONTACT] = (cmd_part){contact_params(), &s->contact, NULL, 0};
+    s->parts[CMD_CONTACT] =
+        (cmd_part){contact_params(), &s->contact,
+                   "material dma roughness strain-softening softening-temperature "
+                   "layer-comparison layer-material",
+                   0};
     s->parts[CMD_CONDITIONS] = (cmd_part){wt_sliding_params(), &s->conditions, NULL, 0};
     s->parts[CMD_WORK] = (cmd_part){wt_job_params(), &s->session.work, NULL, 0};
     s->parts[CMD_MASTER] = (cmd_part){wt_master_job_params(), &s->master, NULL, 0};
@@ -209,6 +216,40 @@ static wt_status read_layer(cmd_sliding *s, wt_error *err)
     return status == WT_OK ? wt_layer_known_by_rate(comparison, rates, known_of(s), err) : status;
 }
 
+static wt_status read_wear(cmd_sliding *s, wt_error *err)
+{
+    const char *const path = s->contact.wear_of;
+    const wt_table *wear = NULL;
+    wt_result *result = NULL;
+    wt_status status = wt_tables_read(
+        path, path, &s->session.work,
+        (wt_tables_role){"wear of the layer", "wear of the layer", NULL}, &result, err);
+    if (status == WT_OK)
+        status = cmd_table_find(result, path, "wear", "record", &wear, err);
+    if (status == WT_OK && (!wt_table_estimate(wear, "specific_wear_rate", &s->measured_wear) ||
+                            isnan(s->measured_wear.value))) {
+        status = wt_fail(err, WT_E_EMPTY, "the result tells no specific wear rate");
+        wt_error_file(err, path);
+        wt_error_advice(err, "its table wear says why");
+    }
+    wt_result_free(result);
+    return status;
+}
+
+void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate)
+{
+    const wt_estimate measured = s->measured_wear;
+    if (s->contact.wear_of == NULL)
+        return;
+    if (isnan(rate->value))
+        *rate = measured;
+    else
+        wt_parselog_add(s->session.log, WT_WARNING, s->contact.wear_of, NULL,
+                        "the specific wear rate given is %.3g times the one measured, %.3g m^2/N; "
+                        "the one given is taken",
+                        rate->value / measured.value, measured.value);
+}
+
 bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
@@ -244,6 +285,8 @@ bool cmd_sliding_open(cmd_sliding *s)
     if (status == WT_OK &&
         (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL))
         status = read_layer(s, err);
+    if (status == WT_OK && s->contact.wear_of != NULL)
+        status = read_wear(s, err);
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
     if (status != WT_OK)

@@ -15,6 +15,7 @@ typedef struct cmd_contact {
     double softening_temperature; /* of its sweeps [K]; NaN: they are of one */
     const char *layer_comparison; /* output of `compare`: the layer's modulus by rate; NULL: none */
     const char *layer_material;   /* output of `master`: the layer's own; likewise */
+    const char *wear_of;          /* output of `record`: the specific wear rate; likewise */
 } cmd_contact;
 
 /* Options about DMA files, which weartrack master tells. */
@@ -49,6 +50,7 @@ typedef struct cmd_sliding {
     cmd_part parts[CMD_SLIDING_PARTS];
     /* made by cmd_sliding_open */
     wt_result *material_tables, *layer_tables;
+    wt_estimate measured_wear; /* by wear_of; value NaN: none */
     wt_rubber rubber, layer_rubber;
     wt_surface surface;
     wt_softness softness;
@@ -62,6 +64,9 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
 /* Begins the session, reads material and roughness and fills `conditions`. False if it cannot; what
  * was wrong has been said. */
 bool cmd_sliding_open(cmd_sliding *s);
+/* The specific wear rate is the one that --wear-of tells where none is given; one that is given
+ * stands, and how far the other is from it is said. */
+void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate);
 /* Whether the call says what the modulus of a layer is: `part` has the options of what is known. */
 bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part);
 

@@ -27,7 +27,7 @@ wt_layer_parameters wt_layer_defaults(void)
 }
 
 static const wt_param rows[] = {
-    LAYER_ROWS(wt_layer_parameters, 0),
+    LAYER_ROWS(wt_layer_parameters, NULL),
     {PARAM("severity-power", wt_layer_parameters, severity_power, WT_Q_NONE, AT_LEAST(0)),
      .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
     LAYER_SEVERITY_EXPONENT(wt_layer_parameters),

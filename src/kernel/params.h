@@ -106,9 +106,9 @@
             .value = "X", .help = "modulus of the layer over that of the bulk"                     \
     }
 
-#define LAYER_ROWS(type, wear_flags)                                                               \
+#define LAYER_ROWS(type, wear_unset)                                                               \
     {PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),           \
-     .value = "K", .flags = (wear_flags), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
+     .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
         {PARAM("damage", type, damage, WT_Q_NONE, ABOVE(0)), .value = "L",                         \
          .help = "Lambda, at which the rubber counts as modified"},                                \
         {PARAM("duty", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",                       \

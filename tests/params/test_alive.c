@@ -200,6 +200,7 @@ static const struct {
     {NULL, "ratio-by-rate", "of curves at several rates: tests/cli/layer_models.txt"},
     {NULL, "layer-comparison", "a file of weartrack compare: tests/cli/layer_models.txt"},
     {NULL, "layer-material", "a material of the layer: tests/cli/layer_models.txt"},
+    {NULL, "wear-of", "a file of weartrack record: tests/cli/record.txt"},
     {"layer", "pressures", "the same"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},

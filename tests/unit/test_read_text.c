@@ -421,7 +421,9 @@ static void nothing_is_guessed(void **state)
     assert_int_equal(read_text(d, "f\tE'\tE''\tT\nHz\t\tMPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
                                &sweep, NULL, &err),
                      WT_E_UNIT);
-    assert_string_equal(err.advice, "give it with --units \"E'=MPa\"");
+    assert_string_equal(
+        err.advice,
+        "give it with --units \"E'=UNIT\", as the instrument exports it (E' in MPa or Pa?)");
     assert_string_equal(err.place, "line 1, column 2");
     assert_int_equal(read_text(d, "f\tE'\tE''\tT\nrad/s\tPa\tPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
                                &sweep, NULL, &err),
@@ -438,7 +440,9 @@ static void nothing_is_guessed(void **state)
     assert_int_equal(read_text(d, "f\tE'\tE''\tT\nHz\tPa\tPa\t\n1\t2\t3\t20\n10\t2\t3\t20\n",
                                &sweep, NULL, &err),
                      WT_E_UNIT);
-    assert_string_equal(err.advice, "give it with --units \"T=degC\"");
+    assert_string_equal(
+        err.advice,
+        "give it with --units \"T=UNIT\", as the instrument exports it (T in degC or K?)");
     assert_int_equal(read_text(d,
                                "pull\tf\tM'\tM''\tT\nN\tHz\tPa\tPa\tK\n0\t1\t2\t3\t300\n"
                                "0\t10\t2\t3\t300\n",
@@ -467,9 +471,11 @@ static void given_units(void **state)
     options.n_units = 3;
     assert_int_equal(text_read_sweep(&reader, input, &options, log, &sweep, &err), WT_OK);
     assert_near(sweep.isotherms[0].storage_modulus[0], 2e3, 1e-15);
-    assert_near(sweep.isotherms[0].loss_modulus[0], 3e9, 1e-15); /* what is given has precedence */
+    assert_near(sweep.isotherms[0].loss_modulus[0], 3e6, 1e-15); /* what the file says stands */
+    assert_true(
+        logged(log, "is in \"MPa\", as the file or its format says; the unit given, \"GPa\""));
     assert_true(logged(log, "\"D'\", but there is no such column"));
-    assert_false(logged(log, "\"E\"\""));
+    assert_false(logged(log, "\"E\"\", but there is no such column"));
     wt_sweep_clear(&sweep);
     options.units = bad;
     options.n_units = 1;

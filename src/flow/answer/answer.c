@@ -412,6 +412,7 @@ static void answer_thickness(answer_story *story)
                    "wear R = %s. With 1 %% more wear it is %.2g %% thinner.",
                    words.text, velocity.text, pressure.text, words_of_origin(&story->found),
                    ratio.text, -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
+    answer_wear_of_layer(story, how_thick);
     if (!none)
         say_times(story);
     if (thickness.range.widest != NULL)

@@ -55,6 +55,8 @@ void answer_put_caveats(answer_story *story);
 void answer_rubber(const answer_story *story);
 /* How thick the curves alone allow the layer to be, and whether the theory agrees. */
 void answer_track_layer(const answer_story *story);
+/* Whose specific wear rate the layer has, where a record measured one. */
+void answer_wear_of_layer(const answer_story *story, const char *question);
 /* The layer under loads in turn, acting back and where it exists; its friction in running-in. */
 void answer_layer_models(const answer_story *story);
 void answer_running_in(const answer_story *story);

@@ -45,6 +45,17 @@ number_words words_of(double value, const char *unit)
     return words_with(value, unit, 3);
 }
 
+number_words words_of_pair(double low, double high, int digits)
+{
+    number_words words = {""};
+    const double larger = fmax(fabs(low), fabs(high));
+    const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
+    const bool plain = decimals >= 0 && decimals < 9; /* else with a power of ten */
+    clocale_print(words.text, sizeof words.text, plain ? "from %.*f to %.*f" : "from %.*g to %.*g",
+                  plain ? decimals : digits, low, plain ? decimals : digits, high);
+    return words;
+}
+
 number_words words_of_value(wt_estimate e)
 {
     return words_of(e.value, e.unit);

@@ -36,6 +36,8 @@ number_words words_of_positive(wt_estimate estimate);
 /* The same, of ends that are known; NaN: they are not. */
 number_words words_between(wt_estimate estimate, double low, double high);
 number_words words_of_celsius(double kelvin);
+/* "from 0.6079 to 0.6080": plain numbers of equal decimals, so many digits of the larger. */
+number_words words_of_pair(double low, double high, int digits);
 
 /* ---- findings -------------------------------------------------------------------------------- */
 

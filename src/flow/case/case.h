@@ -78,7 +78,7 @@ struct wt_case {
     bool identifies;
     wt_identify_job identify;
 
-    case_files record;
+    case_files record, profile; /* of the second one pattern */
     wt_record_job records;
     bool has_wear; /* what is worn is given */
     wt_validation_job validation;

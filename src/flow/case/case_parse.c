@@ -147,9 +147,9 @@ static wt_status parse_case(wt_case *c, wt_error *err)
         {"dma", case_read_dma},
         {"roughness", case_read_roughness},
         {"sliding", case_read_sliding},
+        {"record", case_read_record}, /* may tell the wear of the layer */
         {"layer", case_read_layer},
         {"identify", case_read_identify},
-        {"record", case_read_record},
         {"compare", case_read_compare},
         {"report", case_read_report},
     };

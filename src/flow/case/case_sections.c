@@ -294,8 +294,13 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_layer_known_params(), &c->known, err);
+    wt_layer_job checked = c->layer;
+    if (c->record.n > 0 && isnan(checked.specific_wear_rate.value)) {
+        c->has_wear = true;                   /* or a result of weartrack record has it */
+        checked.specific_wear_rate.value = 1; /* whatever they will tell */
+    }
     if (status == WT_OK)
-        status = case_at_param(section, wt_layer_job_check(&c->layer, err), err);
+        status = case_at_param(section, wt_layer_job_check(&checked, err), err);
     if (status == WT_OK && material != NULL)
         status = read_layer_material(c, material, err);
     if (status == WT_OK && ratio != NULL && c->bulk.n > 0 && c->track.n > 0) {
@@ -319,6 +324,11 @@ wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
     wt_status status = case_read_params(c, section, wt_record_job_params(), &c->records, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_validation_job_params(), &c->validation, err);
+    if (status == WT_OK && case_child(section, "profile") != NULL) {
+        status = case_read_files(c, section, "profile", &c->profile, err);
+        c->records.profile = status == WT_OK ? c->profile.sets[0].patterns[0] : NULL;
+        c->records.profile_set = c->profile.sets;
+    }
     if (status == WT_OK)
         status = case_at_param(section, wt_record_job_check(&c->records, err), err);
     if (status == WT_OK)

@@ -33,8 +33,10 @@
     X(RECORD_FILES, "records of friction", "no records of friction (<files> in <record>)",         \
       c->record.n > 0)                                                                             \
     X(GIVEN_WEAR, "what was worn",                                                                 \
-      "nothing that was worn (<track-area>, <mass-loss> or <ball-radius> in <record>)",            \
+      "nothing that was worn (<track-area>, <profile>, <mass-loss> or <ball-radius> in <record>)", \
       c->has_wear)                                                                                 \
+    X(MEASURED_WEAR, "wear of the layer by the records", "a specific wear rate in <layer>",        \
+      c->has_layer &&isnan(c->layer.specific_wear_rate.value))                                     \
     X(GIVEN_ANISOTROPY, "anisotropic roughness", "no anisotropy (<anisotropy> in <sliding>)",      \
       c->sliding.anisotropy.amplitude[0] != 0 || c->sliding.anisotropy.amplitude[1] != 0)          \
     X(ASKED_MAP, "temperatures and pressures of a map",                                            \

@@ -66,7 +66,7 @@ static const wt_param rows[] = {
      .value = "D", .unset = "",
      .help = "of a layer, instead of the critical energy: this is to be "
              "the balance"},
-    LAYER_ROWS(wt_layer_job, PARAM_REQUIRED),
+    LAYER_ROWS(wt_layer_job, "as measured"),
     ENERGY_PROFILE(wt_layer_job),
     ENERGY_LOCAL_FRICTION(wt_layer_job),
     {PARAM_LIST_OF("times", wt_layer_job, time, n_time, WT_Q_TIME, AT_LEAST(0)), .value = "T",
@@ -142,6 +142,13 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     wt_status status = param_check(wt_layer_job_params(), job, err);
     if (status != WT_OK)
         return status;
+    if (isnan(job->specific_wear_rate.value)) {
+        status =
+            wt_fail(err, WT_E_MISSING, "no specific wear rate is given, and none was measured");
+        wt_error_advice(err, "give specific-wear-rate, such as \"1e-3mm^3/(N m)\", or what a "
+                             "record tells of the wear");
+        return status;
+    }
     for (size_t i = 0; status == WT_OK && i < job->n_loads; i++) {
         layer_load load;
         status = layer_load_parse(job, i, &load, err);

@@ -4,6 +4,7 @@
 
 #include "data/tables/tables.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- what is there, what is wanted ----------------------------------------------------------- */
@@ -45,8 +46,10 @@ flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level)
 {
     const flow_things needs = flow_stage_needs(stage, level),
                       softening = FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_ASKED_SOFTENING);
-    const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0;
-    return slides && (plan->sources & softening) != 0 ? needs | FLOW_BIT(FLOW_SOFTENING) : needs;
+    const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0,
+               wears = (needs & FLOW_BIT(FLOW_LAYER_PARAMETERS)) != 0;
+    return needs | (slides && (plan->sources & softening) != 0 ? FLOW_BIT(FLOW_SOFTENING) : 0) |
+           (wears && (plan->sources & FLOW_BIT(FLOW_MEASURED_WEAR)) != 0 ? FLOW_BIT(FLOW_WEAR) : 0);
 }
 
 bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there)

@@ -24,7 +24,7 @@ typedef struct flow_plan {
 } flow_plan;
 
 /* What a stage needs in this plan: of a case whose rubber softens with strain, all that slides
- * needs the softening, too. */
+ * needs the softening, too, and of one whose layer wears as measured, all of the layer that. */
 flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level);
 /* Whether a stage can do its work with what is there. */
 bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there);

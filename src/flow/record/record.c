@@ -326,10 +326,11 @@ static wt_status measure_wear(const wt_record_job *job, const wt_job *work, cons
     if (isnan(radius.value) && isnan(job->track_length.value) && cycles->kind != WT_CYCLE_STROKE) {
         radius.value = radius_of_laps(record);
         if (!isnan(radius.value))
-            wt_parselog_add(work->log, WT_WARNING, file, NULL,
-                            "the track is %.4g mm long by distance and laps, as that of a disc; "
-                            "track-length says another",
-                            2e3 * M_PI * radius.value);
+            wt_parselog_add(
+                work->log, WT_WARNING, file, NULL,
+                "the track is %.4g mm long by distance and laps, taken for that of a disc; "
+                "if it is not, give its length with --track-length",
+                2e3 * M_PI * radius.value);
     }
     return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
 }

@@ -65,10 +65,11 @@ static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error
 wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
                                 wt_error *err)
 {
-    wt_file_set set = job->sets[0];
+    wt_file_set set = job->profile_set != NULL ? *job->profile_set : job->sets[0];
     set.patterns = &job->profile;
     set.n_patterns = 1;
-    set.read.format = NULL;
+    if (job->profile_set == NULL)
+        set.read.format = NULL; /* that of the records */
     flow_files files = {NULL, 0, NULL};
     profiles found = {.work = work};
     size_t n_failed = 0;

@@ -158,8 +158,12 @@ static wt_estimate cap_of(wt_estimate depth, double radius)
 /* ---- rows ------------------------------------------------------------------------------------ */
 
 /* Why there is no rate: the first thing that is not known. */
-static const char *what_lacks(const wear_row *r, wt_estimate load, bool strokes)
+static const char *what_lacks(const wt_record_job *job, const wear_row *r, wt_estimate load,
+                              bool strokes)
 {
+    if (!given(job->mass_loss) && !given(job->track_area) && isnan(r->depth.value))
+        return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
+               "record the depth";
     if (isnan(load.value))
         return "no load: give --load";
     if (isnan(r->distance))
@@ -170,7 +174,8 @@ static const char *what_lacks(const wear_row *r, wt_estimate load, bool strokes)
                    : "no volume: give --track-length or --track-radius";
 }
 
-static void set_rate(wear_row *r, wt_estimate load, bool strokes, const char *of_ball)
+static void set_rate(const wt_record_job *job, wear_row *r, wt_estimate load, bool strokes,
+                     const char *of_ball)
 {
     const double value = r->volume.value / (load.value * r->distance),
                  error = hypot(relative(r->volume), relative(load));
@@ -178,7 +183,7 @@ static void set_rate(wear_row *r, wt_estimate load, bool strokes, const char *of
     r->rate = (wt_interval){value, none, none, none};
     if (!(value > 0)) {
         r->rate.value = none;
-        r->note = what_lacks(r, load, strokes);
+        r->note = what_lacks(job, r, load, strokes);
     } else if (error > 0) {
         r->rate = (wt_interval){value, value * error, value * exp(-NORMAL_95 * error),
                                 value * exp(NORMAL_95 * error)};
@@ -219,7 +224,8 @@ static void put(wear_rows *rows, const char *of, wt_estimate volume)
     r->volume = volume;
     if (!(volume.standard_error > 0)) /* none was given */
         r->volume.standard_error = (double)NAN;
-    set_rate(r, rows->load, rows->strokes, large ? "the contact is large against the ball" : "");
+    set_rate(rows->job, r, rows->load, rows->strokes,
+             large ? "the contact is large against the ball" : "");
     wear_add_row(rows->t, r);
     if (!isnan(r->rate.value))
         several_add(&rows->rates->run,

@@ -361,7 +361,7 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     if (c == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no case");
     wt_run_options defaults = wt_run_defaults();
-    conduct d = {.run = {.c = c}};
+    conduct d = {.run = {.c = c, .layer = c->layer}};
     if (options == NULL)
         options = &defaults;
     wt_status status = param_check(wt_run_params(), options, err);

@@ -272,7 +272,17 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
 
 wt_status flow_step_wear(flow_run *run, wt_error *err)
 {
-    return make_record(run, run->c->records, err);
+    wt_status status = make_record(run, run->c->records, err);
+    wt_estimate measured;
+    if (status == WT_OK && run->table[FLOW_WEAR] == NULL) {
+        status = wt_fail(err, WT_E_MISSING, "the records tell nothing of the wear");
+        wt_error_advice(err, "give <profile>, <track-area> or <mass-loss> in <record>, or "
+                             "<specific-wear-rate> in <layer>");
+    }
+    if (status == WT_OK && isnan(run->layer.specific_wear_rate.value) &&
+        wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured))
+        run->layer.specific_wear_rate = measured;
+    return status;
 }
 
 wt_status flow_step_record(flow_run *run, wt_error *err)
@@ -298,7 +308,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
 {
     wt_sliding sliding = flow_run_sliding(run);
     wt_layer_tables tables = {0};
-    wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &tables, err);
+    wt_status status = wt_layer_make(&sliding, &run->layer, &run->job, &tables, err);
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
@@ -323,7 +333,7 @@ wt_status flow_step_track_layer(flow_run *run, wt_error *err)
 wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_energy_density_table(&sliding, &run->c->layer, &run->job,
+    return wt_energy_density_table(&sliding, &run->layer, &run->job,
                                    &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
@@ -340,7 +350,7 @@ static wt_status known_by_material(const flow_run *run, wt_layer_known *known, w
 wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
 {
     *known = run->c->known;
-    known->shear = &run->c->layer.shear;
+    known->shear = &run->layer.shear;
     known->thickness = run->thickness;
     known->modulus_ratio = run->modulus_ratio;
     known->modulus_ratio_df = run->modulus_ratio_df;
@@ -435,7 +445,7 @@ typedef struct layer_parts {
 
 static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *err)
 {
-    *parts = (layer_parts){.layer = run->level > 0 ? &run->c->layer : NULL};
+    *parts = (layer_parts){.layer = run->level > 0 ? &run->layer : NULL};
     if (run->level < 2)
         return WT_OK;
     parts->known = &parts->storage;

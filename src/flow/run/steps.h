@@ -17,6 +17,7 @@ typedef struct flow_run {
     bool has_layer_rubber;
     wt_surface surface;
     wt_softness softness;
+    wt_layer_job layer; /* of the case, with the wear rate as measured where it gives none */
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df;  /* 0 = its error is normal */
     double calibration_share; /* of its variance */

@@ -1,6 +1,8 @@
 /* The stages that hold records against the case. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
 
+#include <math.h>
+
 wt_status flow_step_validation(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
@@ -9,7 +11,8 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     wt_validation_job job = run->c->validation;
     wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
     job.sliding = &sliding;
-    job.layer = run->c->has_layer ? &run->c->layer : NULL;
+    job.layer =
+        run->c->has_layer && !isnan(run->layer.specific_wear_rate.value) ? &run->layer : NULL;
     job.known = run->level > 0 ? &layer : NULL;
     job.record = run->table[FLOW_RECORD];
     job.wear = run->table[FLOW_WEAR];
@@ -30,7 +33,7 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     wt_validation_job job = run->c->validation;
     wt_status status = flow_run_known_layer(run, &layer, err);
     job.sliding = &sliding;
-    job.layer = &run->c->layer;
+    job.layer = &run->layer;
     job.known = &layer;
     job.record = run->table[FLOW_RECORD];
     job.cycles = run->table[FLOW_RECORD_CYCLES];

@@ -209,8 +209,8 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
     const wt_status status = table_bind(v->job->wear, &wear_schema, "", &wear, err);
     const wt_estimate is = status == WT_OK ? wear_value(&wear, WEAR_KEY_RATE) : no_number,
                       used = v->job->layer->specific_wear_rate;
-    if (status != WT_OK || !(is.value > 0) || !(used.value > 0))
-        return status;
+    if (status != WT_OK || !(is.value > 0) || !(used.value > 0) || is.value == used.value)
+        return status; /* the layer wears as measured */
     const bool known = is.standard_error > 0;
     const double error =
         hypot(known ? is.standard_error / is.value : (double)NAN, used.standard_error / used.value);

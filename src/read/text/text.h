@@ -114,6 +114,7 @@ typedef struct text_column {
     const char *assumed;   /* of the rule, unless the user says it */
     char name[64];         /* as exported, without a unit in it */
     char unit[32];         /* as exported or given, "" if none */
+    const char *overruled; /* unit given that is another than the file's own, which stands */
 } text_column;
 
 typedef struct text_header {

@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -324,8 +325,20 @@ static open_answer answer_of(const resolver *r, const known_name *known, const c
     return ((shear ? MODULI_OF_SHEAR : MODULI_OF_TENSION) & bit) != 0 ? OPEN_YES : OPEN_NO;
 }
 
-/* The first rule of that name whose condition holds and whose quantity has that unit. */
-static text_column resolve_column(const resolver *r, size_t cell, const known_name *known)
+/* Whether the unit fits a quantity of that name. */
+static bool fits_any(const resolver *r, const known_name *known, const char *unit)
+{
+    double factor, offset;
+    for (size_t k = known->first; k < known->first + known->n; k++)
+        if (to_si(r->d, &r->d->rules[r->d->names[k].rule], unit, &factor, &offset))
+            return true;
+    return false;
+}
+
+/* The name of the column and the unit that the file has for it, or one that is given where it has
+ * none that is a unit of such a column. */
+static text_column begin_column(const resolver *r, size_t cell, const known_name *known,
+                                const char *given)
 {
     text_span name = r->names->names.cells[cell];
     text_column column = {.cell = cell, .problem = COLUMN_UNCLEAR, .factor = 1};
@@ -338,36 +351,59 @@ static text_column resolve_column(const resolver *r, size_t cell, const known_na
     while (name.length > 0 && name.text[name.length - 1] == ' ')
         name.length--;
     text_copy(column.name, sizeof column.name, name);
-    const char *given = given_unit(r->options, r->normalised[cell]);
-    if (given != NULL)
-        snprintf(column.unit, sizeof column.unit, "%s", given);
-    else
-        text_copy(column.unit, sizeof column.unit, unit);
+    text_copy(column.unit, sizeof column.unit, unit);
+    if (given != NULL && column.unit[0] != '\0' && !fits_any(r, known, column.unit))
+        column.unit[0] = '\0';
+    return column;
+}
+
+/* The unit of a column by this rule: of the file, else of its format, else as given; NULL. */
+static const char *unit_by(const text_column *column, const column_rule *rule, const char *given)
+{
+    if (column->unit[0] != '\0')
+        return column->unit;
+    return rule->unit != NULL ? rule->unit : given;
+}
+
+/* A unit given is another one than the column has. */
+static bool is_other(const resolver *r, const column_rule *rule, const char *given, double factor,
+                     double offset)
+{
+    double other = 1, begin = 0;
+    /* the same unit spelled otherwise differs by rounding */
+    const double same = 1e-9;
+    return !to_si(r->d, rule, given, &other, &begin) ||
+           fabs(other - factor) > same * fabs(factor) || fabs(begin - offset) > same * fabs(begin);
+}
+
+/* The first rule of that name whose condition holds and whose quantity has that unit. */
+static text_column resolve_column(const resolver *r, size_t cell, const known_name *known)
+{
+    const char *const given = given_unit(r->options, r->normalised[cell]);
+    text_column column = begin_column(r, cell, known, given);
     for (size_t k = known->first; k < known->first + known->n; k++) {
         const column_rule *rule = &r->d->rules[r->d->names[k].rule];
+        const char *const unit = unit_by(&column, rule, given);
         double factor = 1, offset = 0;
         const open_answer answer = answer_of(r, known, rule);
         const bool lacks = rule->with != NULL && find_cell(r, rule->with) == SIZE_MAX;
-        bool good;
         if (answer == OPEN_NO || (answer == OPEN_NOT && lacks)) {
             if (column.rule == NULL)
                 column.rule = rule;
             continue;
         }
-        if (column.unit[0] == '\0' && rule->unit == NULL)
-            good = rule->quantity == WT_Q_LOSS_FACTOR;
-        else
-            good = to_si(r->d, rule, column.unit[0] != '\0' ? column.unit : rule->unit, &factor,
-                         &offset);
-        if (!good) {
+        if (unit == NULL ? rule->quantity != WT_Q_LOSS_FACTOR
+                         : !to_si(r->d, rule, unit, &factor, &offset)) {
             if (column.problem == COLUMN_UNCLEAR) {
                 column.rule = rule;
-                column.problem = column.unit[0] == '\0' ? COLUMN_NO_UNIT : COLUMN_BAD_UNIT;
+                column.problem = unit == NULL ? COLUMN_NO_UNIT : COLUMN_BAD_UNIT;
             }
             continue;
         }
-        if (column.unit[0] == '\0' && rule->unit != NULL)
-            snprintf(column.unit, sizeof column.unit, "%s", rule->unit);
+        if (given != NULL && is_other(r, rule, given, factor, offset))
+            column.overruled = given;
+        if (unit != NULL && unit != column.unit)
+            snprintf(column.unit, sizeof column.unit, "%s", unit);
         column.rule = rule;
         column.assumed = answer == OPEN_NOT ? rule->assumed : NULL;
         column.problem = COLUMN_GOOD;
@@ -375,6 +411,8 @@ static text_column resolve_column(const resolver *r, size_t cell, const known_na
         column.offset = rule->negate ? -offset : offset;
         break;
     }
+    if (column.problem == COLUMN_BAD_UNIT && column.unit[0] == '\0' && given != NULL)
+        snprintf(column.unit, sizeof column.unit, "%s", given);
     return column;
 }
 

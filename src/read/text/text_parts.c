@@ -15,7 +15,7 @@ struct text_parts {
     text_scanner s;
     text_file file;
     wt_read_options options; /* whose texts are borrowed */
-    bool *has_unit;          /* [n_units] a table has had that column */
+    wt_unit_use *given;      /* [n_units] what tables have had of that column */
 };
 
 static void free_table(text_table *t)
@@ -49,12 +49,20 @@ static void log_text(const text_file *file, wt_parselog *log)
                         feed->words);
 }
 
-static bool has_column(const text_column *columns, size_t n, const char *name)
+/* What columns of that name make of the unit given for them. */
+static void use_unit(const text_column *columns, size_t n, const char *name, wt_unit_use *use)
 {
-    for (size_t i = 0; i < n; i++)
-        if (name_is((text_span){columns[i].name, strlen(columns[i].name)}, name))
-            return true;
-    return false;
+    for (size_t i = 0; i < n; i++) {
+        const text_column *const c = &columns[i];
+        if (!name_is((text_span){c->name, strlen(c->name)}, name))
+            continue;
+        if (c->overruled == NULL) {
+            use->used = true;
+        } else if (!use->overruled) {
+            use->overruled = true;
+            snprintf(use->stated, sizeof use->stated, "%s", c->unit);
+        }
+    }
 }
 
 /* Whether tables of the part have a column that a unit is given for. */
@@ -64,19 +72,33 @@ static void find_given_units(text_parts *p)
     for (size_t u = 0; u < p->options.n_units; u++) {
         char name[NAME_LONGEST];
         const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
-        if (equal == NULL || p->has_unit[u])
+        if (equal == NULL)
             continue;
         name_normalise((text_span){unit, (size_t)(equal - unit)}, name);
-        for (size_t i = 0; i < file->n_tables && !p->has_unit[u]; i++)
-            p->has_unit[u] = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
-                             has_column(file->tables[i].problems, file->tables[i].n_problems, name);
+        for (size_t i = 0; i < file->n_tables; i++) {
+            const text_table *const t = &file->tables[i];
+            use_unit(t->columns, t->n_columns, name, &p->given[u]);
+            use_unit(t->problems, t->n_problems, name, &p->given[u]);
+        }
     }
 }
 
-/* A unit that is given for a column that is not there is most likely misspelled. */
+/* To all files of several kinds. The first to overrule says its unit, which is read when all files
+ * are. */
+static void tell_use(const wt_unit_use *given, wt_unit_use *all)
+{
+    if (given->used)
+        __atomic_store_n(&all->used, true, __ATOMIC_RELAXED);
+    if (given->overruled && !__atomic_exchange_n(&all->overruled, true, __ATOMIC_RELAXED))
+        memcpy(all->stated, given->stated, sizeof all->stated);
+}
+
+/* A unit that is given for a column that is not there is most likely misspelled, and one that is
+ * not what the file says is of another file. */
 static wt_status check_given_units(const text_parts *p, wt_error *err)
 {
     for (size_t u = 0; u < p->options.n_units; u++) {
+        const wt_unit_use *const given = &p->given[u];
         const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
         if (equal == NULL || equal == unit || equal[1] == '\0') {
             wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
@@ -84,9 +106,14 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
             wt_error_advice(err, "for example --units \"E'=MPa\"");
             return WT_E_ARG;
         }
-        if (p->options.unit_used != NULL && p->has_unit[u])
-            __atomic_store_n(&p->options.unit_used[u], true, __ATOMIC_RELAXED);
-        else if (p->options.unit_used == NULL && !p->has_unit[u])
+        if (p->options.unit_use != NULL)
+            tell_use(given, &p->options.unit_use[u]);
+        else if (given->overruled)
+            wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
+                            "column \"%.*s\" is in \"%s\", as the file or its format says; the "
+                            "unit given, \"%s\", does not apply to it",
+                            (int)(equal - unit), unit, given->stated, equal + 1);
+        else if (!given->used)
             wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
                             "a unit is given for \"%.*s\", but there is no such column",
                             (int)(equal - unit), unit);
@@ -132,7 +159,7 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
     p->file = (text_file){.description = d, .name = wt_input_name(input)};
     p->file.feed = calloc(1, sizeof *p->file.feed);
     p->file.values = pool_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
-    p->has_unit = pool_alloc(&p->file.memory, options->n_units, sizeof *p->has_unit);
+    p->given = pool_alloc(&p->file.memory, options->n_units, sizeof *p->given);
     if (p->file.feed == NULL || p->file.memory.failed) {
         text_parts_free(p);
         return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");

@@ -50,32 +50,36 @@ double text_table_value(const text_table *table, size_t row, const text_column *
     return table->values[row * table->n_columns + (size_t)(column - table->columns)];
 }
 
-/* A unit that is usual for the quantity, to show how one is given. */
-static const char *usual_unit(wt_quantity quantity)
+/* Units that instruments export it in; no column is taken to be in one of them. */
+static const char *likely_units(wt_quantity quantity)
 {
     switch (quantity) {
+    case WT_Q_FREQUENCY:
+    case WT_Q_ANGULAR_FREQUENCY:
+        return "Hz or rad/s";
     case WT_Q_STORAGE_MODULUS:
     case WT_Q_LOSS_MODULUS:
     case WT_Q_SHEAR_STORAGE_MODULUS:
     case WT_Q_SHEAR_LOSS_MODULUS:
     case WT_Q_RELAXATION_MODULUS:
     case WT_Q_SHEAR_RELAXATION_MODULUS:
-        return "MPa";
+        return "MPa or Pa";
     case WT_Q_CREEP_COMPLIANCE:
     case WT_Q_SHEAR_CREEP_COMPLIANCE:
-        return "1/MPa";
+        return "1/MPa or 1/Pa";
     case WT_Q_TEMPERATURE:
-        return "degC";
+        return "degC or K";
     case WT_Q_HEIGHT:
     case WT_Q_MEASURED_HEIGHT:
     case WT_Q_DEFLECTION:
-        return "nm";
+        return "nm or um";
     case WT_Q_POSITION_X:
     case WT_Q_POSITION_Y:
+        return "mm or um";
     case WT_Q_SURFACE_HEIGHT:
-        return "um";
+        return "um or nm";
     case WT_Q_FORCE:
-        return "nN";
+        return "nN or uN";
     default:
         return wt_quantity_unit(quantity);
     }
@@ -84,26 +88,27 @@ static const char *usual_unit(wt_quantity quantity)
 /* All columns without a unit at once, so that nobody has to ask one after the other. */
 static wt_status without_units(const text_table *table, wt_quantity_set lacking, wt_error *err)
 {
-    char names[120] = "", options[200] = "";
-    size_t n = 0, n_names = 0, n_options = 0;
+    char names[120] = "", options[200] = "", likely[200] = "";
+    size_t n = 0, n_names = 0, n_options = 0, n_likely = 0;
     for (size_t i = 0; i < table->n_problems; i++) {
         const text_column *c = &table->problems[i];
         const wt_quantity q = c->rule->quantity;
-        const bool either = q == WT_Q_FREQUENCY || q == WT_Q_ANGULAR_FREQUENCY;
         if (c->problem != COLUMN_NO_UNIT || (lacking & WT_Q_BIT(q)) == 0 ||
-            n_names + 8 >= sizeof names || n_options + 8 >= sizeof options)
+            n_names + 8 >= sizeof names || n_options + 8 >= sizeof options ||
+            n_likely + 8 >= sizeof likely)
             continue;
         n_names += (size_t)snprintf(names + n_names, sizeof names - n_names, "%s\"%s\"",
                                     n > 0 ? ", " : "", c->name);
-        n_options +=
-            (size_t)snprintf(options + n_options, sizeof options - n_options,
-                             either ? "%s--units \"%s=Hz\" or \"%s=rad/s\"" : "%s--units \"%s=%s\"",
-                             n > 0 ? " " : "", c->name, either ? c->name : usual_unit(q));
+        n_options += (size_t)snprintf(options + n_options, sizeof options - n_options,
+                                      "%s--units \"%s=UNIT\"", n > 0 ? " " : "", c->name);
+        n_likely += (size_t)snprintf(likely + n_likely, sizeof likely - n_likely, "%s%s in %s?",
+                                     n > 0 ? " " : "", c->name, likely_units(q));
         n++;
     }
     wt_fail(err, WT_E_UNIT, "the file does not say the unit%s of column%s %s", n > 1 ? "s" : "",
             n > 1 ? "s" : "", names);
-    wt_error_advice(err, "give %s with %s", n > 1 ? "them" : "it", options);
+    wt_error_advice(err, "give %s with %s, as the instrument exports it (%s)",
+                    n > 1 ? "them" : "it", options, likely);
     return WT_E_UNIT;
 }
 
@@ -124,8 +129,8 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
             wt_fail(err, status, "the unit of column \"%s\" does not fit", c->name);
             wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
             wt_error_found(err, "\"%s\"", c->unit);
-            wt_error_advice(err, "if the file is wrong, give it with --units \"%s=%s\"", c->name,
-                            usual_unit(q));
+            wt_error_advice(err, "if the file is wrong, give it with --units \"%s=UNIT\" (%s?)",
+                            c->name, likely_units(q));
             break;
         default:
             status = WT_E_MISSING;
