@@ -110,8 +110,10 @@ static void test_open_contradicts(void **state)
                 (void)add(0, true, true);
             const run_verdict said = judged();
             check(said.verdict, "does not: ");
-            check(said.verdict, late ? "6.65 times the time predicted at least"
-                                     : "0.151 times the time predicted at most");
+            /* 6.69 by the record alone; what the prediction draws differs with the order. */
+            check(said.verdict, late ? "after 6.6" : "after 0.15");
+            check_not(said.verdict, "6.69 times");
+            check(said.verdict, late ? "predicted at least" : "predicted at most");
         }
 }
 

@@ -145,6 +145,10 @@ static void answer_in_short(const answer_story *story)
     t.used = 0;
     if (story->found.layer.table != NULL) {
         tell_thickness(&t, &story->found);
+        if (story->layer_balances.table != NULL) {
+            tell(&t, "; ");
+            tell_balance(&t, &story->layer_balances);
+        }
         say_short(story, thickness, text);
     } else
         short_of_missing(story, thickness, FLOW_STAGE_LAYER);

@@ -19,6 +19,16 @@ static double thinnest_stable(const table_view *v)
     return least;
 }
 
+void tell_balance(telling *t, const table_view *balances)
+{
+    const double least = thinnest_stable(balances);
+    tell(t, "where the layer acts back on the energy that makes it, from a bare surface %s%s",
+         isnan(least) ? "no balance is found"
+         : least > 0  ? "the balance is at "
+                      : "there is no layer",
+         least > 0 ? words_of(least, "m").text : "");
+}
+
 static bool cannot_say(const char *words)
 {
     return words != NULL && strncmp(words, "cannot say", strlen("cannot say")) == 0;
@@ -27,17 +37,14 @@ static bool cannot_say(const char *words)
 static void say_balances(const answer_story *story)
 {
     const table_view *const v = &story->layer_balances;
-    const double least = v->table != NULL ? thinnest_stable(v) : (double)NAN;
     if (v->table == NULL)
         return;
     const char *const agreement = layer_balances_words(v, LAYER_BALANCES_KEY_AGREEMENT);
-    answer_say(story, how_thick, "thickness",
-               "Where the layer acts back on the energy that makes it, from a bare surface %s%s: "
-               "%s.",
-               isnan(least) ? "no balance is found"
-               : least > 0  ? "the balance is at "
-                            : "there is no layer",
-               least > 0 ? words_of(least, "m").text : "",
+    char text[160];
+    telling t = {text, sizeof text, 0};
+    tell_balance(&t, v);
+    text[0] = (char)toupper((unsigned char)text[0]);
+    answer_say(story, how_thick, "thickness", "%s: %s.", text,
                layer_balances_words(v, LAYER_BALANCES_KEY_WORDS));
     if (cannot_say(agreement))
         answer_say(story, how_thick, "thickness",

@@ -411,6 +411,14 @@ static void say_layer(sentence *s, const table_view *v)
             words_of_known(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
+static void say_balance(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    next(s);
+    tell_balance(&s->told, v);
+}
+
 size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
 {
     static const struct {
@@ -431,6 +439,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&wear_schema, say_wear},
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer},
+                 {&layer_balances_schema, say_balance},
                  {&identification_schema, say_identification},
                  {&shared_pairs_schema, say_shared_pairs},
                  {&validation_schema, say_validation},

@@ -63,10 +63,12 @@ number_words words_of_frequency(const finding *f);
 void tell_ratio(telling *t, const finding_tables *tables);
 /* ", for the rates are ...; the moduli of all rates have the ratio 0.175", where it is another. */
 void tell_rates(telling *t, const finding_tables *tables);
-/* "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c" */
 /* There is no balance because the rubber ages without load, not because nothing is worn. */
 bool layer_ages(const finding_tables *tables);
+/* "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c" */
 void tell_thickness(telling *t, const finding_tables *tables);
+/* Of a layer that acts back: what that makes of it. */
+void tell_balance(telling *t, const table_view *balances);
 /* "open whether the layer lowers or raises friction: -18 % (...)" */
 void tell_change(telling *t, const finding_tables *tables, bool with_choices);
 /* Of tables with rows: "friction as measured 0.80 +- 0.01, after a running-in of 20 cycles" and
