@@ -4,6 +4,7 @@
 #include "base/clocale.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,8 +47,10 @@ static bool points_make(sweep_points *p, size_t n, unsigned with)
                                     [SWEEP_STRAIN] = (with & WT_WITH_STRAIN) != 0,
                                     [SWEEP_LOSS_FACTOR] = (with & WT_WITH_LOSS_FACTOR) != 0};
     *p = (sweep_points){.n = n};
+    if (n > SIZE_MAX / sizeof(double))
+        return false;
     for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
-        p->array[j] = has[j] ? reallocarray(NULL, n > 0 ? n : 1, sizeof(double)) : NULL;
+        p->array[j] = has[j] ? malloc((n > 0 ? n : 1) * sizeof(double)) : NULL;
         if (has[j] && p->array[j] == NULL) {
             points_free(*p);
             return false;
