@@ -63,6 +63,12 @@ static wt_status parse_error_part(const char *text, wt_quantity quantity, double
             wt_error_advice(err, "state it in kelvin: \"20degC +- 0.5K\"");
             return WT_E_UNIT;
         }
+        if (value == 0 && percent > 0) {
+            wt_fail(err, WT_E_RANGE, "a share of zero is no error");
+            wt_error_expected(err, "the error itself, as in \"0 +- 0.1\"");
+            wt_error_found(err, "\"%s\"", text);
+            return WT_E_RANGE;
+        }
         *error = fabs(value) * percent / 100;
         return WT_OK;
     }

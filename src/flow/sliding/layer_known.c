@@ -27,7 +27,8 @@ static const wt_param rows[] = {
      .value = "N",
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
-    {PARAM("ratio-slope", wt_layer_known, ratio_slope, WT_Q_NONE, ANY_NUMBER), .value = "S",
+    /* Beyond 1 the phase alone turns a storage modulus negative. */
+    {PARAM("ratio-slope", wt_layer_known, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)), .value = "S",
      .help =
          "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
          "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
@@ -62,10 +63,12 @@ static wt_status check_slope(const wt_layer_known *k, wt_error *err)
         wt_error_expected(err, "ratio-frequency, ratio-lowest and ratio-highest");
         return WT_E_MISSING;
     }
-    if (k->ratio_lowest <= k->ratio_highest)
+    if (k->ratio_lowest <= k->ratio_frequency && k->ratio_frequency <= k->ratio_highest)
         return WT_OK;
-    wt_fail(err, WT_E_RANGE, "the lowest frequency of a modulus ratio is above the highest");
-    wt_error_found(err, "%g to %g rad/s", k->ratio_lowest, k->ratio_highest);
+    wt_fail(err, WT_E_RANGE, "the frequency of a modulus ratio is not among those measured");
+    wt_error_expected(err, "ratio-frequency from ratio-lowest to ratio-highest");
+    wt_error_found(err, "%g rad/s, measured from %g to %g rad/s", k->ratio_frequency,
+                   k->ratio_lowest, k->ratio_highest);
     return WT_E_RANGE;
 }
 
