@@ -529,13 +529,14 @@ static void test_of_no_pause(void **state)
 {
     (void)state;
     static const double speed[] = {0.1, 1e-5, 1e-3, 0.1};
-    for (int k = 0; k < 6; k++) {
+    uint64_t seed = 5;
+    for (int k = 0; k < 7; k++) {
         wt_record record = empty_record();
         double *time = with(&record, WT_RECORD_TIME), *mu = with(&record, WT_RECORD_COEFFICIENT),
-               *moved = k == 4   ? NULL
-                        : k == 3 ? with(&record, WT_RECORD_POSITION)
-                        : k == 2 ? with(&record, WT_RECORD_VELOCITY)
-                                 : with(&record, WT_RECORD_DISTANCE),
+               *moved = k == 4             ? NULL
+                        : k == 3 || k == 6 ? with(&record, WT_RECORD_POSITION)
+                        : k == 2           ? with(&record, WT_RECORD_VELOCITY)
+                                           : with(&record, WT_RECORD_DISTANCE),
                way = 0;
         for (int i = 0; i < SAMPLES; i++) {
             const double v = speed[4 * i / SAMPLES], edge = (double)SAMPLES / 4;
@@ -545,6 +546,7 @@ static void test_of_no_pause(void **state)
             if (moved != NULL)
                 moved[i] = k == 5   ? fmin(fmax(0.1 * i, edge / 10), 0.3 * edge)
                            : k == 3 ? sin(2 * M_PI * i / SAMPLES * 3)
+                           : k == 6 ? sin(2 * M_PI * i / SAMPLES * 2) + 0.008 * normal(&seed)
                            : k == 2 ? v
                            : k == 1 ? 1e-4 * floor(1e4 * way)
                                     : way;

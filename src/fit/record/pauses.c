@@ -110,13 +110,19 @@ static void find_in_levels(pause_search *s, level *levels)
 
 /* ---- there and back -------------------------------------------------------------------------- */
 
-/* Mean time from turn to turn, by the way that is made. */
-static double time_of_stroke(const pause_search *s, double range)
+/* Mean time from turn to turn, by the strokes that come from one quarter of the range to the other:
+ * the way that is made would hold the noise of every sample. */
+static double time_of_stroke(const pause_search *s, double low, double high)
 {
-    double way = 0;
-    for (size_t i = 1; i < s->n; i++)
-        way += fabs(s->moved[i] - s->moved[i - 1]);
-    return (s->time[s->n - 1] - s->time[0]) * range / way;
+    const double quarter = 0.25 * (high - low);
+    size_t strokes = 0;
+    int side = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const int at = s->moved[i] < low + quarter ? -1 : s->moved[i] > high - quarter ? 1 : side;
+        strokes += at * side < 0;
+        side = at;
+    }
+    return (s->time[s->n - 1] - s->time[0]) / (double)(strokes > 0 ? strokes : 1);
 }
 
 /* From samples near one place those that are at it, as far as it scatters: before and behind the
@@ -138,7 +144,7 @@ static void trim(const pause_search *s, size_t *first, size_t *next)
 static void find_standing(pause_search *s, double low, double high)
 {
     const double least = fmax(least_part * (s->time[s->n - 1] - s->time[0]),
-                              least_of_stroke * time_of_stroke(s, high - low));
+                              least_of_stroke * time_of_stroke(s, low, high));
     for (size_t first = 0, next; first < s->n; first = next) {
         for (next = first + 1;
              next < s->n && fabs(s->moved[next] - s->moved[first]) <= standing * (high - low);

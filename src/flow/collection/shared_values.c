@@ -179,10 +179,11 @@ typedef struct rate_ends {
  * there: at m = 2 and n = 0, of cones and pyramids, the largest of all tips and rubbers. */
 static const double per_exponent = 0.9228;
 
-/* The error of n at a frequency, by that of tan delta = tan(pi n / 2) of the nearest point. */
+/* The error of n at a frequency, by that of tan delta = tan(pi n / 2) of the nearest point; NaN: no
+ * point has one. */
 static double exponent_error(const table_view *master, double frequency)
 {
-    double nearest = (double)INFINITY, error = 0;
+    double nearest = (double)INFINITY, error = (double)NAN;
     for (size_t row = 0; row < master->n_rows; row++) {
         const double off = fabs(log(master_curve_get(master, row, MASTER_CURVE_ANGULAR_FREQUENCY) /
                                     frequency)),
@@ -198,7 +199,8 @@ static double exponent_error(const table_view *master, double frequency)
 }
 
 /* Of the slope, by the spectrum that all curves have in common, which no scatter of spots shows: 0
- * where the curves are without it, or the result does not hold what it was made of. At another
+ * where the curves are without it, or the result does not hold what it was made of; NaN where that
+ * has no errors. At another
  * temperature frequencies are reduced ones, of which the shift is not known here: then the largest
  * error of all. */
 static wt_status find_spectrum_variance(const collected_case *c, const table_view *curves,
@@ -312,8 +314,10 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
     if (status == WT_OK) {
         case_value v = {
             .constant = SHARED_RATE, .of = c, .group = group, .log = slope_of(lines, n)};
-        v.by_files[SHARED_SPECTRUM] = variance;
-        if (variance > 0) {
+        v.by_files[SHARED_SPECTRUM] = isnan(variance) ? 0 : variance;
+        if (isnan(variance))
+            v.log.standard_error = (double)NAN;
+        else if (variance > 0) {
             const t_error all = t_error_with((t_error){v.log.standard_error, v.log.df}, variance);
             v.log.standard_error = all.error;
             v.log.df = all.df;

@@ -227,7 +227,8 @@ void sliding_layer_says(const sliding_contact *contact, const wt_sliding *slidin
     double range[2];
     says[0] = '\0';
     if (own != NULL &&
-        layer_moduli_gain(own, contact->roughness->q0 * sliding->velocity[0],
+        /* a wave across the sliding is as slow as any */
+        layer_moduli_gain(own, fmin(own->limit[0], contact->roughness->q0 * sliding->velocity[0]),
                           contact->roughness->q1 * sliding->velocity[sliding->n_velocity - 1],
                           range))
         clocale_print(says, 160,

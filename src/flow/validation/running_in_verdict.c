@@ -69,6 +69,7 @@ static void tell_open(const course_run *run, char *text, size_t size)
 {
     const course_fit *const fit = &run->fit;
     const double with_prediction = course_run_time_end(run);
+    const char *const by = isnan(with_prediction) ? ", by the record alone" : "";
     if (!fit->seen)
         clocale_print(
             text, size,
@@ -81,13 +82,13 @@ static void tell_open(const course_run *run, char *text, size_t size)
     else if (isnan(fit->high))
         clocale_print(text, size,
                       "the record ends before friction is steady, after %.3g times the time "
-                      "predicted at least",
-                      exp(isnan(with_prediction) ? fit->low : with_prediction));
+                      "predicted at least%s",
+                      exp(isnan(with_prediction) ? fit->low : with_prediction), by);
     else
         clocale_print(text, size,
                       "friction is steady within the first cycles, after %.3g times the time "
-                      "predicted at most",
-                      exp(isnan(with_prediction) ? fit->high : with_prediction));
+                      "predicted at most%s",
+                      exp(isnan(with_prediction) ? fit->high : with_prediction), by);
 }
 
 /* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
