@@ -26,6 +26,10 @@ run
 grep -q '(kept: ' said || fail "not kept"
 run --strict
 grep -q '(kept: ' said || fail "not kept with --strict"
+for threads in '--threads 1' --threads=2; do
+  run $threads
+  grep -q '(kept: ' said || fail "not kept with $threads"
+done
 touch case/dma.txt case/case.xml
 run
 grep -q '(kept: ' said || fail "not kept though only a time has changed"

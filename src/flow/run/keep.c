@@ -32,16 +32,25 @@ __attribute__((format(printf, 2, 3))) static void differs(comparison *k, const c
     k->differs = true;
 }
 
-/* The next word of a command, without those that change nothing in the result. */
+/* The next word of a command, without those that change nothing in the result and their values. */
 static size_t next_word(const char **at)
 {
-    static const char *const ignored[] = {"--keep", "--quiet", "-q", "--strict"};
-    for (;;) {
+    static const struct {
+        const char *name;
+        bool has_value;
+    } ignored[] = {{"--keep", false},   {"--quiet", false},  {"-q", false},
+                   {"--strict", false}, {"--threads", true}, {"--log", true}};
+    for (bool is_value = false;;) {
         *at += strspn(*at, " ");
         const size_t length = strcspn(*at, " ");
-        bool is_ignored = false;
-        for (size_t i = 0; i < COUNT_OF(ignored); i++)
-            is_ignored |= length == strlen(ignored[i]) && strncmp(*at, ignored[i], length) == 0;
+        bool is_ignored = is_value && length > 0;
+        is_value = false;
+        for (size_t i = 0; !is_ignored && i < COUNT_OF(ignored); i++) {
+            const size_t n = strlen(ignored[i].name);
+            const bool begins = length >= n && strncmp(*at, ignored[i].name, n) == 0;
+            is_ignored = begins && (length == n || (ignored[i].has_value && (*at)[n] == '='));
+            is_value = is_ignored && length == n && ignored[i].has_value;
+        }
         if (!is_ignored)
             return length;
         *at += length;
