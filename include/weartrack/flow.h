@@ -56,6 +56,7 @@ typedef struct wt_job {
     wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
     wt_sweep
         *dma; /* of wt_run, whose jobs share the DMA files of the case: read into this once; NULL */
+    void (*case_advice)(wt_error *failure); /* of wt_run: adds how a case gives what is asked for */
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
