@@ -681,6 +681,7 @@ typedef struct wt_compare_job {
     double lever_error;       /* of a spring constant whose table states none; default 0 = none */
     double sensitivity_error; /* relative standard error; default 0 = none stated */
     double tip_error;         /* of the modulus by the tip, relative; default 0 = none stated */
+    double spot_scatter;      /* relative, where one spot does not tell it; default 0 = not known */
     bool map_spots;           /* each place of a map is a spot; default false: a map is one */
     double margin;            /* relative difference that does not matter; default 0.2 */
     bool rates;               /* default true: table of the modulus against rate */

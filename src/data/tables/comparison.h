@@ -112,7 +112,9 @@
     X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, SHOWS(ratio_df),                \
       LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \
-      LABEL("Share of calibration and temperature in it"), OPTIONAL)
+      LABEL("Share of calibration and temperature in it"), OPTIONAL)                               \
+    X(COMPARISON_KEY_SPOT_SCATTER, AS(spot_scatter), NUMBER,                                       \
+      LABEL("Scatter from spot to spot, as given"), OPTIONAL)
 
 /* Measured, and of layers that have the ratio of the moduli at the depth of the curves. */
 #define TRACK_LAYER_COLUMNS(X)                                                                     \

@@ -179,15 +179,25 @@ static void list_evidence(const answer_story *story, char *text, size_t size)
 {
     const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = over_all(story, COMPARISON_MANN_WHITNEY_SMALLEST_P);
+    const double scatter =
+        comparison_value(&story->found.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
+    const double n[] = {over_all(story, COMPARISON_SPOTS_BULK),
+                        over_all(story, COMPARISON_SPOTS_TRACK)};
     char least[96] = "";
+    if (scatter > 0) {
+        clocale_print(text, size,
+                      "%.0f spot%s in the bulk and %.0f in the track, which scatter by %.3g %% as "
+                      "given; p %s",
+                      n[0], n[0] > 1 ? "s" : "", n[1], 100 * scatter,
+                      number_chance(over_all(story, COMPARISON_WELCH_P)).text);
+        return;
+    }
     if (smallest > 0.05)
         clocale_print(least, sizeof least, ", which cannot be below %.2g with so few", smallest);
     clocale_print(text, size,
                   "%.0f %s in the bulk and %.0f in the track; p %s by Welch, %s by "
                   "Mann and Whitney%s",
-                  over_all(story, COMPARISON_SPOTS_BULK),
-                  strncmp(unit, "curve", 5) == 0 ? "curves" : "spots",
-                  over_all(story, COMPARISON_SPOTS_TRACK),
+                  n[0], strncmp(unit, "curve", 5) == 0 ? "curves" : "spots", n[1],
                   number_chance(over_all(story, COMPARISON_WELCH_P)).text,
                   number_chance(over_all(story, COMPARISON_MANN_WHITNEY_P)).text, least);
 }
@@ -315,8 +325,10 @@ static void answer_difference(answer_story *story)
     } else {
         const finding ratio = finding_of_ratio(&story->found);
         const double effect = over_all(story, COMPARISON_EFFECT_SIZE);
-        char size[96] = "; an interval cannot be told, for the reason above";
-        if (!isnan(effect))
+        char size[96] = "";
+        if (isnan(ratio.low))
+            snprintf(size, sizeof size, "; an interval cannot be told, for the reason above");
+        else if (!isnan(effect))
             clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
         char rates[256] = "";
         telling t = {rates, sizeof rates, 0};
