@@ -19,13 +19,6 @@ const char curve_panel_words[] =
 
 /* ---- list ------------------------------------------------------------------------------------ */
 
-static curve_kind kind_of(const char *verdict)
-{
-    if (strcmp(verdict, "accepted") == 0)
-        return CURVE_ACCEPTED;
-    return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
-}
-
 static bool has_numbers(const table_view *curves, curve_block b)
 {
     for (size_t i = b.from; i < b.to; i++)
@@ -63,7 +56,7 @@ wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error
             const curve_block *b = curve_finder_next(&finder, rows, row);
             if (b == NULL || !has_numbers(&tables->curves, *b))
                 continue;
-            const curve_kind kind = kind_of(indentation_text(rows, row, INDENTATION_VERDICT));
+            const curve_kind kind = curve_kind_of(rows, row);
             found[list->n++] = (listed_curve){*b, kind, rows, row};
             list->of_kind[kind]++;
         }
