@@ -158,11 +158,11 @@ static void set_verdicts(const validation *v, table_writer *t)
     validation_set_print(
         t, VALIDATION_KEY_TEST,
         "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
-        "velocity, is from %.3g to %.3g; does not: at some step the interval that holds 95 %% at "
+        "velocity, is from %s; does not: at some step the interval that holds 95 %% at "
         "all "
         "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
         "are in it, %s, choices of the model are not",
-        1 / (1 + v->job->margin), 1 + v->job->margin,
+        validation_asked(v->job->margin).text,
         v->p.n_draws > 0 ? "and stated errors of the prediction"
                          : "errors of the prediction are not, without replicates");
 }
