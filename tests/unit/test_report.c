@@ -547,6 +547,36 @@ static void test_words_of_gnuplot(void **state)
     wt_result_free(result);
 }
 
+static void known_well(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "friction_coefficient", 0.6078605);
+    fixture_put(copy, "friction_coefficient_low", 0.6075830);
+    fixture_put(copy, "friction_coefficient_high", 0.6081380);
+    fixture_put(copy, "paused_time", 0);
+}
+
+/* A cell has the digits of its interval, whose ends three would print alike; zeros are of the unit
+ * without a prefix. */
+static void test_digits_of_intervals(void **state)
+{
+    (void)state;
+    static const char *const cells[] = {">0.60786</td>", ">0.60758</td>", ">0.60814</td>",
+                                        "Time paused <span class=\"unit\">(s)</span>"};
+    const char *const table = "record";
+    NEED_GNUPLOT();
+    wt_result *result =
+        fixture_only(&table, 1, &(fixture_change){.table = "record", .edit = known_well});
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+        if (strstr(page, cells[i]) == NULL)
+            fail_msg("the page lacks: %s", cells[i]);
+    free(page);
+    wt_result_free(result);
+}
+
 static void test_only_reports_are_replaced(void **state)
 {
     (void)state;
@@ -865,6 +895,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
                                         remove_workplace),
+        cmocka_unit_test_setup_teardown(test_digits_of_intervals, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_a_page_alone, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_modes_stay, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_leftovers, make_workplace, remove_workplace),
