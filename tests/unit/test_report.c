@@ -547,6 +547,33 @@ static void test_words_of_gnuplot(void **state)
     wt_result_free(result);
 }
 
+static void two_seconds(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "cpu_time", 1.7);
+}
+
+/* Beside its names a panel is narrow: numbers of four digits would stand on one another. */
+static void test_few_numbers_on_a_narrow_axis(void **state)
+{
+    (void)state;
+    const char *const table = "cost";
+    NEED_GNUPLOT();
+    wt_result *result =
+        fixture_only(&table, 1, &(fixture_change){.table = "cost", .edit = two_seconds});
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *script = read_all("out/plots/cost.gp", &length);
+    const char *const range = strstr(script, "set xrange [0:"), *const tics =
+                                                                    strstr(script, "set xtics ");
+    assert_true(range != NULL && tics != NULL);
+    const double end = strtod(range + strlen("set xrange [0:"), NULL),
+                 step = strtod(tics + strlen("set xtics "), NULL);
+    assert_true(step > 0 && end / step < 4.5);
+    free(script);
+    wt_result_free(result);
+}
+
 static void known_well(wt_table *copy, size_t row)
 {
     (void)row;
@@ -894,6 +921,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_no_gnuplot, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_digits_of_intervals, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_a_page_alone, make_workplace, remove_workplace),

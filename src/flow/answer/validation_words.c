@@ -87,7 +87,7 @@ static void say_needed(const answer_story *story, const table_view *v)
         return;
     text[0] = (char)toupper((unsigned char)text[0]);
     if (shape != NULL)
-        tell(&t, ". With it the theory %s", shape);
+        tell(&t, ". The verdict with it: %s", shape);
     answer_say(story, question, "validation", "%s.", text);
 }
 

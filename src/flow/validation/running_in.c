@@ -223,11 +223,9 @@ static void set_interval(table_writer *t, validation_running_in_key key, wt_inte
     validation_running_in_set_value(t, key, i.value, i.standard_error, (double)NAN);
     if (isnan(i.low) || isnan(i.high))
         return;
-    /* the ends stand behind it, see KEY_ENDS */
-    validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, (double)NAN,
-                                    (double)NAN);
-    validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, (double)NAN,
-                                    (double)NAN);
+    /* the ends stand behind it, see KEY_ENDS, and have no error of their own */
+    validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, 0, 0);
+    validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, 0, 0);
 }
 
 /* The wear rate that the time asks for against the one that was measured. */

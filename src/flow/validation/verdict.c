@@ -43,11 +43,15 @@ verdict_words verdict_of_trial(const validation *v, const trial *t)
     const agreement *const fit = &t->fit;
     const size_t at = fit->where;
     agreement_ends(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    char all[48] = "";
+    if (t->n > 1)
+        snprintf(all, sizeof all, " at all %zu steps", t->n);
     if (fit->verdict == AGREEMENT_YES)
         clocale_print(words.text, sizeof words.text,
-                      "explains: measured over predicted is within %.3g %% at all of %zu steps, at "
-                      "%.3g m/s, where it is farthest, %.3g (95 %%: %s)",
-                      100 * v->job->margin, t->n, v->steps.step[at].velocity, exp(fit->smooth[at]),
+                      "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
+                      "(95 %%: %s)",
+                      100 * v->job->margin, all, v->steps.step[at].velocity,
+                      t->n > 1 ? ", where it is farthest," : "", exp(fit->smooth[at]),
                       ends_of(exp(ends[0]), exp(ends[1]), 3).text);
     else
         clocale_print(
