@@ -101,19 +101,11 @@ static size_t add_lines(growing_text *to, const char *text, size_t most)
     return n;
 }
 
-/* The end of a long name tells files apart. */
 static void add_name(growing_text *to, const char *file, double curve)
 {
     enum { NAME = LINE_LENGTH - 8 }; /* behind it the number */
-    const char *name = strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file;
-    const size_t length = strlen(name);
-    if (length > NAME) {
-        text_add(to, "...");
-        name += length - NAME;
-        while ((*name & 0xC0) == 0x80) /* within a character */
-            name++;
-    }
-    text_format(to, "%s:%.0f", name, curve);
+    text_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
+    text_format(to, ":%.0f", curve);
 }
 
 /* Lines: curve, verdict and modulus, reason of what was not accepted. Returns how many. */

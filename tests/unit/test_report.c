@@ -574,6 +574,47 @@ static void test_few_numbers_on_a_narrow_axis(void **state)
     wt_result_free(result);
 }
 
+static bool first_row(const wt_table *table, size_t row)
+{
+    (void)table;
+    return row == 0;
+}
+
+static void long_name(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_text(copy, "member", "a_name_of_a_result_that_has_no_room_below_a_panel.h5, bulk");
+}
+
+/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart.
+ */
+static void test_cases_beside_one_another(void **state)
+{
+    static const struct {
+        const char *table, *script, *holds;
+        fixture_change change;
+    } tried[] = {{"collected_friction",
+                  "out/plots/collected_friction.gp",
+                  " with points ls 1",
+                  {.table = "collected_friction", .keep = first_row}},
+                 {"shared_members",
+                  "out/plots/shared_constants.gp",
+                  "...below_a_panel.h5, bulk",
+                  {.table = "shared_members", .edit = long_name}}};
+    (void)state;
+    NEED_GNUPLOT();
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        wt_result *result = fixture_only(&tried[i].table, 1, &tried[i].change);
+        write_report(result, "out", NULL);
+        size_t length = 0;
+        char *script = read_all(tried[i].script, &length);
+        if (strstr(script, tried[i].holds) == NULL)
+            fail_msg("%s lacks %s", tried[i].script, tried[i].holds);
+        free(script);
+        wt_result_free(result);
+    }
+}
+
 static void known_well(wt_table *copy, size_t row)
 {
     (void)row;
@@ -923,6 +964,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_cases_beside_one_another, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_digits_of_intervals, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_a_page_alone, make_workplace, remove_workplace),
