@@ -110,7 +110,8 @@
       OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_INTERACTION_P, AS(interaction_p), NUMBER,                                     \
       LABEL("p of one slope in both groups"), OPTIONAL)                                            \
-    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, SHOWS(ratio), OPTIONAL)               \
+    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, SHOWS(ratio), LABEL("Modulus ratio"), \
+      OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, SHOWS(ratio_df),                \
       LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \
