@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/number.h"
 
 #include <ctype.h>
@@ -286,9 +287,9 @@ static void say_rates(const answer_story *story)
     }
     if (n >= 2)
         answer_say(story, how_different, "difference",
-                   "Rate by rate (%zu indentation rates) the ratio is %.3g to %.3g; the "
+                   "Rate by rate (%zu indentation rates) the ratio is %s; the "
                    "largest p after Holm's correction is %s.",
-                   n, low, high, number_chance(largest_p).text);
+                   n, ends_of(low, high, 3).text, number_chance(largest_p).text);
 }
 
 static void say_dma(const answer_story *story)
@@ -413,9 +414,9 @@ static void answer_thickness(answer_story *story)
             story, how_thick, "thickness",
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
-            "below %.3g mm^3/(N m).",
+            "below %s.",
             velocity.text, pressure.text, words.text, ratio.text,
-            MM3_PER_N_M * layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value);
+            words_of(layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value, "m^2/N").text);
     else if (isinf(thickness.number.value))
         answer_say(story, how_thick, "thickness",
                    "%s; the table layer gives its thickness in time.",

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/comparison/compare.h"
 
+#include "base/ends.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -195,8 +196,8 @@ static void warn_rates(const comparison_task *task)
         if ((r->n[0] == 0) == (r->n[1] == 0))
             continue;
         wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "curves at %.3g to %.3g m/s are in one group only (bulk %zu, track %zu)%s",
-                        r->low, r->high, r->n[0], r->n[1],
+                        "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
+                        ends_of(r->low, r->high, 3).text, r->n[0], r->n[1],
                         all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
                             ? "; the comparison leaves them out"
                             : "");
