@@ -21,9 +21,12 @@ static double number(const numeric_case *c, const char *key, double missing)
     return case_number(c, false, key, missing);
 }
 
+/* A barrier and the energy against it are up to 1000 kB T, which a double rounds to 1e-13 of the
+ * rate. */
 static double digits_of(const numeric_case *c)
 {
-    return pow(10, -number(c, "digits", 12));
+    const bool activated = case_find(c, false, "barrier_eV") != NULL;
+    return pow(10, -number(c, "digits", 12)) + (activated ? 1e-13 : 0);
 }
 
 /* mu at a velocity. */
