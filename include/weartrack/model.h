@@ -261,6 +261,11 @@ WT_API wt_ball_contact wt_ball_contact_of(double load, double radius, double mod
                                           double poisson_ratio);
 /* The load at which it has that nominal pressure. */
 WT_API double wt_ball_load(double pressure, double radius, double modulus, double poisson_ratio);
+/* What a place of a circular track, `aside` of its middle line, takes of a contact that comes by
+ * once a turn, as a share of always being under the nominal pressure: along the line that passes
+ * it, Hertz's pressure makes (3 a / 8 r) (1 - (aside/a)^2), 0 beside the track; a / 4 r in the
+ * mean. */
+WT_API double wt_ball_duty(double contact_radius, double track_radius, double aside);
 
 #ifdef __cplusplus
 }

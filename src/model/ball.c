@@ -1,4 +1,5 @@
-/* Nominal pressure of a ball. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nominal pressure of a ball, and what a place of its track takes of it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/model.h"
 
 #include <math.h>
@@ -14,4 +15,10 @@ double wt_ball_load(double pressure, double radius, double modulus, double poiss
     const double a =
         0.75 * M_PI * pressure * radius * (1 - poisson_ratio * poisson_ratio) / modulus;
     return M_PI * a * a * pressure;
+}
+
+double wt_ball_duty(double contact_radius, double track_radius, double aside)
+{
+    const double y = aside / contact_radius, part = 1 - y * y;
+    return 3 * contact_radius / (8 * track_radius) * (part < 0 ? 0 : part);
 }

@@ -202,8 +202,7 @@ static void set_ball(const wt_record_job *job, wt_estimate load, double track_ra
         return;
     r->ball = wt_ball_contact_of(load.value, job->ball_radius.value, job->modulus.value,
                                  job->poisson_ratio);
-    /* Hertz's pressure on the middle line, of which the nominal one is the mean */
-    r->duty = 3 * r->ball.contact_radius / (8 * track_radius);
+    r->duty = wt_ball_duty(r->ball.contact_radius, track_radius, 0);
 }
 
 /* Where the rows of a record go, and what they have in common. */

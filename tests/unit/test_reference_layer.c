@@ -1,0 +1,274 @@
+/* Every number that the shared reference data, where present, expect of the modified layer is one
+ * that a numeric case of the same name expects, too, or stands in a short list with its reason.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "weartrack/kernel.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REFERENCE WT_SHARED_DIR "/reference/"
+#define NUMERIC WT_SOURCE_DIR "/tests/numeric/"
+
+enum { WORD = 64, DEPTH = 16 };
+
+/* ---- what no numeric case expects ------------------------------------------------------------ */
+
+typedef struct left_out {
+    const char *id, *key, *why;
+    size_t met;
+} left_out;
+
+#define ITSELF "how well the reference agrees with itself"
+#define SHARE "the share of time: under Hertz's pressure the effective duty stands in its place"
+#define POWER_LAW                                                                                  \
+    "of a power law, whose exponent nobody gives: the program has the limit for small ones"
+#define GIVEN "given, in other words"
+
+static left_out list[] = {
+    {"K_layered_modulus", "interp_E_eff_over_El",
+     "a rule in the place of the layered half-space, of which the theory says: do not use it", 0},
+    {"M_rate_to_frequency", "exact_omega_t_h2_n0.05", POWER_LAW, 0},
+    {"M_rate_to_frequency", "exact_omega_t_h2_n0.1", POWER_LAW, 0},
+    {"M_rate_to_frequency", "exact_omega_t_h2_n0.2", POWER_LAW, 0},
+    {"Q_step_in_severity", "sliding_distance_stage1_m", GIVEN, 0},
+    {"R_pin_on_disc", "duty_2a_over_2pi_r", SHARE, 0},
+    {"pin_on_disc_hertz", "time_share", SHARE, 0},
+    {"act_open", "k_mm3_per_Nm", GIVEN, 0},
+    {"act_clamped", "k_mm3_per_Nm", GIVEN, 0},
+    {"act_clamped_overflow", "k_mm3_per_Nm", GIVEN, 0},
+    {"act_contact_value", "e0_J_per_m3", "is in the rate only, which is compared", 0},
+    {"velocity_ramp", "t_s", GIVEN ": as times at the last velocity that make the same distance",
+     0},
+    {"velocity_ramp", "sliding_distance_m", GIVEN ": likewise", 0},
+    {"loop_soft", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"loop_stiff_bistable", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"loop_stiff_three_roots", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"loop_own_viscoelasticity", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"running_in_full", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"ball_prony_slow", "weighted_difference_of_two_rules", ITSELF, 0},
+    {"ball_prony_fast", "weighted_difference_of_two_rules", ITSELF, 0},
+    {"ball_zener", "weighted_difference_of_two_rules", ITSELF, 0},
+};
+enum { LIST = sizeof list / sizeof *list };
+
+static bool is_left_out(const char *id, const char *key)
+{
+    for (size_t i = 0; i < LIST; i++)
+        if (strcmp(list[i].id, id) == 0 && strcmp(list[i].key, key) == 0)
+            return ++list[i].met > 0;
+    return false;
+}
+
+/* ---- what numeric cases expect --------------------------------------------------------------- */
+
+typedef struct expectation {
+    char id[WORD];
+    double value;
+} expectation;
+enum { EXPECTED = 8192 };
+static expectation expected[EXPECTED];
+static size_t n_expected;
+
+static void read_expected(const char *name)
+{
+    char path[512], line[4096], id[WORD] = "";
+    snprintf(path, sizeof path, NUMERIC "%s.txt", name);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    while (fgets(line, sizeof line, in) != NULL) {
+        if (sscanf(line, "case %63s", id) == 1 || strncmp(line, "expect ", 7) != 0)
+            continue;
+        char *rest = NULL;
+        (void)strtok_r(line, " \n", &rest);
+        (void)strtok_r(NULL, " \n", &rest);
+        for (const char *word; (word = strtok_r(NULL, " \n", &rest)) != NULL;) {
+            assert_true(n_expected < EXPECTED);
+            expectation *const e = &expected[n_expected++];
+            memcpy(e->id, id, sizeof id);
+            e->value = strtod(word, NULL);
+        }
+    }
+    fclose(in);
+}
+
+/* A case of the reference may be several here: NAME_0, NAME_ball. */
+static bool is_of(const char *name, const char *id)
+{
+    const size_t n = strlen(id);
+    return strncmp(name, id, n) == 0 && (name[n] == '\0' || name[n] == '_');
+}
+
+/* In SI units there, in those that its key tells here. */
+static bool is_expected(const char *id, const char *key, double value)
+{
+    const double unit = strstr(key, "mm3_per_Nm") != NULL ? 1e-9
+                        : strcmp(id, "N_statistics") == 0 ? 1e6
+                                                          : 1;
+    for (size_t i = 0; i < n_expected; i++)
+        if (is_of(expected[i].id, id) &&
+            (fabs(expected[i].value - value) <= 1e-15 * fabs(value) ||
+             fabs(expected[i].value - unit * value) <= 1e-15 * fabs(unit * value)))
+            return true;
+    return false;
+}
+
+/* ---- the reference --------------------------------------------------------------------------- */
+
+/* On the way through a text of JSON, as simple as these are: no escapes. */
+typedef struct place {
+    bool list;
+    char key[WORD]; /* "": of the next word */
+} place;
+typedef struct walk {
+    const char *at;
+    size_t depth;
+    place place[DEPTH];
+    char id[WORD]; /* of the case */
+    size_t numbers, unknown;
+    double boltzmann, reduced, planck;
+} walk;
+
+/* The innermost name. */
+static const char *key_of(const walk *w)
+{
+    size_t i = w->depth;
+    while (i > 1 && w->place[i - 1].list)
+        i--;
+    return w->place[i - 1].key;
+}
+
+static void take_word(walk *w)
+{
+    const char *const end = strchr(++w->at, '"');
+    char word[WORD];
+    assert_non_null(end);
+    snprintf(word, sizeof word, "%.*s", (int)(end - w->at), w->at);
+    place *const here = &w->place[w->depth - 1];
+    if (!here->list && here->key[0] == '\0')
+        memcpy(here->key, word, sizeof word);
+    else if (w->depth == 3 && strcmp(here->key, "id") == 0)
+        memcpy(w->id, word, sizeof word);
+    w->at = end + 1;
+}
+
+static void take_constant(walk *w, double value)
+{
+    const char *const key = key_of(w);
+    if (strcmp(key, "kB_J_per_K") == 0)
+        w->boltzmann = value;
+    if (strcmp(key, "hbar_J_s") == 0)
+        w->reduced = value;
+    if (strcmp(key, "h_J_s") == 0)
+        w->planck = value;
+}
+
+static void take_number(walk *w)
+{
+    char *end = NULL;
+    const bool yes = strncmp(w->at, "true", 4) == 0, no = strncmp(w->at, "false", 5) == 0;
+    const double value = yes || no ? (double)yes : strtod(w->at, &end);
+    if (yes || no)
+        w->at += yes ? 4 : 5;
+    else if (end == w->at)
+        fail_msg("%s: not understood: %.20s", w->id, w->at);
+    else
+        w->at = end;
+    if (strcmp(w->place[0].key, "constants") == 0)
+        take_constant(w, value);
+    if (w->depth < 4 || strcmp(w->place[2].key, "expected") != 0)
+        return;
+    w->numbers++;
+    if (is_left_out(w->id, key_of(w)) || is_expected(w->id, key_of(w), value))
+        return;
+    w->unknown++;
+    print_error("%s, %s: no numeric case expects %.17g\n", w->id, key_of(w), value);
+}
+
+static void take(walk *w)
+{
+    switch (*w->at) {
+    case '{':
+    case '[':
+        assert_true(w->depth < DEPTH);
+        w->place[w->depth++] = (place){.list = *w->at++ == '['};
+        return;
+    case '}':
+    case ']':
+        assert_true(w->depth > 0);
+        w->depth--;
+        w->at++;
+        return;
+    case ',':
+        w->place[w->depth - 1].key[0] = '\0';
+        w->at++;
+        return;
+    case '"':
+        take_word(w);
+        return;
+    case ':':
+    case ' ':
+    case '\n':
+        w->at++;
+        return;
+    default:
+        take_number(w);
+    }
+}
+
+static walk walk_through(const char *path)
+{
+    enum { ROOM = 1 << 18 };
+    FILE *in = fopen(path, "r");
+    if (in == NULL)
+        skip();
+    char *text = calloc(ROOM, 1);
+    assert_non_null(text);
+    const size_t n = fread(text, 1, ROOM - 1, in);
+    assert_true(n > 1000 && n < ROOM - 1);
+    fclose(in);
+    walk w = {.at = text};
+    while (*w.at != '\0')
+        take(&w);
+    free(text);
+    assert_int_equal(w.depth, 0);
+    return w;
+}
+
+static void every_number_is_expected(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"layer",      "layer-beyond", "layer-loop",
+                                        "layer-data", "layer-around", "group_comparison"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        read_expected(files[i]);
+    const walk first = walk_through(REFERENCE "tribolayer.json"),
+               second = walk_through(REFERENCE "tribolayer-beyond.json");
+    assert_true(first.numbers >= 334 && second.numbers >= 1723);
+    assert_int_equal(first.unknown + second.unknown, 0);
+    for (size_t i = 0; i < LIST; i++)
+        if (list[i].met == 0)
+            fail_msg("%s, %s is left out for nothing", list[i].id, list[i].key);
+}
+
+/* Without a barrier the unloaded rate is that of the attempts: kB T over either constant. */
+static void same_constants(void **state)
+{
+    (void)state;
+    const walk w = walk_through(REFERENCE "tribolayer.json");
+    wt_activation a = {.barrier = 1e-60, .volume = 1e-27, .temperature = 1, .area_ratio = 1};
+    a.attempt = WT_ATTEMPT_HBAR;
+    assert_near(wt_activation_background(&a), w.boltzmann / w.reduced, 1e-15);
+    a.attempt = WT_ATTEMPT_H;
+    assert_near(wt_activation_background(&a), w.boltzmann / w.planck, 1e-15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_number_is_expected),
+                                       cmocka_unit_test(same_constants)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
