@@ -200,8 +200,6 @@ static const double deep = 12;
 /* What is settled within two means is not told by them; times are tried from an eighth of that to
  * so many times the length of the series. */
 static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
-/* As of the running-in: one false alarm in twenty at most. */
-static const double least_odds = 20;
 static const double tail = 0.025; /* on each side of an interval of 95 % */
 
 /* One series with its course. */
@@ -270,15 +268,16 @@ static law_sum try_member(member *t, double log_factor, bool first)
     return sum;
 }
 
-/* The change that is taken for possible, as a variance in the unit of the first series. */
+/* The change that is taken for possible, as a variance in the unit of the first series: that of the
+ * series that scatters least. */
 static double possible_of(const scan *t)
 {
-    double sum = 0;
+    double least = (double)INFINITY;
     for (size_t i = 0; i < t->n_of; i++) {
         const double unit = t->of[0].height / t->of[i].height;
-        sum += t->of[i].variance * unit * unit / (double)t->n_of;
+        least = fmin(least, t->of[i].variance * unit * unit);
     }
-    return sum;
+    return least;
 }
 
 /* ln of the likelihoods of a series about a constant, over its laws. */
@@ -486,7 +485,7 @@ static void find(scan *t, double expected, course_fit *fit)
     limits_of(t, limit);
     scan_coarsely(t, limit);
     fit->log_odds = log_odds(t);
-    fit->seen = fit->log_odds > log(least_odds);
+    fit->seen = fit->log_odds > log(COURSE_ODDS);
     if (fit->seen) {
         for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
             continue;

@@ -39,8 +39,9 @@ typedef struct course_pair {
 /* friction = level + ratio x course(time / factor), with slow and white scatter of one law from end
  * to end; likelihood averaged over laws and, but for the factor itself, over factors. Several
  * series have factor and ratio in common, and a level and a law each. */
+#define COURSE_ODDS 20 /* as of the running-in: one false alarm in twenty at most */
 typedef struct course_fit {
-    bool seen;         /* odds above 20 to 1 over a constant */
+    bool seen;         /* odds above COURSE_ODDS to 1 over a constant */
     double log_odds;   /* ln of them */
     double log_factor; /* mean; NaN unless seen */
     double error;      /* standard deviation */

@@ -375,7 +375,7 @@ static wt_status join_runs(const course_run *runs, size_t n, double margin, cour
         joined->value = NULL;
         status = course_fit_make(j.pair, j.n, RUNNING_IN_LEFT, expected_error(joined->growth),
                                  &joined->fit, err);
-        if (status == WT_OK && joined->fit.log_odds > j.log_odds)
+        if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(COURSE_ODDS))
             status = joint_tell(&j, margin, joined, err);
     }
     joint_clear(&j);
