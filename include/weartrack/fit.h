@@ -335,6 +335,8 @@ typedef struct wt_group {
     const long *rate_class; /* [n], with `rate`: what of both groups is the same nominal rate */
     size_t n;
     size_t n_rejected;
+    double spot_scatter; /* standard deviation of ln E from spot to spot as known otherwise, where
+                            one spot does not tell it; 0 = not known */
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -342,6 +344,7 @@ typedef struct wt_group_summary {
     double mean, standard_deviation; /* of the curves [Pa] */
     double geometric_mean;           /* of the units (spots, or curves) [Pa] */
     double log_standard_error;       /* standard error of its logarithm */
+    double df;                       /* of that error, as Student's t has them */
     double low, high;                /* 95 % interval of the geometric mean [Pa] */
     double median;                   /* of the curves [Pa] */
 } wt_group_summary;
@@ -369,6 +372,7 @@ typedef struct wt_comparison {
     size_t curves_bulk, curves_track; /* of these rates */
     wt_rates_by rates_by;
     wt_unsettled unsettled;
+    bool scatter_given;                  /* the interval is that of the groups' spot_scatter */
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double df;                           /* degrees of freedom of its standard error */
     double ratio, ratio_low, ratio_high; /* with 95 % interval; NaN if unsettled */

@@ -56,6 +56,7 @@ typedef struct wt_job {
     wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
     wt_sweep
         *dma; /* of wt_run, whose jobs share the DMA files of the case: read into this once; NULL */
+    void (*case_advice)(wt_error *failure); /* of wt_run: adds how a case gives what is asked for */
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
@@ -680,6 +681,7 @@ typedef struct wt_compare_job {
     double lever_error;       /* of a spring constant whose table states none; default 0 = none */
     double sensitivity_error; /* relative standard error; default 0 = none stated */
     double tip_error;         /* of the modulus by the tip, relative; default 0 = none stated */
+    double spot_scatter;      /* relative, where one spot does not tell it; default 0 = not known */
     bool map_spots;           /* each place of a map is a spot; default false: a map is one */
     double margin;            /* relative difference that does not matter; default 0.2 */
     bool rates;               /* default true: table of the modulus against rate */

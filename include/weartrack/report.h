@@ -39,6 +39,11 @@ WT_API const wt_params *wt_report_params(void);
 WT_API wt_status wt_report_check(const char *folder, const wt_report_options *options,
                                  wt_error *err) WT_NODISCARD;
 
+/* Whether this computer has a font, by fc-match of Fontconfig, through which gnuplot finds it for
+ * PDF and PNG. If not, the name of the one that stands in goes into `instead`, cut to its size.
+ * True of NULL and where fc-match cannot be asked. */
+WT_API bool wt_report_has_font(const char *font, char *instead, size_t size);
+
 /* The page of a report written to a place: that itself if its name ends in .html and it is no
  * folder, else index.html in it. New, NULL without memory. */
 WT_API char *wt_report_page(const char *place) WT_NODISCARD;

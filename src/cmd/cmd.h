@@ -197,6 +197,8 @@ void cmd_event(const char *event, const cmd_word *words, size_t n);
 void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
 /* Where the page of a report is that was written to a place. */
 void cmd_say_page(const char *place);
+/* Warns of a font of figures that is not there; with --strict the call has failed. */
+void cmd_check_font(cmd_session *s, const char *font);
 /* Prints the error on stderr as one line; returns false. */
 bool cmd_fail(cmd_session *s);
 /* The same of one among others, which go on; what was given is then answered in part. */

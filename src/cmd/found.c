@@ -86,6 +86,29 @@ static void read_fact(const char *item, const char *value, const char *unit, con
     }
 }
 
+static bool begins_with(const char *text, const char *begin)
+{
+    return strncmp(text, begin, strlen(begin)) == 0;
+}
+
+/* What the columns of a table are, and heights along one line. */
+static void read_columns(const char *item, const char *value, found_file *found)
+{
+    found->has_x |= begins_with(value, "position_x");
+    found->has_y |= begins_with(value, "position_y");
+    found->has_force |= begins_with(value, "friction_force");
+    found->has_load |=
+        begins_with(value, "normal_force") || begins_with(value, "friction_coefficient");
+    found->one_row |= begins_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
+}
+
+bool found_asks(const found_file *found, size_t missing)
+{
+    const bool by_column =
+        *found->unitless != '\0' && strcmp(found_missing_rows[missing].name, "units") == 0;
+    return found->missing[missing] && !by_column;
+}
+
 /* A column that says no unit is told with a --units of its own. */
 static void read_unitless(const char *item, const char *value, found_file *found)
 {
@@ -109,6 +132,7 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, found_f
         }
         found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
         read_unitless(item, value, found);
+        read_columns(item, value, found);
         read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT),
                   wt_table_text(facts, row, FACTS_SOURCE), found);
     }

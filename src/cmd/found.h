@@ -20,6 +20,8 @@ typedef struct found_file {
     bool missing[FOUND_N_MISSING]; /* see above */
     char unitless[256];            /* names of columns that carry no unit, a line each */
     char tip[64];                  /* that the file says, as --tip takes it; "" if it says none */
+    bool has_x, has_y, one_row;    /* columns of a table of heights; an image of one row */
+    bool has_force, has_load;      /* friction force; normal force or coefficient of friction */
     bool nothing;                  /* it holds nothing that is read, whatever one says */
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
 } found_file;
@@ -27,6 +29,8 @@ typedef struct found_file {
 /* Reads a file; its facts are the table of wt_describe. */
 wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
                      wt_parselog *log, wt_table **facts, found_file *found);
+/* Whether the user must say this, and not by the columns that have no unit. */
+bool found_asks(const found_file *found, size_t missing);
 /* A number as people read it, few digits, the unit with its prefix; anything else as it is. */
 void found_value(const char *value, const char *unit, char *out, size_t size);
 

@@ -66,11 +66,9 @@ static void print_word(const char *word)
 static void print_missing(const found_file *found)
 {
     const char *name = found->unitless;
-    for (size_t k = 0; k < FOUND_N_MISSING; k++) {
-        const bool units = strcmp(found_missing_rows[k].name, "units") == 0;
-        if (found->missing[k] && (!units || *name == '\0'))
+    for (size_t k = 0; k < FOUND_N_MISSING; k++)
+        if (found_asks(found, k))
             printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
-    }
     for (size_t n = 0; *name != '\0'; name += n + 1) {
         char given[sizeof found->unitless + sizeof "=UNIT"];
         n = strcspn(name, "\n");

@@ -67,6 +67,19 @@ void cmd_say_page(const char *place)
     free(page);
 }
 
+void cmd_check_font(cmd_session *s, const char *font)
+{
+    char instead[64];
+    if (wt_report_has_font(font, instead, sizeof instead))
+        return;
+    if (!s->common.quiet || s->common.strict)
+        cmd_say("weartrack %s: %s: no font '%s' on this computer: PDF and PNG have '%s' in its "
+                "place, SVG and the page what the reader's browser takes\n",
+                s->name, s->common.strict ? "exit status 1 (--strict)" : "warning", font, instead);
+    if (s->common.strict)
+        s->status = CMD_FAILED;
+}
+
 void cmd_partly(cmd_session *s)
 {
     s->status = s->status == CMD_OK ? CMD_PARTLY : s->status;

@@ -168,6 +168,8 @@ static wt_status write_pages(cmd_session *s, const wt_report_options *options,
     wt_status status = try_places(s, options, own);
     if (status != WT_OK)
         return status;
+    if (s->common.output != NULL || own->sheets != NULL)
+        cmd_check_font(s, options->font);
     const wt_progress progress = cmd_progress_start(s);
     cmd_catch_interruptions();
     if (s->common.output != NULL)

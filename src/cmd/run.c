@@ -175,6 +175,7 @@ static bool is_page_kept(const run_call *r)
 
 static wt_status draw_page(run_call *r)
 {
+    cmd_check_font(&r->s, r->report.font);
     r->run.progress = cmd_progress_start(&r->s);
     cmd_catch_interruptions();
     wt_status status =

@@ -89,14 +89,16 @@ finding finding_of_group(const finding_tables *t, size_t row)
     f.number.value = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
-    f.includes = "scatter of the spots";
+    const bool lone = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_N_SPOTS) == 1;
+    f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
     table_view budget = t->budget;
     budget.suffix = group;
     const double low = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_LOW).value;
     if (!isnan(low)) {
         f.low = low;
         f.high = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_HIGH).value;
-        f.includes = "scatter of the spots and what is stated of lever and tip";
+        f.includes = lone ? "a given scatter of spots and what is stated of lever and tip"
+                          : "scatter of the spots and what is stated of lever and tip";
     }
     find_frequencies(t, group, 0, (double)INFINITY, f.frequency);
     return f;

@@ -67,10 +67,13 @@ static void write_range(figure_drawing *d, const char *axis, double low, double 
     text_format(&d->script, "set %srange [%s:%s]\n", axis, LITERAL(low), LITERAL(high));
 }
 
-/* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about five parts. */
-static double tidy_step(double width)
+/* Of a linear axis, and of one of half a panel. */
+enum { PARTS = 5, FEW_PARTS = 3 };
+
+/* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about so many parts. */
+static double tidy_step(double width, int parts)
 {
-    double raw = width / 5, power = pow(10, floor(log10(raw))), part = raw / power;
+    double raw = width / parts, power = pow(10, floor(log10(raw))), part = raw / power;
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
@@ -81,7 +84,7 @@ static double tidy_angle(double width)
            : width > 135 ? 45
            : width > 90  ? 30
            : width > 45  ? 15
-                         : tidy_step(width);
+                         : tidy_step(width, PARTS);
 }
 
 /* Labels of tics this wide leave the margin of the styles room for that of the axis. */
@@ -112,7 +115,9 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
         low -= half;
         high += half;
     }
-    double step = column->quantity == WT_Q_ANGLE ? tidy_angle(high - low) : tidy_step(high - low),
+    double step = column->quantity == WT_Q_ANGLE
+                      ? tidy_angle(high - low)
+                      : tidy_step(high - low, d->narrow ? FEW_PARTS : PARTS),
            margin = 0.04 * (high - low);
     // A zero that ends the data ends the axis: nothing is drawn beyond it.
     low = low == 0 ? 0 : low - margin;
@@ -153,7 +158,7 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     write_range(d, axis, low, high);
     text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
     if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
-        double step = tidy_step(high - low);
+        double step = tidy_step(high - low, PARTS);
         for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
             text_format(&d->script, "%s%s", comma, LITERAL(i * step));
             comma = ", ";

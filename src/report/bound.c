@@ -4,8 +4,6 @@
  */
 #include "report/bound.h"
 
-#include "weartrack/report.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,25 +59,4 @@ const table_view *bound_indentation(const bound_tables *tables, const char *grou
         if (strcmp(tables->indentation[i].suffix, group) == 0)
             return &tables->indentation[i];
     return NULL;
-}
-
-wt_status bound_check_curves(const bound_tables *tables, wt_error *err)
-{
-    if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
-        return WT_OK;
-    const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
-    wt_error_expected(err, "the tables indentation/... and curves");
-    wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
-                         "<indentation> of a case");
-    return status;
-}
-
-wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
-{
-    bound_tables tables;
-    wt_status status = bound_make(result, &tables, err);
-    if (status == WT_OK)
-        status = bound_check_curves(&tables, err);
-    bound_clear(&tables);
-    return status;
 }

@@ -31,7 +31,5 @@ void bound_clear(bound_tables *tables);
 const table_view *bound_find(const bound_tables *tables, const table_schema *schema);
 /* The indentation of a group, NULL if there is none. */
 const table_view *bound_indentation(const bound_tables *tables, const char *group);
-/* Whether there are curves to look at; WT_E_EMPTY says how they are made. */
-wt_status bound_check_curves(const bound_tables *tables, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -4,6 +4,7 @@
  */
 #include "report/browse.h"
 
+#include "report/curve_finder.h"
 #include "report/files.h"
 #include "weartrack/report.h"
 
@@ -63,7 +64,7 @@ wt_status wt_browse_write(const wt_result *result, const char *path, bool with_p
     if (status == WT_OK)
         status = bound_make(result, &tables, err);
     if (status == WT_OK)
-        status = bound_check_curves(&tables, err);
+        status = curves_check(&tables, err);
     if (status == WT_OK)
         status = browse_data(&tables, &data, err);
     if (status == WT_OK) {

@@ -370,6 +370,9 @@
     const [xSize, xPrefix] = prefixOf(largest(samples.map((s) => s[axis])) / 2 || 1);
     const [ySize, yPrefix] = prefixOf(largest(samples.map((s) => s.force)) / 2 || 1);
     metres = xSize;
+    /* without a contact point: from its first sample, and no baseline is taken off */
+    const from = curve.contact !== null ? ' from the contact point' :
+      axis === 'displacement' ? ' from the first sample' : ' without a contact point';
     const at = (v, size) => v === null ? null : v / size;
     const rows = samples.map((s) => [s[axis] / xSize, s.approach ? at(s.force, ySize) : null,
       s.approach ? null : at(s.force, ySize), at(s.fit, ySize),
@@ -390,7 +393,8 @@
     const options = {...common, labels, colors: ['#222', '#999', '#c00'],
       series: {approach: {strokeWidth: lines}, retract: {strokeWidth: lines},
         fit: {strokeWidth: 2, drawPoints: false}},
-      xlabel: `${axis} from the contact point (${xPrefix}m)`, ylabel: `force (${yPrefix}N)`, legend: 'always',
+      xlabel: `${axis}${from} (${xPrefix}m)`,
+      ylabel: `force${curve.contact === null ? ' as measured' : ''} (${yPrefix}N)`, legend: 'always',
       axes: {x: {pixelsPerLabel: 45}, y: {axisLabelWidth: 52}},
       legendFormatter: (legend) => legend.series.map((s) =>
         `<span style="color:${s.color}">&#9644; ${s.label}${s.y === undefined ? '' :

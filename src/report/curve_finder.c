@@ -4,8 +4,59 @@
  */
 #include "report/curve_finder.h"
 
+#include "weartrack/report.h"
+
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- whether there are any ------------------------------------------------------------------- */
+
+curve_kind curve_kind_of(const table_view *rows, size_t row)
+{
+    const char *verdict = indentation_text(rows, row, INDENTATION_VERDICT);
+    if (strcmp(verdict, "accepted") == 0)
+        return CURVE_ACCEPTED;
+    return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
+}
+
+/* Those that were fitted, if none of them was refused; else 0. */
+static size_t n_none_refused(const bound_tables *tables)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < tables->n_indentation; i++)
+        for (size_t row = 0; row < tables->indentation[i].n_rows; row++, n++)
+            if (curve_kind_of(&tables->indentation[i], row) == CURVE_REFUSED)
+                return 0;
+    return n;
+}
+
+wt_status curves_check(const bound_tables *tables, wt_error *err)
+{
+    if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
+        return WT_OK;
+    const size_t n = n_none_refused(tables);
+    const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
+    if (n > 0)
+        wt_error_found(err, "%zu curve%s, none rejected, so that --curves rejected keeps none", n,
+                       n == 1 ? "" : "s");
+    else
+        wt_error_expected(err, "the tables indentation/... and curves");
+    wt_error_advice(err, "make it by weartrack indent --curves all, or <curves>all</curves> in the "
+                         "<indentation> of a case");
+    return status;
+}
+
+wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
+{
+    bound_tables tables;
+    wt_status status = bound_make(result, &tables, err);
+    if (status == WT_OK)
+        status = curves_check(&tables, err);
+    bound_clear(&tables);
+    return status;
+}
+
+/* ---- samples by row -------------------------------------------------------------------------- */
 
 wt_status curve_finder_make(curve_finder *finder, wt_error *err)
 {

@@ -18,6 +18,15 @@ typedef struct curve_finder {
     size_t n, next; /* the one behind the last that was found, for both stand in one order */
 } curve_finder;
 
+/* In the order in which they are looked at. */
+typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_KINDS } curve_kind;
+
+/* By its verdict. */
+curve_kind curve_kind_of(const table_view *rows, size_t row);
+
+/* Whether there are curves to look at; WT_E_EMPTY says how they are made. */
+wt_status curves_check(const bound_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* With a view. curve_finder_clear also after a failure. */
 wt_status curve_finder_make(curve_finder *finder, wt_error *err) WT_NODISCARD;
 /* NULL if the curve has no samples. */

@@ -19,13 +19,6 @@ const char curve_panel_words[] =
 
 /* ---- list ------------------------------------------------------------------------------------ */
 
-static curve_kind kind_of(const char *verdict)
-{
-    if (strcmp(verdict, "accepted") == 0)
-        return CURVE_ACCEPTED;
-    return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
-}
-
 static bool has_numbers(const table_view *curves, curve_block b)
 {
     for (size_t i = b.from; i < b.to; i++)
@@ -63,7 +56,7 @@ wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error
             const curve_block *b = curve_finder_next(&finder, rows, row);
             if (b == NULL || !has_numbers(&tables->curves, *b))
                 continue;
-            const curve_kind kind = kind_of(indentation_text(rows, row, INDENTATION_VERDICT));
+            const curve_kind kind = curve_kind_of(rows, row);
             found[list->n++] = (listed_curve){*b, kind, rows, row};
             list->of_kind[kind]++;
         }
@@ -108,19 +101,11 @@ static size_t add_lines(growing_text *to, const char *text, size_t most)
     return n;
 }
 
-/* The end of a long name tells files apart. */
 static void add_name(growing_text *to, const char *file, double curve)
 {
     enum { NAME = LINE_LENGTH - 8 }; /* behind it the number */
-    const char *name = strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file;
-    const size_t length = strlen(name);
-    if (length > NAME) {
-        text_add(to, "...");
-        name += length - NAME;
-        while ((*name & 0xC0) == 0x80) /* within a character */
-            name++;
-    }
-    text_format(to, "%s:%.0f", name, curve);
+    text_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
+    text_format(to, ":%.0f", curve);
 }
 
 /* Lines: curve, verdict and modulus, reason of what was not accepted. Returns how many. */

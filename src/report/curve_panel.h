@@ -8,9 +8,6 @@
 #include "report/curve_finder.h"
 #include "report/drawing.h"
 
-/* In the order in which they are looked at. */
-typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_KINDS } curve_kind;
-
 /* A curve with samples, and its row. */
 typedef struct listed_curve {
     curve_block block;

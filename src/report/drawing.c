@@ -15,8 +15,7 @@ bool drawing_is_wide(const figure_drawing *d)
 
 const char *drawing_group_name(const figure_drawing *d, const char *name)
 {
-    const bool usual = strcmp(name, "bulk") == 0 || strcmp(name, "track") == 0;
-    return usual ? say(d->language, name) : name;
+    return say_group(d->language, name);
 }
 
 int drawing_group_style(const figure_drawing *d, size_t i)

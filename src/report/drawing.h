@@ -46,6 +46,7 @@ typedef struct figure_drawing {
     wt_error *err;
     wt_status status;
     double width, height;                 /* of the picture, in sizes of one panel of the style */
+    bool narrow;                          /* the next axis has room for few numbers */
     wt_table *sections[DRAWING_SECTIONS]; /* gnuplot's `index`; owned */
     size_t n_sections;
     int data[DRAWING_GROUPS]; /* the section of each group as the figure describes it, */

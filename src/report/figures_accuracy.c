@@ -302,6 +302,7 @@ static void draw_cost(figure_drawing *d)
     text_add(&d->script, "set border 1\nset multiplot\nset size 0.62,1\nset lmargin 34\n"
                          "set tmargin 3\nunset key\n");
     d->height = 0.3 + 0.08 * (double)name_stages(d);
+    d->narrow = true;
     axis_linear(d, "x", "Processor time", &t->schema->columns[COST_CPU_TIME], time);
     text_add(&d->script, "k=0\n");
     plot_item(d, section,

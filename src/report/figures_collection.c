@@ -105,7 +105,8 @@ static void draw_panel(figure_drawing *d, const grid *g, size_t i)
                       "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorlines ls %zu",
                       k + 1);
         else
-            plot_item(d, section, "($1*x_unit):($2*y_unit) with lines ls %zu", k + 1);
+            plot_item(d, section, "($1*x_unit):($2*y_unit) with %s ls %zu",
+                      drawing_rows(d, section) > 1 ? "lines" : "points", k + 1);
         if (i == 0)
             plot_title(d, drawing_group_name(d, d->groups[k]));
         else
@@ -198,6 +199,9 @@ static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bo
     return n;
 }
 
+/* Bytes of a name that have room below or above a panel of three in a row. */
+enum { NAME = 22, HEADING = 32 };
+
 static void name_members(figure_drawing *d, const constant_panel *panel)
 {
     const char *before = "";
@@ -208,7 +212,10 @@ static void name_members(figure_drawing *d, const constant_panel *panel)
             strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), panel->of) != 0)
             continue;
         text_add(&d->script, before);
-        text_tic(&d->script, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER));
+        growing_text name = {0};
+        text_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
+        text_tic(&d->script, text_string(&name));
+        text_done(&name, &d->script);
         text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
         before = ", ";
     }
@@ -232,11 +239,14 @@ static void draw_constants(figure_drawing *d)
                 lines, columns);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     for (size_t i = 0; i < n; i++) {
-        growing_text heading = {0};
-        text_format(&heading, "%s%s%s", say(d->language, shown[i].constant),
-                    shown[i].of[0] != '\0' ? ", " : "", shown[i].of);
-        plot_heading(d, text_string(&heading));
-        text_free(&heading);
+        growing_text of = {0};
+        text_name(&of, shown[i].of, HEADING);
+        text_add(&d->script, "set title ");
+        text_quoted(&d->script, say(d->language, shown[i].constant));
+        text_add(&d->script, ".\"\\n\".");
+        text_quoted(&d->script, text_string(&of));
+        text_add(&d->script, " noenhanced\n");
+        text_done(&of, &d->script);
         text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_rows(d, shown[i].section));
         name_members(d, &shown[i]);
         plot_other(d, "y_unit with lines ls 12");

@@ -191,7 +191,7 @@ void caption_vertical_shifts(figure_drawing *d)
     }
     text_say(&d->caption,
              " A good one is smooth, and near the line of rubber elasticity above the glass "
-             "transition; here the isotherms are off it by up to %.2g decade. A filler that "
+             "transition; here the isotherms are off it by up to %s decade. A filler that "
              "softens with temperature or a clamp that yields leads away from it.",
-             most);
+             NUMBER(d->language, most, 2));
 }

@@ -26,6 +26,12 @@ const char *say_count(const language *l, size_t n, const char *one, const char *
     return say(l, n == 1 ? one : more);
 }
 
+const char *say_group(const language *l, const char *name)
+{
+    const bool usual = strcmp(name, "bulk") == 0 || strcmp(name, "track") == 0;
+    return usual ? say(l, name) : name;
+}
+
 const char *language_tag(const language *l)
 {
     return l != NULL ? l->tag : "en";

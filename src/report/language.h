@@ -35,6 +35,9 @@ __attribute__((format_arg(3), format_arg(4)))
 const char *
 say_count(const language *l, size_t n, const char *one, const char *more);
 
+/* A group by its name, of which bulk and track have words. */
+const char *say_group(const language *l, const char *name);
+
 const char *language_tag(const language *l);
 /* Puts the decimal mark in a text that is one number, or several, with units. */
 void language_decimals(const language *l, char *number);

@@ -64,8 +64,9 @@ static void group_rows(page_writer *page, const finding_tables *found)
         if (!isfinite(f.number.value))
             continue;
         growing_text name = {.language = page->language}, remark = {.language = page->language};
-        text_format(&name, "%s, %s", say(page->language, f.words),
-                    modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
+        text_format(
+            &name, "%s, %s", say(page->language, f.words),
+            say_group(page->language, modulus_groups_text(table, row, MODULUS_GROUPS_GROUP)));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
         text_say(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
                  modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,

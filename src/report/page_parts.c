@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/number.h"
+#include "data/findings.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -83,7 +84,7 @@ static size_t row_at(const size_t *rows, size_t i)
 static double typical_size(const table_view *table, unsigned column, const size_t *rows,
                            size_t n_rows)
 {
-    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 0;
+    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 1; /* of zeros */
     size_t n = 0;
     for (size_t i = 0; sizes != NULL && i < n_rows; i++) {
         double size = fabs(view_number(table, table->schema, row_at(rows, i), column));
@@ -145,6 +146,29 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
     return any;
 }
 
+/* The column that this one is an end of the interval of, or itself. */
+static const schema_field *middle_column(const table_schema *schema, unsigned column)
+{
+    for (size_t i = 0; i < schema->n_columns && column != 0; i++)
+        if (schema->columns[i].low == column || schema->columns[i].high == column)
+            return &schema->columns[i];
+    return &schema->columns[column];
+}
+
+/* As many as the error of the row gives meaning to, of the ends of an interval, too. */
+static int digits_at(const table_view *table, size_t row, const shown_column *shown)
+{
+    const table_schema *schema = table->schema;
+    const schema_field *of = middle_column(schema, shown->place);
+    if (shown->column->digits != 0 || of->low == 0)
+        return shown->digits;
+    const unsigned columns[] = {(unsigned)(of - schema->columns), of->low, of->high};
+    double ends[3]; /* and what is between them first */
+    for (size_t i = 0; i < 3; i++)
+        ends[i] = lab_value(&shown->lab, view_number(table, schema, row, columns[i]));
+    return finding_digits(ends[0], ends[1], ends[2]);
+}
+
 /* What stands above a column, again in each cell of it: on a telephone a row is a block. */
 static void begin_cell(page_writer *page, const char *words, const char *unit, bool number)
 {
@@ -158,7 +182,7 @@ static const char *column_label(const shown_column *shown)
     return shown->column->label != NULL ? shown->column->label : shown->column->long_name;
 }
 
-static void number_cell(page_writer *page, const shown_column *shown, double value)
+static void number_cell(page_writer *page, const shown_column *shown, double value, int digits)
 {
     const schema_field *column = shown->column;
     double lab = lab_value(&shown->lab, value);
@@ -171,7 +195,7 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
     else if (column->decimals > 0 || shown->whole)
         text_add(&page->out, FIXED(page->language, lab, column->decimals));
     else
-        text_add(&page->out, NUMBER(page->language, lab, shown->digits));
+        text_add(&page->out, NUMBER(page->language, lab, digits));
     text_add(&page->out, "</td>");
 }
 
@@ -180,7 +204,8 @@ static void table_cell(page_writer *page, const table_view *table, size_t row,
                        const shown_column *shown, bool first)
 {
     if (!shown->text) {
-        number_cell(page, shown, view_number(table, table->schema, row, shown->place));
+        number_cell(page, shown, view_number(table, table->schema, row, shown->place),
+                    digits_at(table, row, shown));
         return;
     }
     const char *const words = view_text(table, table->schema, row, shown->place);

@@ -41,7 +41,8 @@ static const wt_param rows[] = {
              "12); with panels beside each other 170 mm at least"},
     {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
-     .help = "font of the figures, such as Arial"},
+     .help = "font of the figures, such as Arial; one that is not on this computer is warned of "
+             "where fc-match of Fontconfig tells it"},
     {PARAM_TEXT_OF("language", wt_report_options, language), .value = "LANGUAGE",
      .check = language_check,
      .help = "language of figures and page, of their decimal mark, too: en, de, fr or nl; data, "

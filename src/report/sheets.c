@@ -245,7 +245,7 @@ wt_status wt_sheets_write(const wt_result *result, const char *path,
     if (status == WT_OK)
         status = bound_make(result, &s.tables, err);
     if (status == WT_OK)
-        status = bound_check_curves(&s.tables, err);
+        status = curves_check(&s.tables, err);
     if (status == WT_OK)
         status = curve_list_make(&s.tables, &s.list, err);
     s.n = (s.list.n + CURVES - 1) / CURVES;

@@ -86,6 +86,18 @@ void text_format(growing_text *text, const char *format, ...)
     va_end(arguments);
 }
 
+void text_name(growing_text *text, const char *name, size_t most)
+{
+    const size_t length = strlen(name);
+    if (length > most) {
+        text_add(text, "...");
+        name += length - most;
+        while ((*name & 0xC0) == 0x80) /* within a character */
+            name++;
+    }
+    text_add(text, name);
+}
+
 void text_words(growing_text *text, const char *english)
 {
     text_add(text, say(text->language, english));

@@ -27,6 +27,9 @@ void text_add(growing_text *text, const char *string);
 void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
 void text_vformat(growing_text *text, const char *format, va_list arguments) WT_PRINTF(2, 0);
 
+/* A name, of one that has more bytes than so many the end, behind dots: it tells files apart. */
+void text_name(growing_text *text, const char *name, size_t most);
+
 /* The same with a text in the language, whose English form it is. */
 void text_words(growing_text *text, const char *english);
 void text_say(growing_text *text, const char *english, ...) WT_PRINTF(2, 3);

@@ -118,4 +118,14 @@ grep -q "1	exclude		\"\{0,1\}an edge" applied.txt || fail "with the note: $(cat 
 "$program" report -q --browse again.html again.h5
 look again.html >again.dom
 head -3 again.dom | grep -q 'data-choices="2"' || fail "they are handed back: $(head -c 300 again.dom)"
+
+# A curve that never touches is drawn from its first sample, and says so.
+# shellcheck disable=SC2086
+"$program" indent -q $fit --curves rejected --fixed-contact-point 1um "$case"/bulk-1.jpk-force-map -o far.h5 \
+  2>words.txt || [ -s far.h5 ] || fail "no curve touches: $(cat words.txt)"
+"$program" report -q --browse far.html far.h5
+look far.html >far.dom
+grep -q "displacement from the first sample (" far.dom || fail "of a curve without a contact point"
+grep -q "force as measured (" far.dom || fail "the force of a curve without a contact point"
+! grep -q "displacement from the contact point (" far.dom || fail "it has none"
 echo "24 curves, keys, clicks, choices there and back"

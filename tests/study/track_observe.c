@@ -227,6 +227,10 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     snprintf(sensitivity, sizeof sensitivity, "%g", s->sensitivity_error);
     if (s->sensitivity_error > 0)
         say(&w, "--sensitivity-error", sensitivity);
+    char scatter[32];
+    snprintf(scatter, sizeof scatter, "%g", s->spot_scatter[0]);
+    if (s->scatter_given)
+        say(&w, "--spot-scatter", scatter);
     if (s->warmth == WARMER_UNSAID) {
         const char *rubber = trial_file(t, "rubber.tsv");
         if (write_rubber(s, rubber) != 0)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
+#include "base/ends.h"
 #include "flow/answer/words.h"
 #include "weartrack/fit.h"
 
@@ -54,11 +55,25 @@ static void test_errors(void **state)
         {(double)NAN, 0.1, "m", "not known"},
         {(double)INFINITY, (double)NAN, "m", "without limit"},
         {0.5, (double)INFINITY, "1", "0.500"},
+        {1.084e-12, 5.1e-14, "m^2/N", "0.001084 \xc2\xb1 0.000051 mm^3/(N m)"},
+        {4.2e-7, (double)NAN, "m^2/N", "420 mm^3/(N m) (error not known)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const wt_estimate e = {cases[i].value, cases[i].error, 0, cases[i].unit};
         assert_string_equal(words_of_estimate(e).text, cases[i].words);
     }
+}
+
+/* Two ends that three digits print alike are told apart, and others keep those. */
+static void test_ends(void **state)
+{
+    (void)state;
+    assert_string_equal(ends_of(0.56651, 0.84118, 3).text, "0.567 to 0.841");
+    assert_string_equal(ends_of(0.99962, 1.0014, 3).text, "0.9996 to 1.001");
+    assert_string_equal(ends_of(-1e6, -1.00001e6, 2).text, "-1e+06 to -1.00001e+06");
+    assert_string_equal(ends_of(2, 2, 3).text, "2 to 2");
+    assert_string_equal(words_of_pair(0.799, 1.2186, 4).text, "from 0.799 to 1.219");
+    assert_string_equal(words_of_pair(0.80001, 0.80004, 4).text, "from 0.80001 to 0.80004");
 }
 
 /* Further apart than the factor, to either side. */
@@ -104,8 +119,8 @@ static void test_rejected(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_errors),
-                                       cmocka_unit_test(test_other_rubber),
-                                       cmocka_unit_test(test_rejected)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values), cmocka_unit_test(test_errors), cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_other_rubber), cmocka_unit_test(test_rejected)};
     return cmocka_run_group_tests_name("words of the answer", tests, NULL, NULL);
 }

@@ -432,7 +432,8 @@ static void test_pairs(void **state)
     t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
     says(&t, "one", "one", "one");
     tells(&t, "one U_c and k of 2 cases by thickness and wear rate: one, U_c = 12.2 GJ/m^3 "
-              "(95 %: 9.28 GJ/m^3 to 16.2 GJ/m^3), k = 0.000816 mm^3/(N m) (0.000619 to 0.00108), "
+              "(95 %: 9.28 GJ/m^3 to 16.2 GJ/m^3), k = 0.000816 mm^3/(N m) "
+              "(95 %: 0.000619 mm^3/(N m) to 0.00108 mm^3/(N m)), "
               "correlation -0.99; known least is U_c k^-1.00, to a factor of 1.48");
     wt_collection_tables_clear(&t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);

@@ -185,6 +185,7 @@ static const expectation measured[] = {
     {&comparison_schema, "modulus_ratio", "kk"},
     {&comparison_schema, "modulus_ratio_df", "00"},
     {&comparison_schema, "calibration_share", ".."}, /* one cantilever: it cancels */
+    {&comparison_schema, "spot_scatter", ".."},      /* the spots tell it */
     {&dma_comparison_schema, "temperature", "00"},
     {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},

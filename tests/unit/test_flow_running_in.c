@@ -17,7 +17,7 @@
 enum { TIMES = 8, DRAWS = 40, MOST = 3, STRIDE = GROWTH_NUMBERS + TIMES };
 static double grown[(1 + DRAWS) * STRIDE], courses[(1 + DRAWS) * TIMES];
 static growth layer[MOST];
-static recorded record = {.at = {.velocity = 0.3}, .note = ""};
+static recorded record = {.at = {.velocity = 0.3}, .running_in = (double)NAN, .note = ""};
 static double values[MOST][(1 + DRAWS) * RUN_NUMBERS];
 static course_run run[MOST];
 static run_set all;
@@ -91,7 +91,7 @@ static void test_closed(void **state)
     (void)state;
     begin();
     (void)add(0, true, true);
-    check(judged().verdict, "explains: friction is steady after 1 times");
+    check(judged().verdict, "explains: a change as the layer makes it is over after 1 times");
     (void)add(2, true, true);
     check(judged().verdict, "cannot say");
 }
@@ -124,8 +124,10 @@ static void test_open_second(void **state)
     begin();
     (void)add(0, true, false);
     (void)add(2, true, false);
-    check(judged().verdict,
-          "does not: the record ends before friction is steady, after 6.65 times");
+    check(
+        judged().verdict,
+        "does not: a change as the layer makes it is not over at the end of the record, after 6.65 "
+        "times");
 }
 
 /* One that tells no time leaves it open, and what would close it is told of that run. */
@@ -136,19 +138,40 @@ static void test_open_agrees(void **state)
     (void)add(0, true, true);
     (void)add(0, true, false);
     run_verdict said = judged();
-    check(said.verdict, "cannot say: friction is steady after 1 times the time predicted");
+    check(said.verdict,
+          "cannot say: a change as the layer makes it is over after 1 times the time predicted");
     check(said.verdict, "which not every record tells");
-    check(said.settled_by, "goes on until friction is steady");
+    check(said.settled_by, "goes on until a change as the layer makes it is over");
     begin();
     (void)add(0, false, true);
     said = judged();
-    check(said.verdict, "cannot say: friction is steady within the first cycles");
+    check(said.verdict,
+          "cannot say: a change as the layer makes it is over within the first cycles");
     check(said.settled_by, "shorter cycles at the start");
     begin();
     (void)add(0, false, false);
     said = judged();
     check(said.verdict, "tells neither the least nor the most time");
     check_not(said.verdict, "stands out");
+}
+
+/* Where the record is steady by itself that is said as another question, not against it. */
+static void test_steady_by_itself(void **state)
+{
+    (void)state;
+    begin();
+    (void)add(0, true, false);
+    check_not(judged().verdict, "friction is steady");
+    for (int early = 0; early < 2; early++) {
+        const recorded steady = {.n = 2, .running_in = early ? 0 : 295, .note = ""};
+        begin();
+        add(0, early, !early)->rec = &steady;
+        const run_verdict said = judged();
+        check(said.verdict,
+              early ? "not over at the end of the record" : "within the first cycles");
+        check(said.verdict, early ? "(by its scatter alone friction is steady from the first cycle)"
+                                  : "(by its scatter alone friction is steady after 295 cycles)");
+    }
 }
 
 /* Draws without a layer count of any run that is compared. */
@@ -178,7 +201,7 @@ static void test_share_of_variance(void **state)
         wide->value[k * RUN_NUMBERS + RUN_TIME_RATIO] =
             0.8 * flow_draw_normal(all.seed, k - 1, FLOW_DRAW_WEAR);
     const run_verdict said = judged();
-    check(said.verdict, "cannot say: friction is steady after 1 times");
+    check(said.verdict, "cannot say: a change as the layer makes it is over after 1 times");
     check(said.settled_by, "known better");
     check(said.settled_by, " % of the variance");
     check_not(said.settled_by, "nan");
@@ -204,7 +227,7 @@ static void test_change_untold(void **state)
     r->value[RUN_RATIO] = r->value[RUN_MORE] = r->value[RUN_LESS] = (double)NAN;
     const run_verdict said = judged();
     check(said.verdict, "does not: ");
-    check(said.verdict, "how much it changes is not told");
+    check(said.verdict, "how much friction changes is not told");
     check_not(said.verdict, "nan");
 }
 
@@ -230,7 +253,7 @@ static void test_short_change(void **state)
         .at = {.velocity = 0.3}, .n = CYCLES, .end = end, .friction = friction, .note = ""};
     course_run r = {.rec = &fast, .growth = &layer[0]};
     assert_int_equal(course_run_fit(&r, 1, NULL), WT_OK);
-    assert_string_equal(r.note, "it is over within the first cycles");
+    assert_string_equal(r.note, "a change as the layer makes it is over within the first cycles");
     assert_non_null(r.value);
     assert_true(r.fit.seen && r.fit.high < 0);
     course_run_clear(&r);
@@ -260,8 +283,12 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
             lapped[r][i] = 0.5 + course_at(&c, log((lap_end[i] - 2) / factor[r])) +
                            scatter * (0.5 * slow + truth_normal(&seed));
         }
-        scattered[r] = (recorded){
-            .at = {.velocity = 0.3}, .n = LAPS, .end = lap_end, .friction = lapped[r], .note = ""};
+        scattered[r] = (recorded){.at = {.velocity = 0.3},
+                                  .n = LAPS,
+                                  .end = lap_end,
+                                  .friction = lapped[r],
+                                  .running_in = (double)NAN,
+                                  .note = ""};
         run[r] = (course_run){.rec = &scattered[r], .growth = &layer[r]};
         assert_int_equal(course_run_fit(&run[r], 1, NULL), WT_OK);
     }
@@ -397,6 +424,23 @@ static void change_record(size_t rest, size_t still, size_t blank)
     free(text);
 }
 
+/* Its first rows (0: all), with the friction by which it is above 0.3 times a factor. */
+static void rewrite_record(size_t rows, double scale)
+{
+    char *const text = text_of(csv_path);
+    FILE *const out = fopen(csv_path, "wb");
+    assert_non_null(out);
+    char *line = strtok(text, "\n");
+    fprintf(out, "%s\n", line);
+    for (size_t i = 0; (rows == 0 || i < rows) && (line = strtok(NULL, "\n")) != NULL; i++) {
+        char *const friction = strrchr(line, ',') + 1;
+        fprintf(out, "%.*s%.9g\n", (int)(friction - line), line,
+                0.3 + scale * (strtod(friction, NULL) - 0.3));
+    }
+    fclose(out);
+    free(text);
+}
+
 static void run_case(size_t draws)
 {
     wt_case *read = NULL;
@@ -421,6 +465,82 @@ static void case_end(void)
 }
 
 static const char energy[] = "<critical-energy>2e+10J/m^3 +- 5%</critical-energy>";
+
+/* ---- what is said, against the table --------------------------------------------------------- */
+
+/* The text and the number say the same to the digits of the text. */
+static void check_number(const char *text, double value)
+{
+    char *end = NULL;
+    const double said = strtod(text, &end);
+    if (end == text || !(fabs(said - value) <= 5e-3 * fabs(value)))
+        fail_msg("the table has %.9g where \"%.40s\" is said", value, text);
+}
+
+/* Of "... 1.09 times X (95 %: 0.82 to 1.46)" the three numbers. */
+static void check_interval(const char *text, double value, double low, double high)
+{
+    check_number(text, value);
+    const char *const ends = strstr(text, "(95 %: "), *const to = strstr(text, " to ");
+    assert_true(ends != NULL && to != NULL && ends < to);
+    check_number(ends + strlen("(95 %: "), low);
+    check_number(to + strlen(" to "), high);
+}
+
+/* Every number of the sentence stands in the row of the one run, and of a "does not" the first
+ * that is told is outside of what is asked for. */
+static void check_sentence(double margin)
+{
+    static const char after[] = " after ", is[] = "the change of friction is ";
+    const char *const said = wt_table_key(runs, "verdict"), *const time = strstr(said, after),
+                      *const change = strstr(said, is);
+    assert_int_equal(wt_table_n_rows(runs), 1);
+    assert_true(time != NULL && change != NULL);
+    const double low = number_cell(runs, 0, "time_ratio_low"),
+                 high = number_cell(runs, 0, "time_ratio_high"),
+                 change_low = number_cell(runs, 0, "change_ratio_low"),
+                 change_high = number_cell(runs, 0, "change_ratio_high");
+    if (strstr(said, "predicted at least") != NULL)
+        check_number(time + strlen(after), low);
+    else if (strstr(said, "predicted at most") != NULL)
+        check_number(time + strlen(after), high);
+    else
+        check_interval(time + strlen(after), number_cell(runs, 0, "time_ratio"), low, high);
+    assert_int_equal(isnan(low), strstr(said, "predicted at most") != NULL);
+    assert_int_equal(isnan(high), strstr(said, "predicted at least") != NULL);
+    check_interval(change + strlen(is), number_cell(runs, 0, "change_ratio"), change_low,
+                   change_high);
+    if (strncmp(said, "does not", strlen("does not")) != 0)
+        return;
+    const double most = 1 + margin;
+    const bool by_time =
+        low > most || high<1 / most, by_change = change_low> most || change_high < 1 / most;
+    assert_true(by_time || by_change);
+    assert_true(time < change ? by_time : by_change);
+}
+
+/* The record as it is, one that ends before its change is over, and others' friction. */
+static void test_sentence_and_table(void **state)
+{
+    static const struct {
+        size_t rows;  /* of the record; 0: all */
+        double scale; /* of its friction above 0.3 */
+        const char *begins, *holds;
+    } tried[] = {{0, 1, "explains: ", "is over after"},
+                 {60, 1, "cannot say: ", "is not over at the end of the record, after"},
+                 {0, -8, "does not: the change of friction is -", "is over after"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        change_case(energy, energy);
+        change_record(0, 0, 0);
+        rewrite_record(tried[i].rows, tried[i].scale);
+        run_case(40);
+        check(wt_table_key(runs, "verdict"), tried[i].begins);
+        check(wt_table_key(runs, "verdict"), tried[i].holds);
+        check_sentence(1);
+        case_end();
+    }
+}
 
 /* Without draws no interval and no agreement is stated, and no error is 0. */
 static void test_without_draws(void **state)
@@ -507,14 +627,24 @@ static void test_before_the_first_friction(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed),        cmocka_unit_test(test_open_contradicts),
-        cmocka_unit_test(test_open_second),   cmocka_unit_test(test_open_agrees),
-        cmocka_unit_test(test_bare),          cmocka_unit_test(test_share_of_variance),
-        cmocka_unit_test(test_change_untold), cmocka_unit_test(test_short_change),
-        cmocka_unit_test(test_not_alone),     cmocka_unit_test(test_not_together),
-        cmocka_unit_test(test_together),      cmocka_unit_test(test_differ),
-        cmocka_unit_test(test_without_draws), cmocka_unit_test(test_taken_for_granted),
-        cmocka_unit_test(test_activated),     cmocka_unit_test(test_before_the_first_friction),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_open_contradicts),
+        cmocka_unit_test(test_open_second),
+        cmocka_unit_test(test_open_agrees),
+        cmocka_unit_test(test_bare),
+        cmocka_unit_test(test_share_of_variance),
+        cmocka_unit_test(test_change_untold),
+        cmocka_unit_test(test_short_change),
+        cmocka_unit_test(test_without_draws),
+        cmocka_unit_test(test_taken_for_granted),
+        cmocka_unit_test(test_activated),
+        cmocka_unit_test(test_before_the_first_friction),
+        cmocka_unit_test(test_steady_by_itself),
+        cmocka_unit_test(test_sentence_and_table),
+        cmocka_unit_test(test_not_alone),
+        cmocka_unit_test(test_not_together),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

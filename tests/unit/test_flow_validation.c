@@ -116,6 +116,23 @@ static double key_of(const wt_table *table, const char *key)
     return key_estimate(table, key).value;
 }
 
+/* Its two ends stand together, as the page calls the second "to", and have no errors that are not
+ * known: they have none of their own. */
+static void check_ends(const wt_table *table, const char *range)
+{
+    char low[64], high[64];
+    size_t i = 0;
+    wt_estimate end;
+    snprintf(low, sizeof low, "%s_low", range);
+    snprintf(high, sizeof high, "%s_high", range);
+    while (i < wt_table_n_keys(table) && strcmp(wt_table_key_name(table, i), low) != 0)
+        i++;
+    assert_true(i + 1 < wt_table_n_keys(table));
+    assert_string_equal(wt_table_key_name(table, i + 1), high);
+    assert_true(wt_table_estimate(table, low, &end) && end.standard_error == 0);
+    assert_true(wt_table_estimate(table, high, &end) && end.numerical_error == 0);
+}
+
 /* What it was made with is asked for, with and without the layer. */
 static void test_needed(void **state)
 {
@@ -292,6 +309,13 @@ static void test_choices(void **state)
                 key_of(t.validation, "friction_all_low"));
     assert_true(key_of(t.validation, "friction_kept_high") <=
                 key_of(t.validation, "friction_all_high"));
+    check_ends(t.validation, "friction_all");
+    check_ends(t.validation, "friction_kept");
+    check_ends(t.validation, "ratio");
+    check_ends(t.validation, "shear_stress_needed");
+    wt_estimate used;
+    assert_true(wt_table_estimate(t.validation, "shear_stress", &used));
+    assert_true(used.standard_error == sliding.shear_stress.standard_error);
     wt_validation_tables_clear(&t);
     wt_table_free(what_if);
     what_if = NULL;

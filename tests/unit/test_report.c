@@ -547,6 +547,104 @@ static void test_words_of_gnuplot(void **state)
     wt_result_free(result);
 }
 
+static void two_seconds(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "cpu_time", 1.7);
+}
+
+/* Beside its names a panel is narrow: numbers of four digits would stand on one another. */
+static void test_few_numbers_on_a_narrow_axis(void **state)
+{
+    (void)state;
+    const char *const table = "cost";
+    NEED_GNUPLOT();
+    wt_result *result =
+        fixture_only(&table, 1, &(fixture_change){.table = "cost", .edit = two_seconds});
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *script = read_all("out/plots/cost.gp", &length);
+    const char *const range = strstr(script, "set xrange [0:"), *const tics =
+                                                                    strstr(script, "set xtics ");
+    assert_true(range != NULL && tics != NULL);
+    const double end = strtod(range + strlen("set xrange [0:"), NULL),
+                 step = strtod(tics + strlen("set xtics "), NULL);
+    assert_true(step > 0 && end / step < 4.5);
+    free(script);
+    wt_result_free(result);
+}
+
+static bool first_row(const wt_table *table, size_t row)
+{
+    (void)table;
+    return row == 0;
+}
+
+static void long_name(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_text(copy, "member", "a_name_of_a_result_that_has_no_room_below_a_panel.h5, bulk");
+}
+
+/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart.
+ */
+static void test_cases_beside_one_another(void **state)
+{
+    static const struct {
+        const char *table, *script, *holds;
+        fixture_change change;
+    } tried[] = {{"collected_friction",
+                  "out/plots/collected_friction.gp",
+                  " with points ls 1",
+                  {.table = "collected_friction", .keep = first_row}},
+                 {"shared_members",
+                  "out/plots/shared_constants.gp",
+                  "...below_a_panel.h5, bulk",
+                  {.table = "shared_members", .edit = long_name}}};
+    (void)state;
+    NEED_GNUPLOT();
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        wt_result *result = fixture_only(&tried[i].table, 1, &tried[i].change);
+        write_report(result, "out", NULL);
+        size_t length = 0;
+        char *script = read_all(tried[i].script, &length);
+        if (strstr(script, tried[i].holds) == NULL)
+            fail_msg("%s lacks %s", tried[i].script, tried[i].holds);
+        free(script);
+        wt_result_free(result);
+    }
+}
+
+static void known_well(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "friction_coefficient", 0.6078605);
+    fixture_put(copy, "friction_coefficient_low", 0.6075830);
+    fixture_put(copy, "friction_coefficient_high", 0.6081380);
+    fixture_put(copy, "paused_time", 0);
+}
+
+/* A cell has the digits of its interval, whose ends three would print alike; zeros are of the unit
+ * without a prefix. */
+static void test_digits_of_intervals(void **state)
+{
+    (void)state;
+    static const char *const cells[] = {">0.60786</td>", ">0.60758</td>", ">0.60814</td>",
+                                        "Time paused <span class=\"unit\">(s)</span>"};
+    const char *const table = "record";
+    NEED_GNUPLOT();
+    wt_result *result =
+        fixture_only(&table, 1, &(fixture_change){.table = "record", .edit = known_well});
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+        if (strstr(page, cells[i]) == NULL)
+            fail_msg("the page lacks: %s", cells[i]);
+    free(page);
+    wt_result_free(result);
+}
+
 static void test_only_reports_are_replaced(void **state)
 {
     (void)state;
@@ -865,6 +963,11 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
                                         remove_workplace),
+        cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_cases_beside_one_another, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_digits_of_intervals, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_a_page_alone, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_modes_stay, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_leftovers, make_workplace, remove_workplace),

@@ -185,6 +185,8 @@ static void test_nothing(void **state)
     assert_true(strstr(err.advice, "--curves all") != NULL ||
                 strstr(err.advice, "libjs-dygraphs") != NULL);
     assert_int_not_equal(access("browse-none.html", F_OK), 0);
+    assert_int_equal(wt_report_check_curves(result, &err), WT_E_EMPTY);
+    assert_non_null(strstr(err.found, "24 curves, none rejected"));
     wt_result_free(result);
 }
 

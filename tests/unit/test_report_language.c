@@ -122,7 +122,8 @@ static const char *const sayers[] = {
     "draw_map",     "say_count",  "text_say",    "text_words",           "plot_key",
     "page_heading", "page_fold",  "page_table",  "page_estimates_begin", "page_estimate",
     "heading_cell", "plot_peaks", "plot_mark",   "plot_force",           "folded_table",
-    "ROWS",         "KEYS",       "COLUMNS",     "page_whole_table"};
+    "ROWS",         "KEYS",       "COLUMNS",     "page_whole_table",     "headline_rows",
+    "empty_finding"};
 
 static bool is_name(char c)
 {
@@ -170,8 +171,10 @@ static handing handing_of(const char *begin, const char *paren)
     for (size_t i = 0; i < sizeof sayers / sizeof *sayers; i++)
         if (strlen(sayers[i]) == (size_t)(paren - from) &&
             strncmp(sayers[i], from, strlen(sayers[i])) == 0)
-            return strncmp(from, "page_", 5) == 0 || strncmp(from, "folded", 6) == 0 ? HEADED
-                                                                                     : SAID;
+            return strncmp(from, "page_", 5) == 0 || strncmp(from, "folded", 6) == 0 ||
+                           strncmp(from, "empty_", 6) == 0
+                       ? HEADED
+                       : SAID;
     return NOTHING;
 }
 
@@ -225,7 +228,7 @@ static void find_texts(texts *said, texts *any)
     keep_tables(said);
     read_sources(WT_SOURCE_DIR "/src/report/*.c", any, said);
     read_sources(WT_SOURCE_DIR "/src/flow/*/*.c", any, &unused);
-    read_sources(WT_SOURCE_DIR "/src/data/*.c", any, &unused);
+    read_sources(WT_SOURCE_DIR "/src/data/*.c", any, said);
     for (size_t i = 0; i < said->n; i++)
         keep(any, said->text[i]);
     sort(said);

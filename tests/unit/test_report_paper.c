@@ -152,6 +152,34 @@ static void test_the_font_is_that_of_the_figures_and_the_page(void **state)
     wt_result_free(result);
 }
 
+/* An fc-match that has one family, whatever it is asked for. */
+static void test_a_font_that_is_not_there(void **state)
+{
+    (void)state;
+    char *const path = strdup(getenv("PATH"));
+    char instead[10] = "";
+    FILE *script = fopen("fc-match", "w");
+    assert_non_null(script);
+    /* a hyphen that is not escaped would begin a size */
+    (void)fprintf(script, "#!/bin/sh\ncase $3 in 7-*) exit 1;; esac\n"
+                          "echo 'DejaVu Sans,Sans Book'\n");
+    assert_int_equal(fclose(script), 0);
+    assert_int_equal(chmod("fc-match", 0700), 0);
+    char *const here = realpath(".", NULL);
+    assert_int_equal(setenv("PATH", here, 1), 0);
+    assert_true(wt_report_has_font(NULL, instead, sizeof instead));
+    assert_true(wt_report_has_font("dejavu sans", instead, sizeof instead));
+    assert_true(wt_report_has_font("Sans Book", instead, sizeof instead));
+    assert_false(wt_report_has_font("Sans", instead, sizeof instead));
+    assert_string_equal(instead, "DejaVu Sa");
+    assert_false(wt_report_has_font("7-", instead, sizeof instead));
+    assert_int_equal(unlink("fc-match"), 0);
+    assert_true(wt_report_has_font("Sans", instead, sizeof instead)); /* none to ask */
+    assert_int_equal(setenv("PATH", path, 1), 0);
+    free(here);
+    free(path);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -213,6 +241,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_widths_and_type, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_a_font_that_is_not_there, make_workplace,
+                                        remove_workplace),
         cmocka_unit_test_setup_teardown(test_the_font_is_that_of_the_figures_and_the_page,
                                         make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_refusals, make_workplace, remove_workplace),

@@ -519,6 +519,35 @@ static void test_layer_by_curves(void **state)
     wt_case_free(read);
 }
 
+/* One spot of each, whose scatter is given. */
+static void test_one_spot_of_each(void **state)
+{
+    (void)state;
+    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "track-1.jpk-force-map"};
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_compare_job compared = wt_compare_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_indent_tables tables[2] = {{0}};
+    wt_compare_tables both = {0};
+    common.formats = formats;
+    job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 20e-9};
+    job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
+    for (int g = 0; g < 2; g++) {
+        const wt_file_set set = {&files[g], 1, NULL, wt_read_defaults(), NULL};
+        job.sets = &set;
+        job.n_sets = 1;
+        assert_int_equal(wt_indent_group(&job, &common, &tables[g], NULL), WT_OK);
+    }
+    compared.bulk = tables[0].indentation;
+    compared.track = tables[1].indentation;
+    compared.spot_scatter = 0.1;
+    assert_int_equal(wt_compare_groups(&compared, &common, &both, NULL), WT_OK);
+    see(both.comparison);
+    wt_compare_tables_clear(&both);
+    for (int g = 0; g < 2; g++)
+        wt_indent_tables_clear(&tables[g]);
+}
+
 /* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
 static void test_spring_constants(void **state)
 {
@@ -1420,6 +1449,7 @@ int main(void)
         cmocka_unit_test(test_flash),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_layer_by_curves),
+        cmocka_unit_test(test_one_spot_of_each),
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_ramps),

@@ -96,7 +96,8 @@
       OPTIONAL)                                                                                    \
     X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT,                                       \
       LABEL("What would settle the others"), OPTIONAL)                                             \
-    X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin))
+    X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                        \
+      LABEL("Margin within which they are alike"))
 
 /* What it is the shared value of: a block for each. */
 #define SHARED_MEMBERS_COLUMNS(X)                                                                  \
@@ -165,7 +166,8 @@
       OPTIONAL)                                                                                    \
     X(SHARED_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),    \
       OPTIONAL)                                                                                    \
-    X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin))
+    X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                            \
+      LABEL("Margin within which they are alike"))
 
 /* Of every two cases of one sample or of one condition: by how much more the track of the first
  * differs from its bulk. */
@@ -192,6 +194,7 @@
     X(RATIO_PAIRS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))                \
     X(RATIO_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),     \
       OPTIONAL)                                                                                    \
-    X(RATIO_PAIRS_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin))
+    X(RATIO_PAIRS_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                          \
+      LABEL("Margin within which they are alike"))
 
 #endif

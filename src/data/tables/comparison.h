@@ -96,23 +96,28 @@
     X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)    \
     X(COMPARISON_KEY_WOULD_EXPLAIN, AS(would_explain), TEXT,                                       \
       LABEL("What else would make this ratio"), OPTIONAL)                                          \
-    X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT, SHOWS(unit))                      \
+    X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT, SHOWS(unit),                      \
+      LABEL("Unit of analysis"))                                                                   \
     X(COMPARISON_KEY_RATES, "rates_compared", TEXT, SHOWS(rates), LABEL("Rates compared"))         \
     X(COMPARISON_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                         \
       LABEL("The interval includes"), OPTIONAL)                                                    \
     X(COMPARISON_KEY_CANTILEVERS, AS(cantilevers), TEXT, LABEL("Cantilevers"))                     \
     X(COMPARISON_KEY_CANCELS, AS(cancels), TEXT, LABEL("Errors that cancel in the ratio"),         \
       OPTIONAL)                                                                                    \
-    X(COMPARISON_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin))                           \
+    X(COMPARISON_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                           \
+      LABEL("Margin within which they are alike"))                                                 \
     X(COMPARISON_KEY_RATE_SLOPE, AS(rate_slope), NUMBER, LABEL("Slope of ln E against ln rate"),   \
       OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_INTERACTION_P, AS(interaction_p), NUMBER,                                     \
       LABEL("p of one slope in both groups"), OPTIONAL)                                            \
-    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, SHOWS(ratio), OPTIONAL)               \
+    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, SHOWS(ratio), LABEL("Modulus ratio"), \
+      OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, SHOWS(ratio_df),                \
       LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \
-      LABEL("Share of calibration and temperature in it"), OPTIONAL)
+      LABEL("Share of calibration and temperature in it"), OPTIONAL)                               \
+    X(COMPARISON_KEY_SPOT_SCATTER, AS(spot_scatter), NUMBER,                                       \
+      LABEL("Scatter from spot to spot, as given"), OPTIONAL)
 
 /* Measured, and of layers that have the ratio of the moduli at the depth of the curves. */
 #define TRACK_LAYER_COLUMNS(X)                                                                     \
@@ -138,7 +143,8 @@
     X(TRACK_LAYER_KEY_LOW, "thickness_low", SI(LENGTH), SHOWS(low),                                \
       LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
     X(TRACK_LAYER_KEY_HIGH, "thickness_high", SI(LENGTH), SHOWS(high), LABEL("to"), OPTIONAL)      \
-    X(TRACK_LAYER_KEY_LEAST, "thinnest_tried", SI(LENGTH), SHOWS(least), OPTIONAL)                 \
+    X(TRACK_LAYER_KEY_LEAST, "thinnest_tried", SI(LENGTH), SHOWS(least),                           \
+      LABEL("Thinnest that was tried"), OPTIONAL)                                                  \
     X(TRACK_LAYER_KEY_RATIO, "layer_to_bulk", NUMBER, SHOWS(layer_ratio),                          \
       LABEL("Modulus of such a layer over that of the bulk"), OPTIONAL)                            \
     X(TRACK_LAYER_KEY_OTHER, "other_thickness", SI(LENGTH), SHOWS(other),                          \
@@ -149,8 +155,9 @@
     X(TRACK_LAYER_KEY_OTHER_FROM, AS(other_from), TEXT, LABEL("Where that is from"), OPTIONAL)     \
     X(TRACK_LAYER_KEY_BOTH_LOW, AS(both_low), SI(LENGTH), LABEL("Both allow from"), OPTIONAL)      \
     X(TRACK_LAYER_KEY_BOTH_HIGH, AS(both_high), SI(LENGTH), LABEL("to"), OPTIONAL)                 \
-    X(TRACK_LAYER_KEY_OVER_LOW, AS(over_low), NUMBER, OPTIONAL)                                    \
-    X(TRACK_LAYER_KEY_OVER_HIGH, AS(over_high), NUMBER, OPTIONAL)
+    X(TRACK_LAYER_KEY_OVER_LOW, AS(over_low), NUMBER, LABEL("Otherwise over by the curves, from"), \
+      OPTIONAL)                                                                                    \
+    X(TRACK_LAYER_KEY_OVER_HIGH, AS(over_high), NUMBER, LABEL("to"), OPTIONAL)
 
 #define MODULUS_RATE_COLUMNS(X)                                                                    \
     X(MODULUS_RATE_GROUP, AS(group), "bulk or track", TEXT)                                        \

@@ -43,7 +43,8 @@
     X(FRICTION_MAP_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"))                            \
     X(FRICTION_MAP_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),           \
       LABEL("Beyond what was measured"), OPTIONAL)                                                 \
-    X(FRICTION_MAP_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
+    X(FRICTION_MAP_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),         \
+      LABEL("Numerical statement"), OPTIONAL)
 
 #define FRICTION_DECADES_COLUMNS(X)                                                                \
     X(FRICTION_DECADES_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                   \

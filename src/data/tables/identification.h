@@ -41,9 +41,9 @@
     X(IDENTIFICATION_KEY_RATIO, "formation_wear_ratio", NUMBER,                                    \
       LABEL("Formation rate over wear rate, R"))                                                   \
     X(IDENTIFICATION_KEY_AGREES, "agreement", TEXT, LABEL("Running-in against wear"), OPTIONAL)    \
-    X(IDENTIFICATION_KEY_VELOCITY, "velocity", SI(VELOCITY))                                       \
-    X(IDENTIFICATION_KEY_PRESSURE, "pressure", SI(PRESSURE))                                       \
-    X(IDENTIFICATION_KEY_THICKNESS, "observed_thickness", SI(LENGTH))                              \
+    X(IDENTIFICATION_KEY_VELOCITY, "velocity", SI(VELOCITY), LABEL("Velocity"))                    \
+    X(IDENTIFICATION_KEY_PRESSURE, "pressure", SI(PRESSURE), LABEL("Pressure"))                    \
+    X(IDENTIFICATION_KEY_THICKNESS, "observed_thickness", SI(LENGTH), LABEL("Observed thickness")) \
     X(IDENTIFICATION_KEY_INCLUDES, "standard_error_includes", TEXT,                                \
       LABEL("Standard errors include"))                                                            \
     X(IDENTIFICATION_KEY_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"), OPTIONAL)

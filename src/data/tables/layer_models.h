@@ -48,7 +48,7 @@
                           "friction coefficient; without a shear stress nan", NUMBER,              \
                           SHOWS(friction))
 #define RUNNING_IN_KEYS(X)                                                                         \
-    X(RUNNING_IN_KEY_VELOCITY, AS(velocity), SI(VELOCITY))                                         \
+    X(RUNNING_IN_KEY_VELOCITY, AS(velocity), SI(VELOCITY), LABEL("Velocity"))                      \
     X(RUNNING_IN_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER,                                     \
       LABEL("Modulus of the layer over that of the bulk"), OPTIONAL)                               \
     X(RUNNING_IN_KEY_BARE, "bare_friction", NUMBER, SHOWS(bare),                                   \
@@ -97,7 +97,8 @@
       LABEL("Balance if the layer did not act back"))                                              \
     X(LAYER_BALANCES_KEY_RATIO, "bare_formation_wear_ratio", NUMBER, SHOWS(ratio),                 \
       LABEL("Formation over wear on a bare surface, R"))                                           \
-    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, OPTIONAL)                       \
+    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, LABEL("Modulus ratio"),         \
+      OPTIONAL)                                                                                    \
     X(LAYER_BALANCES_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
     X(LAYER_BALANCES_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
     X(LAYER_BALANCES_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \

@@ -52,6 +52,7 @@
       LABEL("It does not include"), OPTIONAL)                                                      \
     X(MATERIAL_RATIO_KEY_OUTSIDE, AS(outside), TEXT, LABEL("Not compared: measured of one alone"), \
       OPTIONAL)                                                                                    \
-    X(MATERIAL_RATIO_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin))
+    X(MATERIAL_RATIO_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                       \
+      LABEL("Margin within which they are alike"))
 
 #endif

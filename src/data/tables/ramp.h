@@ -65,7 +65,7 @@
       SHOWS(loss_energy), LABEL("Activation energy of the peak of the loss modulus"), OPTIONAL)    \
     X(GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),        \
       LABEL("at the angular frequency"), OPTIONAL)                                                 \
-    X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), TEXT)
+    X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), TEXT, LABEL("Deformation"))
 
 #define MODULI_AT_COLUMNS(X)                                                                       \
     X(MODULI_AT_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE),                      \

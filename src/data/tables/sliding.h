@@ -35,12 +35,13 @@
 
 /* The last seven with a layer only. */
 #define FRICTION_KEYS(X)                                                                           \
-    X(FRICTION_KEY_PRESSURE, AS(pressure), SI(PRESSURE))                                           \
-    X(FRICTION_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                                  \
+    X(FRICTION_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Pressure"))                        \
+    X(FRICTION_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE), LABEL("Temperature"))            \
     X(FRICTION_KEY_SHEAR_STRESS, AS(shear_stress), SI(PRESSURE),                                   \
       LABEL("Shear stress of the real contact"))                                                   \
     X(FRICTION_KEY_GAMMA, AS(gamma), PLAIN, LABEL("Factor gamma of partial contact"))              \
-    X(FRICTION_KEY_REFERENCE_VELOCITY, AS(reference_velocity), SI(VELOCITY))                       \
+    X(FRICTION_KEY_REFERENCE_VELOCITY, AS(reference_velocity), SI(VELOCITY),                       \
+      LABEL("Reference velocity"))                                                                 \
     X(FRICTION_KEY_FRICTION, "friction_at_reference", NUMBER, SHOWS(total),                        \
       HEADLINE("Friction coefficient"))                                                            \
     X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER, SHOWS(hysteresis),               \
@@ -51,14 +52,16 @@
       LABEL("Standard errors include"))                                                            \
     X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
       LABEL("No error known of"), OPTIONAL)                                                        \
-    X(FRICTION_KEY_REPLICATES, AS(replicates), PLAIN)                                              \
+    X(FRICTION_KEY_REPLICATES, AS(replicates), PLAIN, LABEL("Replicates"))                         \
     X(FRICTION_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"), OPTIONAL)                      \
-    X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)     \
+    X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),               \
+      LABEL("Material statement"), OPTIONAL)                                                       \
     X(FRICTION_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)       \
     X(FRICTION_KEY_STRAIN, AS(strain), NUMBER, LABEL("Largest strain met"), OPTIONAL)              \
     X(FRICTION_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),      \
       OPTIONAL)                                                                                    \
-    X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)   \
+    X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),             \
+      LABEL("Numerical statement"), OPTIONAL)                                                      \
     X(FRICTION_KEY_AREA_LAW, AS(area_law), TEXT, LABEL("Contact area in partial contact"),         \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_FLASH, "flash_temperature", TEXT, SHOWS(flash), LABEL("Flash temperature"),     \
@@ -77,8 +80,10 @@
       LABEL("Change of the hysteresis in % by 1 % of pressure"), OPTIONAL)                         \
     X(FRICTION_KEY_BY_CUTOFF, "sensitivity_to_cutoff", NUMBER, SHOWS(by_cutoff),                   \
       LABEL("Change of the hysteresis in % by 1 % of the largest wavenumber"), OPTIONAL)           \
-    X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), OPTIONAL)                     \
-    X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER, OPTIONAL)                 \
+    X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), LABEL("Layer thickness"),     \
+      OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER,                           \
+      LABEL("Layer modulus ratio"), OPTIONAL)                                                      \
     X(FRICTION_KEY_LAYER_MODULI, AS(layer_moduli), TEXT, LABEL("Moduli of the layer"), OPTIONAL)   \
     X(FRICTION_KEY_LAYER_SLOPE, "layer_ratio_slope", NUMBER, SHOWS(layer_slope),                   \
       LABEL("Slope of the modulus ratio with the frequency"), OPTIONAL)                            \
@@ -225,28 +230,33 @@
       LABEL("Relative change of the thickness per relative change of the wear rate"), OPTIONAL)    \
     X(LAYER_KEY_FORMATION_WEAR_RATIO, "formation_wear_ratio", NUMBER,                              \
       LABEL("Formation rate over wear rate, R"))                                                   \
-    X(LAYER_KEY_INCUBATION_TIME, "incubation_time", SI(TIME))                                      \
-    X(LAYER_KEY_RELAXATION_TIME, "relaxation_time", SI(TIME))                                      \
-    X(LAYER_KEY_CRITICAL_WEAR_RATE, "critical_specific_wear_rate", SI(WEAR_RATE))                  \
+    X(LAYER_KEY_INCUBATION_TIME, "incubation_time", SI(TIME), LABEL("Incubation time"))            \
+    X(LAYER_KEY_RELAXATION_TIME, "relaxation_time", SI(TIME), LABEL("Relaxation time"))            \
+    X(LAYER_KEY_CRITICAL_WEAR_RATE, "critical_specific_wear_rate", SI(WEAR_RATE),                  \
+      LABEL("Critical specific wear rate"))                                                        \
     X(LAYER_KEY_REMOVAL_TIME, "removal_time", SI(TIME),                                            \
       LABEL("Time until wear has removed the layer at the start"), OPTIONAL)                       \
-    X(LAYER_KEY_CRITICAL_ENERGY, "critical_energy", SI(ENERGY_DENSITY))                            \
-    X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"))                                     \
+    X(LAYER_KEY_CRITICAL_ENERGY, "critical_energy", SI(ENERGY_DENSITY), LABEL("Critical energy"))  \
+    X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"), LABEL("Surface power"))             \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
       LABEL("Time to 90 % of the balance thickness"))                                              \
     X(LAYER_KEY_REGIME, AS(regime), TEXT, HEADLINE("Regime of the layer"))                         \
-    X(LAYER_KEY_VELOCITY, AS(velocity), SI(VELOCITY))                                              \
-    X(LAYER_KEY_PRESSURE, AS(pressure), SI(PRESSURE))                                              \
-    X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE), SHOWS(wear_rate))                  \
-    X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), SHOWS(observed), OPTIONAL)   \
-    X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), TEXT)                              \
-    X(LAYER_KEY_DAMAGE, AS(damage), PLAIN)                                                         \
-    X(LAYER_KEY_DUTY, AS(duty), PLAIN)                                                             \
+    X(LAYER_KEY_VELOCITY, AS(velocity), SI(VELOCITY), LABEL("Velocity"))                           \
+    X(LAYER_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Pressure"))                           \
+    X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE), SHOWS(wear_rate),                  \
+      LABEL("Specific wear rate"))                                                                 \
+    X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), SHOWS(observed),             \
+      LABEL("Observed thickness"), OPTIONAL)                                                       \
+    X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), TEXT,                              \
+      LABEL("Critical energy from"))                                                               \
+    X(LAYER_KEY_DAMAGE, AS(damage), PLAIN, LABEL("Damage"))                                        \
+    X(LAYER_KEY_DUTY, AS(duty), PLAIN, LABEL("Duty"))                                              \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),                  \
       LABEL("Standard errors include"))                                                            \
     X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                           \
       LABEL("No error known of"), OPTIONAL)                                                        \
-    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)        \
+    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),                  \
+      LABEL("Material statement"), OPTIONAL)                                                       \
     X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
     X(LAYER_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),         \
       OPTIONAL)                                                                                    \
@@ -266,7 +276,8 @@
       OPTIONAL)                                                                                    \
     X(LAYER_KEY_SEVERE_WEAR_RATE, "severe_wear_rate", SI(WEAR_RATE), SHOWS(severe),                \
       LABEL("Specific wear rate at this power"), OPTIONAL)                                         \
-    X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical), OPTIONAL)
+    X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),                \
+      LABEL("Numerical statement"), OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \
     X(ENERGY_DENSITY_DEPTH, AS(depth), "depth below the surface", SI(LENGTH))                      \

@@ -78,7 +78,7 @@
       OPTIONAL)                                                                                    \
     X(SHIFT_FACTORS_KEY_STEP_LEFT, "step_left", PLAIN,                                             \
       LABEL("Not settled: a further step moves a number by up to (standard errors)"), OPTIONAL)    \
-    X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
+    X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT, LABEL("Deformation"))                    \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
       HEADLINE("Time-temperature superposition"))                                                  \
     X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, LABEL("Lack of fit, p"), OPTIONAL)  \
@@ -133,7 +133,7 @@
     X(COMMON_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                                 \
     X(COMMON_LAW_KEY_FURTHEST, "furthest", NUMBER,                                                 \
       LABEL("Own laws against it, furthest limit (decades)"), OPTIONAL)                            \
-    X(COMMON_LAW_KEY_MARGIN, "margin", PLAIN)                                                      \
+    X(COMMON_LAW_KEY_MARGIN, "margin", PLAIN, LABEL("Margin within which they are alike"))         \
     X(COMMON_LAW_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                          \
     X(COMMON_LAW_KEY_MOVED, "each_moved", TEXT, LABEL("Reference temperature of each sample"))     \
     X(COMMON_LAW_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),              \
@@ -237,12 +237,12 @@
     X(PRONY_KEY_EQUILIBRIUM_LIMIT, "equilibrium_modulus_limit", SI(MODULUS), SHOWS(limit),         \
       LABEL("Equilibrium modulus at most (95 %)"), OPTIONAL)                                       \
     X(PRONY_KEY_REFERENCE_TEMPERATURE, IN(series, reference_temperature), SI(TEMPERATURE),         \
-      OPTIONAL)                                                                                    \
+      OPTIONAL, LABEL("Reference temperature"))                                                    \
     X(PRONY_KEY_FREQUENCY_MIN, IN(series, frequency_min), SI(ANGULAR_FREQUENCY),                   \
       LABEL("Lowest angular frequency measured"), OPTIONAL)                                        \
     X(PRONY_KEY_FREQUENCY_MAX, IN(series, frequency_max), SI(ANGULAR_FREQUENCY),                   \
       LABEL("Highest angular frequency measured"), OPTIONAL)                                       \
-    X(PRONY_KEY_DEFORMATION, AS(deformation), TEXT)                                                \
+    X(PRONY_KEY_DEFORMATION, AS(deformation), TEXT, LABEL("Deformation"))                          \
     X(PRONY_KEY_RMS_STORAGE, "rms_storage", PLAIN, SHOWS(noise_storage),                           \
       LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
     X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, SHOWS(noise_loss),                                    \
@@ -280,12 +280,13 @@
       LABEL("Half of the 95 % interval of the storage modulus where it is widest, relative"))      \
     X(PRONY_REDUCED_KEY_INTERVAL_LOSS, "interval_loss", PLAIN,                                     \
       LABEL("Half of the 95 % interval of the loss modulus where it is widest, relative"))         \
-    X(PRONY_REDUCED_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))           \
+    X(PRONY_REDUCED_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),           \
+      LABEL("Reference temperature"))                                                              \
     X(PRONY_REDUCED_KEY_FREQUENCY_MIN, "frequency_min", SI(ANGULAR_FREQUENCY),                     \
       LABEL("Lowest angular frequency it holds for"))                                              \
     X(PRONY_REDUCED_KEY_FREQUENCY_MAX, "frequency_max", SI(ANGULAR_FREQUENCY),                     \
       LABEL("Highest angular frequency it holds for"))                                             \
-    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", TEXT)                                          \
+    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", TEXT, LABEL("Deformation"))                    \
     X(PRONY_REDUCED_KEY_ZENER, "fractional_zener", TEXT,                                           \
       LABEL("Fractional Zener law through the same points"), OPTIONAL)                             \
     X(PRONY_REDUCED_KEY_BETTER, "better", TEXT, LABEL("What describes the points better"), OPTIONAL)

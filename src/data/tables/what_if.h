@@ -28,8 +28,10 @@
 
 #define WHAT_IF_KEYS(X)                                                                            \
     X(WHAT_IF_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Choices that do not apply"), OPTIONAL)        \
-    X(WHAT_IF_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                        \
-    X(WHAT_IF_KEY_EXTRAPOLATED_SHARE, "extrapolated_share", NUMBER, OPTIONAL)                      \
+    X(WHAT_IF_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, LABEL("Material statement"),     \
+      OPTIONAL)                                                                                    \
+    X(WHAT_IF_KEY_EXTRAPOLATED_SHARE, "extrapolated_share", NUMBER, LABEL("Extrapolated share"),   \
+      OPTIONAL)                                                                                    \
     X(WHAT_IF_KEY_SHARE_BEYOND, "share_beyond_reliable", NUMBER,                                   \
       LABEL("Share of the hysteresis from waves beyond the reliable range of the surface"),        \
       OPTIONAL)

@@ -79,6 +79,49 @@ static wt_status make_units(const wt_group *group, bool use_spots, pool *memory,
     return WT_OK;
 }
 
+typedef struct cell {
+    long spot, rate_class;
+    double log_modulus;
+} cell;
+
+static int by_cell(const void *a, const void *b)
+{
+    const cell *x = a, *y = b;
+    if (x->spot != y->spot)
+        return x->spot < y->spot ? -1 : 1;
+    if (x->rate_class != y->rate_class)
+        return x->rate_class < y->rate_class ? -1 : 1;
+    return (x->log_modulus > y->log_modulus) - (x->log_modulus < y->log_modulus);
+}
+
+/* Variance of the mean of a group by its curves alone, which scatter about the mean of their spot
+ * and rate; 0 where no two of them share both. */
+static double curve_variance(const wt_group *group, pool *memory)
+{
+    cell *cells = pool_alloc(memory, group->n, sizeof *cells);
+    double sum = 0, freedom = 0;
+    if (group->spot == NULL)
+        return 0; /* each is a spot */
+    if (cells == NULL)
+        return (double)NAN;
+    for (size_t i = 0; i < group->n; i++)
+        cells[i] = (cell){group->spot[i], group->rate_class != NULL ? group->rate_class[i] : 0,
+                          log(group->modulus[i])};
+    qsort(cells, group->n, sizeof *cells, by_cell);
+    for (size_t first = 0, end; first < group->n; first = end) {
+        double mean = 0;
+        for (end = first; end < group->n && cells[end].spot == cells[first].spot &&
+                          cells[end].rate_class == cells[first].rate_class;
+             end++)
+            mean += cells[end].log_modulus;
+        mean /= (double)(end - first);
+        for (size_t i = first; i < end; i++)
+            sum += pow(cells[i].log_modulus - mean, 2);
+        freedom += (double)(end - first) - 1;
+    }
+    return freedom > 0 ? sum / freedom / (double)group->n : 0;
+}
+
 static wt_status summarise_group(const wt_group *group, const units *u, pool *memory,
                                  wt_group_summary *summary, wt_error *err)
 {
@@ -97,12 +140,18 @@ static wt_status summarise_group(const wt_group *group, const units *u, pool *me
         .standard_deviation = sqrt(curves.variance),
         .geometric_mean = exp(logs.mean),
         .log_standard_error = sqrt(logs.variance / logs.n),
+        .df = logs.n - 1,
         .low = (double)NAN,
         .high = (double)NAN,
         .median = group->n % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]),
     };
-    if (u->n > 1) {
-        double reach = students_t_quantile(logs.n - 1.0) * summary->log_standard_error;
+    if (u->n == 1 && group->spot_scatter > 0) {
+        summary->log_standard_error =
+            sqrt(group->spot_scatter * group->spot_scatter + curve_variance(group, memory));
+        summary->df = (double)INFINITY;
+    }
+    if (!isnan(summary->log_standard_error)) {
+        const double reach = students_t_quantile(summary->df) * summary->log_standard_error;
         summary->low = exp(logs.mean - reach);
         summary->high = exp(logs.mean + reach);
     }
@@ -138,11 +187,18 @@ static wt_status summarise_both(const wt_group *const groups[2], pool *memory, w
     return status;
 }
 
-static wt_unsettled why_unsettled(const compare_units *u)
+/* Whether the spots do not tell how much they scatter. */
+static bool few_spots(const compare_units *u)
 {
     const size_t fewer = u->n[0] < u->n[1] ? u->n[0] : u->n[1],
                  more = u->n[0] < u->n[1] ? u->n[1] : u->n[0];
-    if (fewer < 2 && (more < COMPARE_MANY_SPOTS || u->rates_by == WT_RATES_BETWEEN))
+    return fewer < 2 && more < COMPARE_MANY_SPOTS;
+}
+
+static wt_unsettled why_unsettled(const compare_units *u, double spot_scatter)
+{
+    const bool lone = u->n[0] < 2 || u->n[1] < 2;
+    if ((few_spots(u) && !(spot_scatter > 0)) || (lone && u->rates_by == WT_RATES_BETWEEN))
         return WT_ONE_SPOT;
     if (!u->known)
         return WT_RATES_APART;
@@ -161,11 +217,15 @@ static void put_effect(moments a, moments b, wt_comparison *c)
                          : (double)NAN;
 }
 
-static void put_interval(const compare_units *u, moments a, moments b, double known,
+/* given: variance of the difference of spots that do not tell it. */
+static void put_interval(const compare_units *u, moments a, moments b, double known, double given,
                          wt_comparison *c)
 {
     const t_error shift = {sqrt(u->shift_variance), u->slope_df};
     t_error e = compare_welch(a, b, shift, known);
+    c->scatter_given = few_spots(u);
+    if (c->scatter_given)
+        e = t_error_with(shift, known + given);
     if (c->rates_by == WT_RATES_BETWEEN)
         e = t_error_with((t_error){u->between_error, u->between_df}, known);
     const double reach = students_t_quantile(e.df) * e.error;
@@ -174,18 +234,21 @@ static void put_interval(const compare_units *u, moments a, moments b, double kn
     c->ratio_low = exp(c->log_ratio.value - reach);
     c->ratio_high = exp(c->log_ratio.value + reach);
     c->t = c->log_ratio.value / e.error;
-    c->p = 2.0 * gsl_cdf_tdist_Q(fabs(c->t), e.df);
+    c->p =
+        2.0 * (isinf(e.df) ? gsl_cdf_ugaussian_Q(fabs(c->t)) : gsl_cdf_tdist_Q(fabs(c->t), e.df));
     c->known_share = known / (e.error * e.error);
 }
 
-static wt_status compare_values(const compare_units *u, const wt_estimate *offset, pool *memory,
-                                wt_comparison *c, wt_error *err)
+static wt_status compare_values(const compare_units *u, const wt_estimate *offset,
+                                const wt_group *const groups[2], pool *memory, wt_comparison *c,
+                                wt_error *err)
 {
     const moments a = moments_of(u->value[0], u->n[0]);
     const moments b = moments_of(u->value[1], u->n[1]);
     const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
-    c->unsettled = why_unsettled(u);
-    if (c->unsettled == WT_SETTLED && !(a.variance > 0.0) && !(b.variance > 0.0)) {
+    const double spot_scatter = fmax(groups[0]->spot_scatter, groups[1]->spot_scatter);
+    c->unsettled = why_unsettled(u, spot_scatter);
+    if (c->unsettled == WT_SETTLED && !few_spots(u) && !(a.variance > 0.0) && !(b.variance > 0.0)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
         wt_error_advice(err, "measured moduli scatter; are these values copies of one curve?");
@@ -198,7 +261,14 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
     put_effect(a, b, c);
     if (c->unsettled != WT_SETTLED)
         return WT_OK;
-    put_interval(u, a, b, known, c);
+    double given = 0;
+    if (few_spots(u))
+        for (int g = 0; g < 2; g++)
+            given += spot_scatter * spot_scatter / (double)u->n[g] +
+                     (c->by_spot ? curve_variance(groups[g], memory) : 0);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the scatter of curves");
+    put_interval(u, a, b, known, given, c);
     return compare_ranks(u, memory, c, err);
 }
 
@@ -232,7 +302,7 @@ wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estim
         c.rates_by = u.rates_by;
         c.rate_slope = (wt_estimate){u.slope, u.slope_error, 0.0, "1"};
         c.interaction_p = u.interaction_p;
-        status = compare_values(&u, offset, &memory, &c, err);
+        status = compare_values(&u, offset, groups, &memory, &c, err);
     }
     pool_free(&memory);
     if (status == WT_OK)

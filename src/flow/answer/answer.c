@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/number.h"
 
 #include <ctype.h>
@@ -179,15 +180,25 @@ static void list_evidence(const answer_story *story, char *text, size_t size)
 {
     const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = over_all(story, COMPARISON_MANN_WHITNEY_SMALLEST_P);
+    const double scatter =
+        comparison_value(&story->found.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
+    const double n[] = {over_all(story, COMPARISON_SPOTS_BULK),
+                        over_all(story, COMPARISON_SPOTS_TRACK)};
     char least[96] = "";
+    if (scatter > 0) {
+        clocale_print(text, size,
+                      "%.0f spot%s in the bulk and %.0f in the track, which scatter by %.3g %% as "
+                      "given; p %s",
+                      n[0], n[0] > 1 ? "s" : "", n[1], 100 * scatter,
+                      number_chance(over_all(story, COMPARISON_WELCH_P)).text);
+        return;
+    }
     if (smallest > 0.05)
         clocale_print(least, sizeof least, ", which cannot be below %.2g with so few", smallest);
     clocale_print(text, size,
                   "%.0f %s in the bulk and %.0f in the track; p %s by Welch, %s by "
                   "Mann and Whitney%s",
-                  over_all(story, COMPARISON_SPOTS_BULK),
-                  strncmp(unit, "curve", 5) == 0 ? "curves" : "spots",
-                  over_all(story, COMPARISON_SPOTS_TRACK),
+                  n[0], strncmp(unit, "curve", 5) == 0 ? "curves" : "spots", n[1],
                   number_chance(over_all(story, COMPARISON_WELCH_P)).text,
                   number_chance(over_all(story, COMPARISON_MANN_WHITNEY_P)).text, least);
 }
@@ -276,9 +287,9 @@ static void say_rates(const answer_story *story)
     }
     if (n >= 2)
         answer_say(story, how_different, "difference",
-                   "Rate by rate (%zu indentation rates) the ratio is %.3g to %.3g; the "
+                   "Rate by rate (%zu indentation rates) the ratio is %s; the "
                    "largest p after Holm's correction is %s.",
-                   n, low, high, number_chance(largest_p).text);
+                   n, ends_of(low, high, 3).text, number_chance(largest_p).text);
 }
 
 static void say_dma(const answer_story *story)
@@ -315,8 +326,10 @@ static void answer_difference(answer_story *story)
     } else {
         const finding ratio = finding_of_ratio(&story->found);
         const double effect = over_all(story, COMPARISON_EFFECT_SIZE);
-        char size[96] = "; an interval cannot be told, for the reason above";
-        if (!isnan(effect))
+        char size[96] = "";
+        if (isnan(ratio.low))
+            snprintf(size, sizeof size, "; an interval cannot be told, for the reason above");
+        else if (!isnan(effect))
             clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
         char rates[256] = "";
         telling t = {rates, sizeof rates, 0};
@@ -401,9 +414,9 @@ static void answer_thickness(answer_story *story)
             story, how_thick, "thickness",
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
-            "below %.3g mm^3/(N m).",
+            "below %s.",
             velocity.text, pressure.text, words.text, ratio.text,
-            MM3_PER_N_M * layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value);
+            words_of(layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value, "m^2/N").text);
     else if (isinf(thickness.number.value))
         answer_say(story, how_thick, "thickness",
                    "%s; the table layer gives its thickness in time.",

@@ -36,10 +36,12 @@ static told_pair pair_at(const table_view *v, size_t row, unsigned energy, unsig
 /* Numbers of which each is known hang together: what they leave open is one combination of them. */
 static void tell_pair(telling *t, const told_pair *p)
 {
-    tell(t, "U_c = %s (95 %%: %s to %s), k = %.3g mm^3/(N m) (%.3g to %.3g)",
-         words_of(p->energy, "J/m^3").text, words_of(p->energy_low, "J/m^3").text,
-         words_of(p->energy_high, "J/m^3").text, MM3_PER_N_M * p->wear, MM3_PER_N_M * p->wear_low,
-         MM3_PER_N_M * p->wear_high);
+    tell(t, "U_c = %s, k = %s",
+         words_between((wt_estimate){.value = p->energy, .unit = "J/m^3"}, p->energy_low,
+                       p->energy_high)
+             .text,
+         words_between((wt_estimate){.value = p->wear, .unit = "m^2/N"}, p->wear_low, p->wear_high)
+             .text);
     if (!isnan(p->correlation))
         tell(t, ", correlation %.2f", p->correlation);
     if (isfinite(p->loose_error) && p->loose_error > 0)
@@ -59,8 +61,8 @@ void tell_identification(telling *t, const table_view *v)
         const told_pair p = pair_at(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
         tell(t, "%sby %s ", i > 1 ? "; " : "", identification_text(v, i, IDENTIFICATION_BY));
         if (isnan(p.energy_low))
-            tell(t, "U_c = %s, k = %.3g mm^3/(N m) (%s)", words_of(p.energy, "J/m^3").text,
-                 MM3_PER_N_M * p.wear, identification_text(v, i, IDENTIFICATION_NOTE));
+            tell(t, "U_c = %s, k = %s (%s)", words_of(p.energy, "J/m^3").text,
+                 words_of(p.wear, "m^2/N").text, identification_text(v, i, IDENTIFICATION_NOTE));
         else
             tell_pair(t, &p);
     }

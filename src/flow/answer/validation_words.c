@@ -1,5 +1,6 @@
 /* What the answer says of measured against predicted friction.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/ends.h"
 #include "flow/answer/story.h"
 
 #include <ctype.h>
@@ -15,13 +16,13 @@ void tell_verdict(telling *t, const table_view *v)
 
 void tell_needed(telling *t, const table_view *v)
 {
-    const double needed = validation_value(v, VALIDATION_KEY_NEEDED).value;
-    if (isnan(needed))
+    const wt_estimate needed = validation_value(v, VALIDATION_KEY_NEEDED);
+    if (isnan(needed.value))
         return;
-    tell(t, "the record asks for a shear stress of %s (95 %%: %s to %s); plausible: %s",
-         words_of(needed, "Pa").text,
-         words_of(validation_value(v, VALIDATION_KEY_NEEDED_LOW).value, "Pa").text,
-         words_of(validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value, "Pa").text,
+    tell(t, "the record asks for a shear stress of %s; plausible: %s",
+         words_between(needed, validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
+                       validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value)
+             .text,
          validation_words(v, VALIDATION_KEY_PLAUSIBLE));
 }
 
@@ -31,22 +32,16 @@ void tell_running_in_verdict(telling *t, const table_view *v)
          validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
 }
 
-/* Of m^2/N, as wear is told. */
-static const double mm3_per_n_m = 1e9;
-
 void tell_wear_needed(telling *t, const table_view *v)
 {
-    const double wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value,
-                 low = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
-                 high = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value;
-    if (isnan(wear))
+    const wt_estimate wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR);
+    if (isnan(wear.value))
         return;
-    tell(t, "the running-in time asks for k = %.3g mm^3/(N m)", mm3_per_n_m * wear);
-    if (isnan(low) || isnan(high))
-        tell(t, " (error not known)");
-    else
-        tell(t, " (95 %%: %.3g to %.3g)", mm3_per_n_m * low, mm3_per_n_m * high);
-    tell(t, " with U_c = %s, the thickness as predicted",
+    tell(t, "the running-in time asks for k = %s with U_c = %s, the thickness as predicted",
+         words_between(wear,
+                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
+                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value)
+             .text,
          words_between(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY),
                        validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
                        validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value)
@@ -58,7 +53,7 @@ static void say_running_in(const answer_story *story)
     const table_view *const v = &story->validation_running_in;
     if (v->table == NULL)
         return;
-    char text[700];
+    char text[800];
     telling t = {text, sizeof text, 0};
     const char *const settled =
                           validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
@@ -92,7 +87,7 @@ static void say_needed(const answer_story *story, const table_view *v)
         return;
     text[0] = (char)toupper((unsigned char)text[0]);
     if (shape != NULL)
-        tell(&t, ". With it the theory %s", shape);
+        tell(&t, ". The verdict with it: %s", shape);
     answer_say(story, question, "validation", "%s.", text);
 }
 
@@ -114,9 +109,9 @@ static void say_narrowed(const answer_story *story, const table_view *v)
     if (isnan(kept[0]))
         return;
     answer_say(story, question, "validation",
-               "Over the choices of the model the friction at the reference velocity is %.3g to "
-               "%.3g; over those that the record leaves, %.3g to %.3g.",
-               all[0], all[1], kept[0], kept[1]);
+               "Over the choices of the model the friction at the reference velocity is %s; over "
+               "those that the record leaves, %s.",
+               ends_of(all[0], all[1], 3).text, ends_of(kept[0], kept[1], 3).text);
 }
 
 void answer_validation(const answer_story *story)

@@ -2,6 +2,7 @@
 #include "flow/answer/words.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/normal.h"
 #include "base/number.h"
 #include "weartrack/fit.h"
@@ -21,6 +22,17 @@ void tell(telling *t, const char *format, ...)
     t->used += n > 0 ? (size_t)n : 0;
 }
 
+/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
+#define MM3_PER_N_M 1e9
+
+static void print_plain(double value, int digits, number_words *words)
+{
+    clocale_print(words->text, sizeof words->text, "%#.*g", digits, value);
+    const size_t length = strlen(words->text);
+    if (words->text[length - 1] == '.') /* all digits before it */
+        words->text[length - 1] = '\0';
+}
+
 static number_words words_with(double value, const char *unit, int digits)
 {
     number_words words = {""};
@@ -28,11 +40,11 @@ static number_words words_with(double value, const char *unit, int digits)
         snprintf(words.text, sizeof words.text, "not known");
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
-    else if (strcmp(unit, "1") == 0) {
-        clocale_print(words.text, sizeof words.text, "%#.*g", digits, value);
-        const size_t length = strlen(words.text);
-        if (words.text[length - 1] == '.') /* all digits before it */
-            words.text[length - 1] = '\0';
+    else if (strcmp(unit, "1") == 0)
+        print_plain(value, digits, &words);
+    else if (strcmp(unit, "m^2/N") == 0 && value != 0) {
+        print_plain(MM3_PER_N_M * value, digits, &words);
+        clocale_append(words.text, sizeof words.text, " mm^3/(N m)");
     } else if (value == 0) /* exactly: no digits of it are known or not */
         snprintf(words.text, sizeof words.text, "0 %s", unit);
     else
@@ -48,6 +60,7 @@ number_words words_of(double value, const char *unit)
 number_words words_of_pair(double low, double high, int digits)
 {
     number_words words = {""};
+    digits = ends_digits(low, high, digits);
     const double larger = fmax(fabs(low), fabs(high));
     const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
     const bool plain = decimals >= 0 && decimals < 9; /* else with a power of ten */

@@ -11,9 +11,6 @@
 /* A share of the friction below this is not worth a remark. */
 #define ANSWER_ODD_SHARE 0.01
 
-/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
-#define MM3_PER_N_M 1e9
-
 /* A text that grows in a buffer, cut where that ends. */
 typedef struct telling {
     char *text;
@@ -26,6 +23,7 @@ typedef struct number_words {
     char text[96];
 } number_words;
 
+/* A specific wear rate, of m^2/N, is told in mm^3/(N m). */
 number_words words_of(double value, const char *unit);
 number_words words_of_value(wt_estimate estimate);    /* without its errors */
 number_words words_of_estimate(wt_estimate estimate); /* +- the standard error where it is known */
@@ -36,7 +34,8 @@ number_words words_of_positive(wt_estimate estimate);
 /* The same, of ends that are known; NaN: they are not. */
 number_words words_between(wt_estimate estimate, double low, double high);
 number_words words_of_celsius(double kelvin);
-/* "from 0.6079 to 0.6080": plain numbers of equal decimals, so many digits of the larger. */
+/* "from 0.6079 to 0.6080": plain numbers of equal decimals, so many digits of the larger or
+ * more, where those do not tell them apart. */
 number_words words_of_pair(double low, double high, int digits);
 
 /* ---- findings -------------------------------------------------------------------------------- */

@@ -28,7 +28,7 @@ static wt_interval mean_of(const wt_group_summary *s)
 static void group_row(table_writer *t, const char *name, const wt_group *group)
 {
     const double none = (double)NAN;
-    wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none};
+    wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none, none};
     if (group->n > 0 && t->status == WT_OK)
         t->status = wt_group_summarise(group, &s, t->err);
     TABLE_ADD(modulus_groups, t, name, *group, s, mean_of(&s));
@@ -264,6 +264,10 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
      .help = "each place of a map is a spot of its own; else a map whose spots are not named is "
              "one, for its places are near to each other"},
+    {PARAM("spot-scatter", wt_compare_job, spot_scatter, WT_Q_NONE, FROM_BELOW(0, 1)), .value = "X",
+     .unset = "not known",
+     .help = "relative standard deviation of the modulus from spot to spot, as known of other "
+             "samples, such as 15%; for one spot against one or two, which do not tell it"},
     {PARAM("expected-thickness", wt_compare_job, expected_thickness, WT_Q_LENGTH, ABOVE(0)),
      .value = "D", .unset = "that of the theory, where the case has a layer",
      .help = "thickness of the layer known otherwise, such as \"3um +- 20%\" of a section, for the "

@@ -336,7 +336,6 @@ wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, c
                              bool rates_by_dma, compare_known *known, wt_error *err)
 {
     *known = (compare_known){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
-    snprintf(known->includes, sizeof known->includes, "scatter of the units");
     add_calibration(p, job, known);
     add_shown(p, known);
     return add_conditions(p, job, work, known, err);

@@ -82,7 +82,8 @@ wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, b
                      .spot = data->group.spot == NULL ? NULL : p->spot + offset,
                      .rate = all && p->by_rate ? p->rate + offset : NULL,
                      .rate_class = p->rate_class + offset,
-                     .n_rejected = all ? data->group.n_rejected : 0};
+                     .n_rejected = all ? data->group.n_rejected : 0,
+                     .spot_scatter = data->group.spot_scatter};
     for (size_t i = 0; i < data->group.n; i++) {
         const size_t at = p->bin[g][i];
         if (all ? p->by_rate && at == COMPARE_NO_BIN : at != bin)
@@ -138,6 +139,7 @@ wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err
         p->present[g] = given[g] != NULL;
         if (p->present[g])
             status = wt_group_from_table(given[g], job->map_spots, &p->data[g], err);
+        p->data[g].group.spot_scatter = sqrt(log1p(job->spot_scatter * job->spot_scatter));
     }
     if (status == WT_OK)
         status = check_copies(p, err);

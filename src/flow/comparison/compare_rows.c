@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/comparison/compare.h"
 
+#include "base/ends.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -168,6 +169,13 @@ static void warn_one_spot(const comparison_task *task)
     const wt_comparison *c = &task->rows[0].c;
     if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
         return;
+    if (c->scatter_given) {
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "that the track differs rests on spots that scatter by %.3g %%, as given: "
+                        "one spot does not tell it; three spots in each group would",
+                        100 * task->job->spot_scatter);
+        return;
+    }
     const int g = c->n_track == 1;
     wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                     "the %s has one spot only: it is taken to scatter up to twice as much as those "
@@ -188,8 +196,8 @@ static void warn_rates(const comparison_task *task)
         if ((r->n[0] == 0) == (r->n[1] == 0))
             continue;
         wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "curves at %.3g to %.3g m/s are in one group only (bulk %zu, track %zu)%s",
-                        r->low, r->high, r->n[0], r->n[1],
+                        "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
+                        ends_of(r->low, r->high, 3).text, r->n[0], r->n[1],
                         all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
                             ? "; the comparison leaves them out"
                             : "");
@@ -217,6 +225,8 @@ static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool si
         if (!told || !interval || !row.valid)
             c->ratio_low = c->ratio_high = c->t = c->df = c->p = row.holm = c->mann_whitney_p =
                 c->mann_whitney_smallest_p = c->effect_size = (double)NAN;
+        if (isinf(c->df))
+            c->df = (double)NAN; /* a normal error */
         c->ratio_low *= exp(-unsaid->lower);
         c->ratio_high *= exp(unsaid->higher);
         comparison_add_row(t, &row);
@@ -267,7 +277,7 @@ static double spread_of_rates(const compare_row *rates, size_t n)
 TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
            *includes, *cantilevers, *cancels;
            wt_estimate margin, rate_slope, ratio;
-           double interaction_p, ratio_df, calibration_share;)
+           double interaction_p, ratio_df, calibration_share, spot_scatter;)
 
 /* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
 static void find_ratio(const comparison_task *task, bool twisted, bool interval,
@@ -298,8 +308,10 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
     add_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unsaid);
-    char includes[320];
-    snprintf(includes, sizeof includes, "%s%s", task->known.includes,
+    const bool given = interval && c->scatter_given;
+    char includes[384];
+    snprintf(includes, sizeof includes, "%s%s%s",
+             given ? "scatter of spots as given" : "scatter of the units", task->known.includes,
              task->unsaid.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
@@ -315,7 +327,8 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
                             .ratio = {none, none, 0, NULL},
                             .interaction_p = c->interaction_p,
                             .ratio_df = none,
-                            .calibration_share = none};
+                            .calibration_share = none,
+                            .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.silent)
         find_ratio(task, v.twisted, interval, &keys);
     comparison_set_keys(&t, &keys);

@@ -42,7 +42,8 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
     const double found = isnan(c->log_ratio.value) ? 0 : c->log_ratio.value;
     const double difference = fabs(found) > least ? found : least;
     const bool measured = c->scatter > 0;
-    const double scatter = measured ? c->scatter : scatter_assumed;
+    const bool given = !measured && job->spot_scatter > 0;
+    const double scatter = measured ? c->scatter : given ? job->spot_scatter : scatter_assumed;
     const size_t n = wt_spots_needed(difference, scatter);
     char number[64];
     if (n == 0)
@@ -58,7 +59,9 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
         "%s%s in each group would show a difference of %s in four of five trials where spots "
         "scatter by %s%s; more curves on a spot do not help",
         third, number, percent_words(fabs(expm1(difference))).text, percent_words(scatter).text,
-        measured ? ", as they do here" : " (assumed)");
+        measured ? ", as they do here"
+        : given  ? ", as given"
+                 : " (assumed)");
 }
 
 static void name_rates(const compare_pair *p, int g, char *text, size_t size)

@@ -9,6 +9,7 @@
 #include "flow/work/draws.h"
 #include "flow/work/inputs.h"
 
+#include "base/ends.h"
 #include "data/tables/tables.h"
 #include "fit/indentation/curve.h"
 #include "read/force_source.h"
@@ -111,16 +112,16 @@ static void set_calibration_keys(const indent_task *task, table_writer *t)
     if (!(k.standard_error > 0))
         k.standard_error = job->lever_error * k.value;
     if (task->by_sensitivity && task->s_low < task->s_high)
-        indentation_set_print(t, INDENTATION_KEY_SENSITIVITIES, "%.4g to %.4g m/V", task->s_low,
-                              task->s_high);
+        indentation_set_print(t, INDENTATION_KEY_SENSITIVITIES, "%s m/V",
+                              ends_of(task->s_low, task->s_high, 4).text);
     else if (task->by_sensitivity && !isnan(s.value))
         indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(s));
     common_errors_set_keys(&task->common, t);
     if (!isnan(k.value))
         indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
     if (task->k_low < task->k_high)
-        indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%.4g to %.4g N/m", task->k_low,
-                              task->k_high);
+        indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%s N/m",
+                              ends_of(task->k_low, task->k_high, 4).text);
 }
 
 static void set_keys(const indent_task *task, const flow_files *files, table_writer *t)

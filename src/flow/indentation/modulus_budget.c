@@ -71,14 +71,14 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
     for (int i = 0; i < SCATTER; i++) /* an error whose effect is not known makes all of it so */
         if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_COMMON_SOURCES))
             variance += b->part[i].error * b->part[i].error;
-    b->scatter = (t_error){b->group.log_standard_error, (double)b->group.n_spots - 1};
+    b->scatter = (t_error){b->group.log_standard_error, b->group.df};
     b->all = (t_error){(double)NAN, (double)NAN};
-    if (b->group.n_spots > 1) {
+    if (!isnan(b->scatter.error)) {
         if (!isnan(variance))
             b->all = t_error_with(b->scatter, variance);
         b->spots = b->scatter.error * sqrt((double)b->group.n_spots);
     } else {
-        b->scatter.error = b->spots = (double)NAN;
+        b->spots = (double)NAN;
     }
     b->part[SCATTER] = (part){"scatter of the spots",
                               (double)NAN,
@@ -140,7 +140,7 @@ static void describe_budget(const char *group, const budget *b, char *text, size
     if (isnan(b->all.error)) {
         clocale_append(text, size, "modulus of the %s %s; its standard error is not known, for %s",
                        group, value,
-                       b->group.n_spots <= 1 ? "one spot tells nothing of how the sample scatters"
+                       isnan(b->scatter.error) ? "one spot tells nothing of how the sample scatters"
                        : isnan(b->part[LOSS].error)
                            ? "nothing says what the loss of its curves does"
                            : "no curve could be fitted anew with what is stated");

@@ -9,6 +9,7 @@
 #include "kernel/params.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/normal.h"
 #include "data/tables/rows.h"
 
@@ -304,7 +305,8 @@ static void say_agreement(const identify_task *task, const identified *found, ta
         const bool known = none == NULL && apart.high > apart.low;
         char range[64] = "";
         if (known)
-            clocale_print(range, sizeof range, " (95 %%: %.3g to %.3g)", apart.low, apart.high);
+            clocale_print(range, sizeof range, " (95 %%: %s)",
+                          ends_of(apart.low, apart.high, 3).text);
         clocale_print(text + used, sizeof text - used,
                       "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
                       "%s",

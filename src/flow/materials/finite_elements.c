@@ -14,6 +14,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "data/tables/tables.h"
 #include "model/material.h"
 
@@ -281,9 +282,11 @@ static void say_series(solid *s)
             s->comment, s->nu, bulk_of(s, s->instant), bulk_of(s, s->long_term));
     print_solid(
         s,
-        "%sHolds for times from %.3g to %.3g at the reference temperature; what is faster or "
+        "%sHolds for times from %s at the reference temperature; what is faster or "
         "slower was not measured.\n",
-        s->comment, 1 / p->frequency_max / s->system->time, 1 / p->frequency_min / s->system->time);
+        s->comment,
+        ends_of(1 / p->frequency_max / s->system->time, 1 / p->frequency_min / s->system->time, 3)
+            .text);
     print_solid(
         s,
         "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "

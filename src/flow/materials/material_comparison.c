@@ -5,6 +5,7 @@
 #include "flow/work/inputs.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/normal.h"
 #include "data/tables/rows.h"
 
@@ -148,8 +149,9 @@ static wt_status no_common_frequency(const wt_compared pair[2], const range own[
 {
     wt_fail(err, WT_E_RANGE, "the materials have no frequency in common at %.1f °C",
             temperature - WT_ZERO_CELSIUS);
-    wt_error_found(err, "%s: %.3g to %.3g rad/s; %s: %.3g to %.3g rad/s", pair[0].name, own[0].low,
-                   own[0].high, pair[1].name, own[1].low, own[1].high);
+    wt_error_found(err, "%s: %s rad/s; %s: %s rad/s", pair[0].name,
+                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
+                   ends_of(own[1].low, own[1].high, 3).text);
     wt_error_advice(err, "compare them at another temperature (at-temperature), or measure at more "
                          "temperatures");
     return WT_E_RANGE;
@@ -165,9 +167,10 @@ static wt_status no_such_frequency(const wt_compared pair[2], const range own[2]
             one ? "materials are compared over temperature where both were measured at several"
                 : "the materials were not both measured at the at-frequency");
     wt_error_place(err, "at-frequency");
-    wt_error_found(err, "%.3g rad/s; at %.1f °C %s: %.3g to %.3g rad/s; %s: %.3g to %.3g rad/s",
-                   s->at_frequency, s->at_temperature - WT_ZERO_CELSIUS, pair[0].name, own[0].low,
-                   own[0].high, pair[1].name, own[1].low, own[1].high);
+    wt_error_found(err, "%.3g rad/s; at %.1f °C %s: %s rad/s; %s: %s rad/s", s->at_frequency,
+                   s->at_temperature - WT_ZERO_CELSIUS, pair[0].name,
+                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
+                   ends_of(own[1].low, own[1].high, 3).text);
     wt_error_advice(err, one ? "leave it out" : "choose one that both have at some temperature");
     return WT_E_RANGE;
 }

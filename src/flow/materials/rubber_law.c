@@ -8,6 +8,7 @@
 #include "flow/work/law_text.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -262,9 +263,9 @@ size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t size)
 {
     char law[128] = "", transverse[256] = "";
     if (rubber->kind == WT_RUBBER_TABLE)
-        clocale_print(law, sizeof law, "%zu points from %.3g to %.3g rad/s, outside the end %s",
-                      rubber->sweep.isotherms[0].n, rubber->prony.frequency_min,
-                      rubber->prony.frequency_max,
+        clocale_print(law, sizeof law, "%zu points from %s rad/s, outside the end %s",
+                      rubber->sweep.isotherms[0].n,
+                      ends_of(rubber->prony.frequency_min, rubber->prony.frequency_max, 3).text,
                       rubber->extrapolation == WT_EXTRAPOLATE_HOLD ? "values" : "slopes");
     else if (rubber->kind == WT_RUBBER_ZENER)
         clocale_print(law, sizeof law,

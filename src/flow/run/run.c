@@ -370,6 +370,7 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     if (status == WT_OK) {
         flow_plan_make(c, &d.run.plan);
         d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
+        d.run.job.case_advice = flow_case_advice;
         d.run.job.left_out = find_left_out(&d.run.plan, options);
         d.have = d.run.plan.sources;
     }

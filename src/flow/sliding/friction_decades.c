@@ -4,6 +4,7 @@
 #include "flow/work/cost.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "data/tables/rows.h"
 
 #include <math.h>
@@ -47,9 +48,10 @@ static void say_strongest(decades *d, double velocity, size_t i, double share)
     char speed[32];
     wt_format_si(velocity, "m/s", 3, speed, sizeof speed);
     clocale_print(d->strongest, sizeof d->strongest,
-                  "%.3g to %.3g rad/m, wavelengths of %.3g to %.3g um, at %s: %.0f %% of the "
+                  "%s rad/m, wavelengths of %s um, at %s: %.0f %% of the "
                   "hysteresis friction",
-                  d->q[i - 1], d->q[i], 2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], speed,
+                  ends_of(d->q[i - 1], d->q[i], 3).text,
+                  ends_of(2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], 3).text, speed,
                   100 * share);
 }
 

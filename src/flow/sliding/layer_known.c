@@ -4,6 +4,7 @@
 #include "kernel/params.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/quantity.h"
 
 #include <math.h>
@@ -118,10 +119,10 @@ void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *kno
         clocale_print(
             text, size,
             "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
-            "causal ratio (reconstructed) from %.3g to %.3g rad/s, constant outside; "
+            "causal ratio (reconstructed) from %s rad/s, constant outside; "
             "sheared at the frequency velocity over thickness",
-            known->modulus_ratio.value, known->ratio_frequency, slope.value, known->ratio_lowest,
-            known->ratio_highest);
+            known->modulus_ratio.value, known->ratio_frequency, slope.value,
+            ends_of(known->ratio_lowest, known->ratio_highest, 3).text);
 }
 
 wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)

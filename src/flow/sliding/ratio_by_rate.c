@@ -46,7 +46,8 @@ static wt_status read_rates(const table_view *comparison, const table_view *rate
                      high = comparison_get(comparison, i, COMPARISON_RATE_HIGH),
                      ratio_low = comparison_get(comparison, i, COMPARISON_RATIO_LOW),
                      ratio_high = comparison_get(comparison, i, COMPARISON_RATIO_HIGH),
-                     df = comparison_get(comparison, i, COMPARISON_WELCH_DF);
+                     welch_df = comparison_get(comparison, i, COMPARISON_WELCH_DF),
+                     df = isnan(welch_df) ? (double)INFINITY : welch_df;
         const rate_ratio one = {.log_frequency = frequency_of(rates, low, high),
                                 .log_ratio = log(comparison_get(comparison, i, COMPARISON_RATIO)),
                                 .error = log(ratio_high / ratio_low) / 2 / students_t_quantile(df),

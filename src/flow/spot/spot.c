@@ -7,6 +7,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "data/tables/rows.h"
 #include "flow/spot/spot.h"
 
@@ -151,11 +152,10 @@ static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool
                       "smooth enough: %.2g of the depth, the limit is %.2g",
                       s->plane.rms / job->depth, limit);
     else
-        clocale_print(
-            s->verdict, sizeof s->verdict,
-            "cannot say: %.2g to %.2g of the depth, depending on the place, and the limit is "
-            "%.2g; a better known position would tell (--position-error)",
-            low, high, limit);
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "cannot say: %s of the depth, depending on the place, and the limit is "
+                      "%.2g; a better known position would tell (--position-error)",
+                      ends_of(low, high, 2).text, limit);
 }
 
 static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,

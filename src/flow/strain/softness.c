@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/normal.h"
 #include "data/tables/tables.h"
 
@@ -453,11 +454,12 @@ void softness_describe(const wt_softness *s, char *text, size_t size)
         at[0] = '\0';
     else
         clocale_print(at, sizeof at, " at %.1f °C", s->temperature - WT_ZERO_CELSIUS);
-    clocale_print(
-        text, size, "%s%s, strain %.3g to %.3g; %s", from, at, strain[0], strain[s->table.n - 1],
-        softness_has_errors(s)
-            ? s->n_sweeps > 1 ? "the scatter between the sweeps is drawn" : "errors are drawn"
-            : "its error is not known and not in the standard errors");
+    clocale_print(text, size, "%s%s, strain %s; %s", from, at,
+                  ends_of(strain[0], strain[s->table.n - 1], 3).text,
+                  softness_has_errors(s) ? s->n_sweeps > 1
+                                               ? "the scatter between the sweeps is drawn"
+                                               : "errors are drawn"
+                                         : "its error is not known and not in the standard errors");
 }
 
 /* All points move together: what differs between sweeps is the whole curve. */

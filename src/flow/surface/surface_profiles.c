@@ -4,6 +4,7 @@
 #include "flow/surface/surface.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "base/normal.h"
 #include "fit/surface/surface.h"
 
@@ -154,8 +155,8 @@ void surface_print_profiles(const surface_whole *w, char *to, size_t size)
                       used > 0 ? "; " : "", r->value);
     else
         clocale_print(to + used, size - used,
-                      "%swhere both tell, C by them is %.2g (95 %%: %.2g to %.2g) of that by the "
+                      "%swhere both tell, C by them is %.2g (95 %%: %s) of that by the "
                       "height maps%s",
-                      used > 0 ? "; " : "", r->value, r->low, r->high,
+                      used > 0 ? "; " : "", r->value, ends_of(r->low, r->high, 2).text,
                       surface_profiles_disagree(w) ? ": they disagree" : "");
 }

@@ -1,5 +1,6 @@
 /* The job of measured surfaces: height maps and profiles to one power spectrum.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/ends.h"
 #include "base/param.h"
 #include "flow/surface/surface.h"
 #include "flow/work/cost.h"
@@ -128,9 +129,10 @@ static void say_profiles(const surface_whole *w, const wt_job *work)
         wt_parselog_add(
             work->log, WT_WARNING, NULL, NULL,
             "the profiles and the height maps disagree: where both tell, the density by "
-            "the profiles is %.2g of that by the maps (95 %%: %.2g to %.2g); see "
+            "the profiles is %.2g of that by the maps (95 %%: %s); see "
             "whether they are of one surface, and leave out what is not",
-            w->profiles_ratio.value, w->profiles_ratio.low, w->profiles_ratio.high);
+            w->profiles_ratio.value,
+            ends_of(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
 }
 
 static void say_whole(const surface_whole *w, size_t n, const wt_job *work)

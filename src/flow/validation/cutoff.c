@@ -102,10 +102,10 @@ static double end_of(const scan *s, size_t best, int side)
     return (double)NAN;
 }
 
-static void set_value(table_writer *t, validation_key key, double log_q1)
+static void set_value(table_writer *t, validation_key key, double log_q1, double error)
 {
     if (!isnan(log_q1))
-        validation_set_value(t, key, pow(10, log_q1), (double)NAN, (double)NAN);
+        validation_set_value(t, key, pow(10, log_q1), error, error);
 }
 
 wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
@@ -134,9 +134,9 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
         validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE, text);
         return WT_OK;
     }
-    set_value(t, VALIDATION_KEY_CUTOFF, at);
-    set_value(t, VALIDATION_KEY_CUTOFF_LOW, end_of(&s, best, -1));
-    set_value(t, VALIDATION_KEY_CUTOFF_HIGH, end_of(&s, best, 1));
+    set_value(t, VALIDATION_KEY_CUTOFF, at, (double)NAN);
+    set_value(t, VALIDATION_KEY_CUTOFF_LOW, end_of(&s, best, -1), 0);
+    set_value(t, VALIDATION_KEY_CUTOFF_HIGH, end_of(&s, best, 1), 0);
     clocale_print(
         text, sizeof text,
         "%.3g times that used; the thickness of the layer is held, and an end that is not "

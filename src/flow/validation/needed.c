@@ -79,8 +79,8 @@ void needed_set_keys(const validation *v, table_writer *t)
         return;
     validation_set_value(t, VALIDATION_KEY_NEEDED, v->needed.value, v->needed.standard_error,
                          (double)NAN);
-    validation_set_value(t, VALIDATION_KEY_NEEDED_LOW, v->needed.low, (double)NAN, (double)NAN);
-    validation_set_value(t, VALIDATION_KEY_NEEDED_HIGH, v->needed.high, (double)NAN, (double)NAN);
+    validation_set_value(t, VALIDATION_KEY_NEEDED_LOW, v->needed.low, 0, 0);
+    validation_set_value(t, VALIDATION_KEY_NEEDED_HIGH, v->needed.high, 0, 0);
     say_plausible(v, t);
     if (v->shape.n > 0)
         validation_set_text(t, VALIDATION_KEY_SHAPE, verdict_of_trial(v, &v->shape).text);

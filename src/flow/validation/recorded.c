@@ -99,6 +99,7 @@ wt_status recorded_read(const table_view *record, const table_view *cycles,
                         .step = (size_t)record_get(record, row, RECORD_STEP),
                         .end = calloc(cycles->n_rows + 1, sizeof *r->end),
                         .friction = calloc(cycles->n_rows + 1, sizeof *r->friction),
+                        .running_in = record_get(record, row, RECORD_RUNNING_IN),
                         .note = ""};
         if (r->end == NULL || r->friction == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");

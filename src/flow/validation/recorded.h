@@ -10,11 +10,12 @@
  * follow begin with one. */
 typedef struct recorded {
     measured_step at;
-    size_t n, step;   /* of its file, from 1 on */
-    double begin;     /* of the first that has a friction, from the start of sliding on [s] */
-    double *end;      /* [n] of the cycles, from the start of the step on [s] */
-    double *friction; /* [n] */
-    const char *note; /* why it is not compared, or "" */
+    size_t n, step;    /* of its file, from 1 on */
+    double begin;      /* of the first that has a friction, from the start of sliding on [s] */
+    double *end;       /* [n] of the cycles, from the start of the step on [s] */
+    double *friction;  /* [n] */
+    double running_in; /* cycles before it is steady by itself; NaN: not known */
+    const char *note;  /* why it is not compared, or "" */
 } recorded;
 
 /* *runs [*n], to be freed by recorded_free. */

@@ -136,30 +136,16 @@ static double error_of(const course_run *run, run_number number)
     return hypot(sqrt(course_run_own(run, number)), course_run_spread(run, number));
 }
 
-/* exp of a number of a run; an end that the record does not tell is NaN. */
+/* A time, or its ratio; of one end alone, which is that of the verdict, where it lies behind that
+ * is not told. */
 static wt_interval factor_of(const course_run *run, run_number number)
 {
-    wt_interval i = validation_factor(course_run_value(run, 0, number), error_of(run, number),
-                                      (double)INFINITY);
-    if (isnan(run->fit.low))
-        i.low = (double)NAN;
-    if (isnan(run->fit.high))
-        i.high = (double)NAN;
-    if (isnan(run->fit.low) || isnan(run->fit.high)) /* where it lies within is not told */
-        i.value = i.standard_error = (double)NAN;
-    return i;
-}
-
-/* The one end that a record tells is that of the verdict. */
-static wt_interval time_ratio_of(const course_run *run)
-{
-    wt_interval i = factor_of(run, RUN_TIME_RATIO);
-    const double end = exp(course_run_time_end(run));
-    if (isnan(i.value) && !isnan(i.low))
-        i.low = end;
-    if (isnan(i.value) && !isnan(i.high))
-        i.high = end;
-    return i;
+    const bool has_low = !isnan(run->fit.low), has_high = !isnan(run->fit.high);
+    const double end = exp(course_run_end(run, number)), none = (double)NAN;
+    if (has_low && has_high)
+        return validation_factor(course_run_value(run, 0, number), error_of(run, number),
+                                 (double)INFINITY);
+    return (wt_interval){none, none, has_low ? end : none, has_high ? end : none};
 }
 
 static wt_interval ratio_of_run(const course_run *run)
@@ -207,7 +193,7 @@ static void add_run(const course_run *run, const wt_sliding *sliding, table_writ
         row.change_ratio = ratio_of_run(run);
         if (run->fit.seen) {
             row.settled = factor_of(run, RUN_MEASURED);
-            row.time_ratio = time_ratio_of(run);
+            row.time_ratio = factor_of(run, RUN_TIME_RATIO);
         }
     }
     validation_running_in_add_row(t, &row);
@@ -237,11 +223,9 @@ static void set_interval(table_writer *t, validation_running_in_key key, wt_inte
     validation_running_in_set_value(t, key, i.value, i.standard_error, (double)NAN);
     if (isnan(i.low) || isnan(i.high))
         return;
-    /* the ends stand behind it, see KEY_ENDS */
-    validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, (double)NAN,
-                                    (double)NAN);
-    validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, (double)NAN,
-                                    (double)NAN);
+    /* the ends stand behind it, see KEY_ENDS, and have no error of their own */
+    validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, 0, 0);
+    validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, 0, 0);
 }
 
 /* The wear rate that the time asks for against the one that was measured. */
@@ -266,10 +250,9 @@ static wt_status set_agreement(const running_in_task *task, const run_set *all, 
     if (known)
         validation_running_in_set_print(
             t, VALIDATION_RUNNING_IN_KEY_AGREES,
-            "%s: the time asks for %.3g times the wear rate that was measured (95 %%: %.3g to "
-            "%.3g)",
+            "%s: the time asks for %.3g times the wear rate that was measured (95 %%: %s)",
             ratio.low <= 1 && ratio.high >= 1 ? "agrees within the errors" : "contradicts",
-            ratio.value, ratio.low, ratio.high);
+            ratio.value, ends_of(ratio.low, ratio.high, 3).text);
     else
         validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_AGREES,
                                         "cannot say: the time asks for %.3g times the wear rate "
@@ -313,9 +296,9 @@ static wt_status set_keys(const running_in_task *task, const run_set *all, const
     validation_running_in_set_print(
         t, VALIDATION_RUNNING_IN_KEY_TEST,
         "explains: the intervals of 95 %% of the time and of the change of friction, measured over "
-        "predicted, are from %.3g to %.3g; does not: one of them is outside; else it cannot say. "
+        "predicted, are from %s; does not: one of them is outside; else it cannot say. "
         "Errors of record and prediction are in them, choices of the model are not",
-        1 / (1 + all->margin), 1 + all->margin);
+        validation_asked(all->margin).text);
     if (said->settled_by[0] != '\0')
         validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_SETTLED_BY, said->settled_by);
     set_interval(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO,

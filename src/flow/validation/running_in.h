@@ -43,9 +43,9 @@ double course_run_value(const course_run *run, size_t k, run_number number);
 /* Variance by the record alone, and what its draws scatter. */
 double course_run_own(const course_run *run, run_number number);
 double course_run_spread(const course_run *run, run_number number);
-/* The end of ln of the time ratio that the record tells alone, 95 % with the error of the
+/* Of a time of which the record tells one end alone that end of its ln, 95 % with the error of the
  * prediction; NaN without that error. */
-double course_run_time_end(const course_run *run);
+double course_run_end(const course_run *run, run_number number);
 
 /* The level of a number over the runs that tell it, with both errors. */
 typedef struct run_level {
@@ -75,7 +75,7 @@ wt_status run_set_levels(run_set *all, wt_error *err) WT_NODISCARD;
 void run_set_clear(run_set *all);
 
 typedef struct run_verdict {
-    char verdict[400], settled_by[320];
+    char verdict[600], settled_by[320];
 } run_verdict;
 run_verdict run_set_judge(const run_set *all);
 

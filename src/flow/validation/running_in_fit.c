@@ -127,9 +127,11 @@ wt_status course_run_fit(course_run *run, double margin, wt_error *err)
                  "no change as the layer makes it stands out of the "
                  "scatter of the cycles");
     else if (isnan(run->fit.high))
-        snprintf(run->note, sizeof run->note, "the record ends before friction is steady");
+        snprintf(run->note, sizeof run->note,
+                 "a change as the layer makes it is not over at the end of the record");
     else if (isnan(run->fit.low))
-        snprintf(run->note, sizeof run->note, "it is over within the first cycles");
+        snprintf(run->note, sizeof run->note,
+                 "a change as the layer makes it is over within the first cycles");
     return fit_draws(run, margin, err);
 }
 
@@ -197,12 +199,12 @@ double course_run_spread(const course_run *run, run_number number)
     return covariance(run, run, number, &variance) > 1 ? sqrt(variance) : (double)NAN;
 }
 
-double course_run_time_end(const course_run *run)
+double course_run_end(const course_run *run, run_number number)
 {
     const bool least = isnan(run->fit.high);
-    const double spread = NORMAL_95 * course_run_spread(run, RUN_TIME_RATIO),
-                 at = run->fit.log_factor,
-                 move = hypot((least ? run->fit.low : run->fit.high) - at, spread);
+    const double spread = NORMAL_95 * course_run_spread(run, number),
+                 at = course_run_value(run, 0, number),
+                 move = hypot((least ? run->fit.low : run->fit.high) - run->fit.log_factor, spread);
     return least ? at - move : at + move;
 }
 

@@ -18,7 +18,7 @@ static bool contradicts_at_one_end(const course_run *run, double margin)
 {
     if (run->value == NULL || !run->fit.seen || course_run_is_closed(run))
         return false;
-    const double end = course_run_time_end(run);
+    const double end = course_run_end(run, RUN_TIME_RATIO);
     return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
 }
 
@@ -77,7 +77,7 @@ static agreement_verdict judge_change(const run_set *all)
 static void tell_open(const course_run *run, char *text, size_t size)
 {
     const course_fit *const fit = &run->fit;
-    const double with_prediction = course_run_time_end(run);
+    const double with_prediction = course_run_end(run, RUN_TIME_RATIO);
     const char *const by = isnan(with_prediction) ? ", by the record alone" : "";
     if (!fit->seen)
         clocale_print(
@@ -90,14 +90,20 @@ static void tell_open(const course_run *run, char *text, size_t size)
                       "that it takes");
     else if (isnan(fit->high))
         clocale_print(text, size,
-                      "the record ends before friction is steady, after %.3g times the time "
-                      "predicted at least%s",
+                      "a change as the layer makes it is not over at the end of the record, after "
+                      "%.3g times the time predicted at least%s",
                       exp(isnan(with_prediction) ? fit->low : with_prediction), by);
     else
         clocale_print(text, size,
-                      "friction is steady within the first cycles, after %.3g times the time "
-                      "predicted at most%s",
+                      "a change as the layer makes it is over within the first cycles, after %.3g "
+                      "times the time predicted at most%s",
                       exp(isnan(with_prediction) ? fit->high : with_prediction), by);
+    if (fit->seen && run->rec->running_in > 0) /* another question, with an answer of its own */
+        clocale_append(text, size, " (by its scatter alone friction is steady after %.0f cycles)",
+                       run->rec->running_in);
+    else if (fit->seen && run->rec->running_in == 0)
+        clocale_append(text, size,
+                       " (by its scatter alone friction is steady from the first cycle)");
 }
 
 /* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
@@ -113,8 +119,9 @@ static void tell_time(const run_set *all, char *text, size_t size)
         return;
     }
     clocale_print(text, size,
-                  "friction is steady after %.3g times the time predicted (95 %%: %.3g to %.3g)%s",
-                  exp(i.value), exp(i.low), exp(i.high),
+                  "a change as the layer makes it is over after %.3g times the time predicted (95 "
+                  "%%: %s)%s",
+                  exp(i.value), ends_of(exp(i.low), exp(i.high), 3).text,
                   open != NULL ? ", which not every record tells" : "");
 }
 
@@ -122,22 +129,22 @@ static void tell_change(const run_set *all, char *text, size_t size)
 {
     const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
     if (isnan(ratio.low) || isnan(ratio.high))
-        snprintf(text, size, "how much it changes is not told");
+        snprintf(text, size, "how much friction changes is not told");
     else
-        clocale_print(text, size, "its change is %.3g times that predicted (95 %%: %.3g to %.3g)",
-                      ratio.value, ratio.low, ratio.high);
+        clocale_print(text, size, "the change of friction is %.3g times that predicted (95 %%: %s)",
+                      ratio.value, ends_of(ratio.low, ratio.high, 3).text);
 }
 
 static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
 {
-    char time[160], change[120];
+    char time[240], change[120];
     /* The one that decides comes first. */
     const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
     tell_time(all, time, sizeof time);
     tell_change(all, change, sizeof change);
-    clocale_print(text, size, "%s: %s; %s, and %.3g to %.3g is asked for",
-                  validation_verdict(verdict), by_change ? change : time, by_change ? time : change,
-                  1 / (1 + all->margin), 1 + all->margin);
+    snprintf(text, size, "%s: %s; %s, and %s is asked for", validation_verdict(verdict),
+             by_change ? change : time, by_change ? time : change,
+             validation_asked(all->margin).text);
 }
 
 /* ---- what would settle it -------------------------------------------------------------------- */
@@ -176,7 +183,7 @@ static const course_run *first_compared(const run_set *all)
 static const char *close_of(const course_fit *fit)
 {
     if (fit->seen && isnan(fit->high))
-        return "a record that goes on until friction is steady";
+        return "a record that goes on until a change as the layer makes it is over";
     return fit->seen && isnan(fit->low) ? "shorter cycles at the start, or a slower record"
                                         : "a longer record, or more of them, of a fresh surface";
 }

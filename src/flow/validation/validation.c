@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/validation/validation.h"
 #include "flow/work/cost.h"
+#include "flow/work/draws.h"
 
 #include "base/param.h"
 #include "data/tables/rows.h"
@@ -123,18 +124,19 @@ static void add_step(const validation *v, size_t i, table_writer *t)
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-static void set_plain(table_writer *t, validation_key key, double value)
+/* An end has no error of its own. */
+static void set_end(table_writer *t, validation_key key, double value)
 {
     if (isfinite(value))
-        validation_set_value(t, key, value, (double)NAN, (double)NAN);
+        validation_set_value(t, key, value, 0, 0);
 }
 
 static void set_interval(table_writer *t, validation_key key, validation_key low,
                          validation_key high, wt_interval i)
 {
     validation_set_value(t, key, i.value, i.standard_error, (double)NAN);
-    set_plain(t, low, i.low);
-    set_plain(t, high, i.high);
+    set_end(t, low, i.low);
+    set_end(t, high, i.high);
 }
 
 static void set_verdicts(const validation *v, table_writer *t)
@@ -158,11 +160,11 @@ static void set_verdicts(const validation *v, table_writer *t)
     validation_set_print(
         t, VALIDATION_KEY_TEST,
         "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
-        "velocity, is from %.3g to %.3g; does not: at some step the interval that holds 95 %% at "
+        "velocity, is from %s; does not: at some step the interval that holds 95 %% at "
         "all "
         "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
         "are in it, %s, choices of the model are not",
-        1 / (1 + v->job->margin), 1 + v->job->margin,
+        validation_asked(v->job->margin).text,
         v->p.n_draws > 0 ? "and stated errors of the prediction"
                          : "errors of the prediction are not, without replicates");
 }
@@ -181,7 +183,8 @@ static void set_ratio(const validation *v, table_writer *t)
                              (double)NAN);
     }
     if (fit->scatter_df > 0)
-        set_plain(t, VALIDATION_KEY_SCATTER, sqrt(fit->scatter));
+        validation_set_value(t, VALIDATION_KEY_SCATTER, sqrt(fit->scatter), (double)NAN,
+                             (double)NAN);
 }
 
 static void set_ranges(const choice_ranges *r, table_writer *t)
@@ -194,10 +197,9 @@ static void set_ranges(const choice_ranges *r, table_writer *t)
         {SETTING_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
         {SETTING_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW, VALIDATION_KEY_THICKNESS_KEPT_LOW}};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        for (unsigned end = 0; end < 2; end++) {
-            set_plain(t, (validation_key)(keys[i].all + end), r->all[keys[i].number][end]);
-            set_plain(t, (validation_key)(keys[i].kept + end), r->kept[keys[i].number][end]);
-        }
+        for (unsigned end = 0; end < 4; end++) /* both of one range stand together */
+            set_end(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
+                    (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
 }
 
 /* Wear as measured against that which the layer is calculated from. */
@@ -236,7 +238,8 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
     if (!v->has_shear)
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, "a shear stress of the real contact");
     set_ratio(v, t);
-    set_plain(t, VALIDATION_KEY_SHEAR, v->used.sliding.shear_stress.value);
+    if (v->has_shear)
+        validation_set(t, VALIDATION_KEY_SHEAR, flow_as_stated(v->used.sliding.shear_stress));
     needed_set_keys(v, t);
     wt_status status = v->has_shear ? cutoff_set_keys(v, t, err) : WT_OK;
     if (ranges != NULL)

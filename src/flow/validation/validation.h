@@ -3,6 +3,7 @@
 #ifndef WEARTRACK_FLOW_VALIDATION_VALIDATION_H
 #define WEARTRACK_FLOW_VALIDATION_VALIDATION_H
 
+#include "base/ends.h"
 #include "flow/errors/setting.h"
 #include "flow/validation/trial.h"
 
@@ -37,6 +38,8 @@ typedef struct verdict_words {
     char text[256];
 } verdict_words;
 verdict_words verdict_of_trial(const validation *v, const trial *t);
+/* What measured over predicted shall be within: "0.833 to 1.2". */
+ends_text validation_asked(double margin);
 /* "explains", "does not", "cannot say" */
 const char *validation_verdict(agreement_verdict verdict);
 

@@ -31,6 +31,11 @@ wt_interval validation_factor(double value, double error, double df)
     return (wt_interval){factor, factor * error, exp(value - half), exp(value + half)};
 }
 
+ends_text validation_asked(double margin)
+{
+    return ends_of(1 / (1 + margin), 1 + margin, 3);
+}
+
 verdict_words verdict_of_trial(const validation *v, const trial *t)
 {
     verdict_words words;
@@ -38,20 +43,24 @@ verdict_words verdict_of_trial(const validation *v, const trial *t)
     const agreement *const fit = &t->fit;
     const size_t at = fit->where;
     agreement_ends(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    char all[48] = "";
+    if (t->n > 1)
+        snprintf(all, sizeof all, " at all %zu steps", t->n);
     if (fit->verdict == AGREEMENT_YES)
         clocale_print(words.text, sizeof words.text,
-                      "explains: measured over predicted is within %.3g %% at all of %zu steps, at "
-                      "%.3g m/s, where it is farthest, %.3g (95 %%: %.3g to %.3g)",
-                      100 * v->job->margin, t->n, v->steps.step[at].velocity, exp(fit->smooth[at]),
-                      exp(ends[0]), exp(ends[1]));
+                      "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
+                      "(95 %%: %s)",
+                      100 * v->job->margin, all, v->steps.step[at].velocity,
+                      t->n > 1 ? ", where it is farthest," : "", exp(fit->smooth[at]),
+                      ends_of(exp(ends[0]), exp(ends[1]), 3).text);
     else
         clocale_print(
             words.text, sizeof words.text,
-            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %.3g to %.3g), and "
-            "%.3g to %.3g is asked for",
+            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
+            "asked for",
             validation_verdict(fit->verdict), v->steps.step[at].velocity, exp(fit->smooth[at]),
-            fit->verdict == AGREEMENT_NO ? " at all steps at once" : "", exp(ends[0]), exp(ends[1]),
-            1 / (1 + v->job->margin), 1 + v->job->margin);
+            fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
+            ends_of(exp(ends[0]), exp(ends[1]), 3).text, validation_asked(v->job->margin).text);
     return words;
 }
 

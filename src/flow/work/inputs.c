@@ -76,7 +76,10 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
                            wt_error *err)
 {
     char message[2048];
-    wt_error_format(failure, message, sizeof message);
+    wt_error said = *failure;
+    if (work->case_advice != NULL)
+        work->case_advice(&said);
+    wt_error_format(&said, message, sizeof message);
     table_writer t = table_continue(work->failures, &failures_schema, "", err);
     TABLE_ADD(failures, &t, what, message);
     return table_end(&t, NULL);

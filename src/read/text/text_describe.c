@@ -5,6 +5,7 @@
 #include "read/text/text.h"
 
 #include "base/clocale.h"
+#include "base/ends.h"
 #include "read/force_source.h"
 
 #include "read/facts.h"
@@ -150,8 +151,8 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
         if (!isnan(r->temperature))
             clocale_print(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
         facts_add(facts, "strain sweep", "", r->source,
-                  "%s, %.4g rad/s, %zu points, amplitude %.3g to %.3g %%", at, r->angular_frequency,
-                  r->n, 100 * r->strain[0], 100 * r->strain[r->n - 1]);
+                  "%s, %.4g rad/s, %zu points, amplitude %s %%", at, r->angular_frequency, r->n,
+                  ends_of(100 * r->strain[0], 100 * r->strain[r->n - 1], 3).text);
     }
     wt_sweep_clear(&sweep);
 }

@@ -1,0 +1,59 @@
+/* Whether a font is there: gnuplot draws in another one without a word.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/program.h"
+#include "base/utf8.h"
+#include "report/gnuplot.h"
+#include "weartrack/report.h"
+
+#include <string.h>
+#include <strings.h>
+
+/* It makes its list of all fonts first where there is none yet [s]. */
+static const double match_time = 10;
+
+enum { FONT_LENGTH = 128 }; /* of a name; families have shorter ones */
+
+/* A name as a pattern: what stands behind a hyphen would be a size. */
+static void as_pattern(const char *font, char pattern[2 * FONT_LENGTH])
+{
+    for (; *font != '\0'; *pattern++ = *font++)
+        if (*font == '-')
+            *pattern++ = '\\';
+    *pattern = '\0';
+}
+
+/* Whether it is one of the names of a family, "Noto Sans,Noto Sans Light". */
+static bool is_family(const char *names, const char *font)
+{
+    const size_t length = strlen(font);
+    for (const char *name = names; name != NULL; name = strchr(name, ',')) {
+        name += *name == ',';
+        if (strcspn(name, ",") == length && strncasecmp(name, font, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool wt_report_has_font(const char *font, char *instead, size_t size)
+{
+    char pattern[2 * FONT_LENGTH];
+    if (font == NULL || strlen(font) >= FONT_LENGTH || size == 0)
+        return true;
+    as_pattern(font, pattern);
+    const char *const arguments[] = {"-f", "%{family}\\n", pattern, NULL};
+    const program_call call = {.program = "fc-match",
+                               .arguments = arguments,
+                               .folder = "/",
+                               .limit = match_time,
+                               .file_size = GNUPLOT_PICTURE_LIMIT};
+    program_end end;
+    if (program_run(&call, &end, NULL) != WT_OK || end.how != PROGRAM_EXITED || end.code != 0 ||
+        end.words[0] == '\0' || is_family(end.words, font))
+        return true;
+    const size_t first = utf8_cut(end.words, strcspn(end.words, ","), size - 1);
+    memcpy(instead, end.words, first);
+    instead[first] = '\0';
+    return false;
+}
