@@ -830,13 +830,13 @@ typedef struct wt_surface_spectrum {
     double from, to;     /* the reliable range [rad/m] */
     const char *ends_by; /* "points" or "tip"; static */
     /* Of several scans: standard deviation of ln C from place to place, the same at all
-     * wavenumbers, and the standard error that it gives the mean: of each bin by its scans, and the
-     * mean of these squared over the bins; NaN: not known. */
-    double place_scatter, place_error;
-    double place_freedom; /* of it */
+     * wavenumbers; the one of which an interval has 1.96, which holds what few places and the
+     * scatter of the modes leave open of it; and the standard error that this gives the mean: of
+     * each bin by its scans, and the mean of these squared over the bins; NaN: not known. */
+    double place_scatter, place_reach, place_error;
     /* Scans that have the same part in every bin, as those of one size have, are off in all bins
      * together, and not with others: how many such sizes there are (0: not kept), the widest
-     * first, and [n_sizes] for each bin the standard error of ln C by one, over place_scatter. */
+     * first, and [n_sizes] for each bin the standard error of ln C by one, over place_reach. */
     size_t n_sizes;
     double *place_part;
 } wt_surface_spectrum;

@@ -18,6 +18,7 @@ const surface_scene surface_scenes[] = {
      .end = 1.6e8},
     {NAMED("S12", "six places that scatter, beyond them"), STATED, .places = 6, .scatter = 0.3,
      .end = 1.6e7},
+    {NAMED("S20", "two places that scatter by 0.3"), STATED, .places = 2, .scatter = 0.3},
     {NAMED("S15", "four places and four near by that scatter"), STATED, .places = 4, .near_by = 4,
      .scatter = 0.3},
     {NAMED("S17", "four places and four a quarter as large that scatter"), .places = 4,

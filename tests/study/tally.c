@@ -48,7 +48,9 @@ static void take(const observation *o, sums *to)
     const double half = (e->high - e->low) / 2 / (relative ? fabs(e->value) : 1);
     if (isfinite(half)) {
         to->half_widths[to->n_half_widths++] = half;
-        to->square_stated += pow(1.96 * (e->value - o->truth) / ((e->high - e->low) / 2), 2);
+        /* by the half that the truth lies in: those of a factor differ */
+        const double towards = e->value > o->truth ? e->value - e->low : e->high - e->value;
+        to->square_stated += pow(1.96 * (e->value - o->truth) / towards, 2);
     }
 }
 

@@ -51,7 +51,8 @@ static course_fit fitted(const scene *s, double height, uint64_t *seed)
     const course c = exponential(height);
     course_series made = series_of(s, &c, seed);
     course_fit fit;
-    assert_int_equal(course_fit_make(&made, &c, fraction, 0.1, &fit, NULL), WT_OK);
+    assert_int_equal(course_fit_make(&(course_pair){&made, &c}, 1, fraction, 0.1, &fit, NULL),
+                     WT_OK);
     course_series_clear(&made);
     return fit;
 }
@@ -159,12 +160,14 @@ static void test_refused(void **state)
     course_series made;
     course_fit fit;
     assert_int_equal(course_series_new(COURSE_FEWEST - 1, &made, NULL), WT_OK);
-    assert_int_equal(course_fit_make(&made, &c, fraction, 0.1, &fit, NULL), WT_E_RANGE);
+    assert_int_equal(course_fit_make(&(course_pair){&made, &c}, 1, fraction, 0.1, &fit, NULL),
+                     WT_E_RANGE);
     course_series_clear(&made);
     uint64_t seed = 1;
     const scene s = {1, 1, 0.05, 0.01, 0};
     made = series_of(&s, &none, &seed);
-    assert_int_equal(course_fit_make(&made, &none, fraction, 0.1, &fit, NULL), WT_E_RANGE);
+    assert_int_equal(course_fit_make(&(course_pair){&made, &none}, 1, fraction, 0.1, &fit, NULL),
+                     WT_E_RANGE);
     course_series_clear(&made);
 }
 

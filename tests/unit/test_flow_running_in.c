@@ -259,6 +259,109 @@ static void test_short_change(void **state)
     course_run_clear(&r);
 }
 
+/* ---- records together ------------------------------------------------------------------------ */
+
+enum { LAPS = 120 };
+static double lap_end[LAPS], lapped[MOST][LAPS];
+static recorded scattered[MOST];
+
+/* Records of the course that is predicted, in `factor` [MOST] times its time, whose scatter is as
+ * large as the change and partly slow. */
+static void add_records(const double *factor, double scatter, uint64_t seed)
+{
+    begin();
+    for (size_t i = 0; i < (1 + DRAWS) * TIMES; i++)
+        courses[i] = 0.1 * exp(-exp(log(10.0) / 2 * (double)(i % TIMES)) / 30);
+    for (size_t r = 0; r < MOST; r++) {
+        layer[r].log_first = 0;
+        layer[r].log_step = log(10.0) / 2;
+        const course c = growth_course(&layer[r], 0);
+        double slow = truth_normal(&seed);
+        for (size_t i = 0; i < LAPS; i++) {
+            slow = 0.9 * slow + sqrt(1 - 0.81) * truth_normal(&seed);
+            lap_end[i] = 4 * (double)(i + 1);
+            lapped[r][i] = 0.5 + course_at(&c, log((lap_end[i] - 2) / factor[r])) +
+                           scatter * (0.5 * slow + truth_normal(&seed));
+        }
+        scattered[r] = (recorded){.at = {.velocity = 0.3},
+                                  .n = LAPS,
+                                  .end = lap_end,
+                                  .friction = lapped[r],
+                                  .running_in = (double)NAN,
+                                  .note = ""};
+        run[r] = (course_run){.rec = &scattered[r], .growth = &layer[r]};
+        assert_int_equal(course_run_fit(&run[r], 1, NULL), WT_OK);
+    }
+    all.n = MOST;
+}
+
+static void records_end(void)
+{
+    for (size_t r = 0; r < MOST; r++)
+        course_run_clear(&run[r]);
+    run_set_clear(&all);
+}
+
+/* One of three tells a time, a quarter of the true one, as its scatter was high in its beginning:
+ * what all say holds it. */
+static void test_not_alone(void **state)
+{
+    (void)state;
+    add_records((double[]){1, 1, 1}, 0.06, 190);
+    assert_true(course_run_is_closed(&run[0]) && run[0].fit.high < 0);
+    assert_true(!course_run_is_closed(&run[1]) && !course_run_is_closed(&run[2]));
+    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
+    assert_true(time.low < 0 && time.high > 0);
+    assert_true(time.high - time.low < run[0].fit.high - run[0].fit.low);
+    records_end();
+}
+
+/* One tells a time, and with the others it is none. */
+static void test_not_together(void **state)
+{
+    (void)state;
+    add_records((double[]){1, 1, 1}, 0.1, 20);
+    assert_true(course_run_is_closed(&run[0]));
+    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
+    assert_true(isnan(run_level_interval(&all.level[RUN_ENERGY]).value));
+    check(run_set_judge(&all).verdict,
+          "cannot say: a record tells a time of running-in that all together do not");
+    records_end();
+}
+
+/* None tells a time, and all three do. */
+static void test_together(void **state)
+{
+    (void)state;
+    add_records((double[]){1, 1, 1}, 0.1, 6);
+    for (size_t r = 0; r < MOST; r++)
+        assert_false(run[r].fit.seen);
+    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
+    assert_true(time.low < 0 && time.high > 0);
+    check(run_set_judge(&all).verdict, "which not every record tells");
+    records_end();
+}
+
+/* Records of another time each have none in common. */
+static void test_differ(void **state)
+{
+    (void)state;
+    add_records((double[]){1, 1, 30}, 0.002, 3);
+    assert_true(course_run_is_closed(&run[0]) && course_run_is_closed(&run[1]));
+    assert_true(isnan(run[2].fit.high));
+    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
+    run_set_clear(&all);
+    all.n = 2;
+    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_true(fabs(run_level_interval(&all.level[RUN_TIME_RATIO]).value) < 0.1);
+    all.n = MOST;
+    records_end();
+}
+
 /* ---- the bundled case ------------------------------------------------------------------------ */
 
 static const char case_path[] = "test_flow_running_in.xml", csv_path[] = "test_flow_running_in.csv";
@@ -538,6 +641,10 @@ int main(void)
         cmocka_unit_test(test_before_the_first_friction),
         cmocka_unit_test(test_steady_by_itself),
         cmocka_unit_test(test_sentence_and_table),
+        cmocka_unit_test(test_not_alone),
+        cmocka_unit_test(test_not_together),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

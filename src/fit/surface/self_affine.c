@@ -186,17 +186,16 @@ static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum
                                   double to[CONSTANTS][CONSTANTS])
 {
     const law_fit *const f = l->f;
-    const double t = s->place_scatter > 0 ? students_t_quantile(s->place_freedom) / NORMAL_95 : 0;
     if (f->places == NULL) {
-        const double error = s->place_error > 0 ? t * s->place_error : 0;
+        const double error = s->place_error > 0 ? s->place_error : 0;
         to[LN_C0][LN_C0] = error * error;
         return true;
     }
-    for (size_t size = 0; t > 0 && size < s->n_sizes; size++) {
+    for (size_t size = 0; s->place_reach > 0 && size < s->n_sizes; size++) {
         double e[CONSTANTS] = {0};
         for (size_t k = 0; k < f->n; k++)
             for (size_t a = 0; a < l->n; a++)
-                e[a] += f->weight[k] * slope_of(l, k, fitted[a]) * t * s->place_scatter *
+                e[a] += f->weight[k] * slope_of(l, k, fitted[a]) * s->place_reach *
                         f->places[k * s->n_sizes + size];
         if (!solve_linear(l, e))
             return false;

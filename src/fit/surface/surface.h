@@ -53,7 +53,7 @@ wt_interval surface_interval(double mean, double freedom);
  * for each. */
 wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_spectrum *to,
                               wt_error *err) WT_NODISCARD;
-/* Standard error of ln C of a bin by the places of one size, over the scatter of one place; and by
+/* Standard error of ln C of a bin by the places of one size, over place_reach; and by
  * all. Where they are not kept all scans count alike. */
 double surface_places_of(const wt_surface_spectrum *s, size_t bin, size_t size);
 double surface_places_part(const wt_surface_spectrum *s, size_t bin);

@@ -185,7 +185,8 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
     const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
-    wt_surface_spectrum made = {.place_scatter = (double)NAN, .place_error = (double)NAN};
+    wt_surface_spectrum made = {
+        .place_scatter = (double)NAN, .place_reach = (double)NAN, .place_error = (double)NAN};
     status = surface_form_remove(z, map->nx, map->ny, (unsigned)options->form, form, err);
     if (status == WT_OK) {
         surface_heights_find(&less, heights);

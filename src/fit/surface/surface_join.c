@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/surface/surface.h"
 
+#include "base/gsl_quiet.h"
 #include "base/normal.h"
 #include "fit/students_t.h"
 
+#include <gsl/gsl_cdf.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -124,6 +126,16 @@ static size_t add_group(const joining *j, size_t group, double *squares, double 
     return n;
 }
 
+/* The modes of a third of all samples of so many places scatter by less than this part of what they
+ * do in the mean. An interval takes no more off: with all of it two places that scatter by twice
+ * what the modes do are held in 87 % and three in 91, as their modes often leave nothing; with this
+ * part two to ten places are held in 93 to 98 %, whatever they scatter by. */
+static double sure_part(double freedom)
+{
+    gsl_quiet();
+    return gsl_cdf_chisq_Pinv(1.0 / 3, freedom) / freedom;
+}
+
 /* Of the scans that share bins with others: the variance of their offsets less what the scatter of
  * the modes gives them. */
 static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
@@ -140,11 +152,13 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
         n += members;
         groups += members > 0 ? 1 : 0;
     }
-    to->place_scatter = to->place_error = to->place_freedom = (double)NAN;
+    to->place_scatter = to->place_reach = to->place_error = (double)NAN;
     if (n == groups)
         return;
-    to->place_freedom = (double)(n - groups);
-    to->place_scatter = sqrt(fmax(0, squares / to->place_freedom - noise / (double)n));
+    const double freedom = (double)(n - groups), all = squares / freedom, modes = noise / (double)n;
+    to->place_scatter = sqrt(fmax(0, all - modes));
+    to->place_reach =
+        students_t_quantile(freedom) / NORMAL_95 * sqrt(fmax(0, all - sure_part(freedom) * modes));
 }
 
 /* What the places give the mean: a bin that one size alone tells has the places of that only, and
@@ -156,7 +170,7 @@ static void find_place_error(wt_surface_spectrum *to)
         const double part = surface_places_part(to, k);
         sum += part * part;
     }
-    to->place_error = to->place_scatter * sqrt(sum / (double)to->n);
+    to->place_error = to->place_reach * sqrt(sum / (double)to->n);
 }
 
 /* ---- bins ------------------------------------------------------------------------------------ */
@@ -298,8 +312,7 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place = spectrum->place_scatter * surface_places_part(spectrum, bin) *
-                             students_t_quantile(spectrum->place_freedom) / NORMAL_95;
+        const double place = spectrum->place_reach * surface_places_part(spectrum, bin);
         freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
     }
     return surface_interval(b->density, freedom);

@@ -200,27 +200,33 @@ static const double deep = 12;
 /* What is settled within two means is not told by them; times are tried from an eighth of that to
  * so many times the length of the series. */
 static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
-/* As of the running-in: one false alarm in twenty at most. */
-static const double least_odds = 20;
 static const double tail = 0.025; /* on each side of an interval of 95 % */
 
-typedef struct scan {
+/* One series with its course. */
+typedef struct member {
     const course_series *s;
     course_sums sums;
     double height, variance, least, settled;
-    double *column;              /* [n] */
-    bool kept[SCATTER_LAWS];     /* laws that count */
-    double null[SCATTER_LAWS];   /* ln of their likelihoods about a constant */
-    size_t n;                    /* factors so far */
-    double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
-    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+    double *column;                  /* [n] */
+    bool kept[SCATTER_LAWS];         /* laws that count */
+    double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
+    double likelihood[SCATTER_LAWS]; /* the largest with the course */
     double best, best_level, best_scatter;
     scatter_law best_law;
-} scan;
+} member;
 
 typedef struct law_sum {
     double weight, ratio, square; /* weight as a logarithm, the others by it */
 } law_sum;
+
+typedef struct scan {
+    member *of; /* [n_of] */
+    size_t n_of;
+    law_sum *each;               /* [n_of] of one factor */
+    size_t n;                    /* factors so far */
+    double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
+    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+} scan;
 
 static void add_law(law_sum *sum, double weight, double ratio, double variance)
 {
@@ -230,8 +236,8 @@ static void add_law(law_sum *sum, double weight, double ratio, double variance)
                      old * sum->square + now * (ratio * ratio + variance)};
 }
 
-/* likelihood: [SCATTER_LAWS] of each, or NULL. */
-static law_sum try_factor(scan *t, double log_factor, double *likelihood)
+/* `first`: what each law comes to is kept. */
+static law_sum try_member(member *t, double log_factor, bool first)
 {
     law_sum sum = {-(double)INFINITY, 0, 0};
     const double df = (double)t->s->n - 2;
@@ -250,8 +256,8 @@ static law_sum try_factor(scan *t, double log_factor, double *likelihood)
             continue;
         const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
         add_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
-        if (likelihood != NULL)
-            likelihood[i] = fmax(likelihood[i], l);
+        if (first)
+            t->likelihood[i] = fmax(t->likelihood[i], l);
         if (l > t->best) {
             t->best = l;
             t->best_law = s.law;
@@ -260,6 +266,65 @@ static law_sum try_factor(scan *t, double log_factor, double *likelihood)
         }
     }
     return sum;
+}
+
+/* The change that is taken for possible, as a variance in the unit of the first series: that of the
+ * series that scatters least. */
+static double possible_of(const scan *t)
+{
+    double least = (double)INFINITY;
+    for (size_t i = 0; i < t->n_of; i++) {
+        const double unit = t->of[0].height / t->of[i].height;
+        least = fmin(least, t->of[i].variance * unit * unit);
+    }
+    return least;
+}
+
+/* ln of the likelihoods of a series about a constant, over its laws. */
+static double null_of(const member *m)
+{
+    double none = -(double)INFINITY;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        none = log_add(none, m->null[i]);
+    return none;
+}
+
+/* The series have the ratio in common, too, and a scatter each. What one says of the ratio is taken
+ * for normal; which changes are possible counts once and not for each. A series that the course
+ * begins behind says as much as a constant, unless it is the only one. */
+static law_sum join(const scan *t)
+{
+    double precision = 0, mean = 0, squares = 0, weight = 0;
+    if (t->n_of == 1)
+        return t->each[0];
+    for (size_t i = 0; i < t->n_of; i++) {
+        const member *const m = &t->of[i];
+        const law_sum *const each = &t->each[i];
+        const double variance = each->square - each->ratio * each->ratio,
+                     changes = variance * m->height * m->height, unit = t->of[0].height;
+        if (!isfinite(each->weight) || !(variance > 0)) {
+            weight += null_of(m);
+            continue;
+        }
+        weight += each->weight + 0.5 * log1p(changes / m->variance) - log(m->height / unit) -
+                  0.5 * log(2 * M_PI * variance * unit * unit);
+        const double all = precision + 1 / variance, off = each->ratio - mean;
+        squares += off * off * precision / (variance * all); /* about the mean so far */
+        mean += off / (variance * all);
+        precision = all;
+    }
+    if (!(precision > 0))
+        return (law_sum){-(double)INFINITY, 0, 0};
+    const double variance = 1 / precision, changes = variance * t->of[0].height * t->of[0].height;
+    weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / possible_of(t)));
+    return (law_sum){weight, mean, mean * mean + variance};
+}
+
+static law_sum try_factor(scan *t, double log_factor, bool first)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        t->each[i] = try_member(&t->of[i], log_factor, first);
+    return join(t);
 }
 
 static void keep_factor(scan *t, double log_factor, law_sum sum)
@@ -271,48 +336,53 @@ static void keep_factor(scan *t, double log_factor, law_sum sum)
 }
 
 /* Factors in equal steps from low to high. */
-static void try_factors(scan *t, double low, double high, size_t n, double *likelihood)
+static void try_factors(scan *t, double low, double high, size_t n, bool first)
 {
     t->n = 0;
     for (size_t i = 0; i < n; i++) {
         const double at = low + (high - low) * (double)i / (double)(n - 1);
-        keep_factor(t, at, try_factor(t, at, likelihood));
+        keep_factor(t, at, try_factor(t, at, first));
     }
 }
 
 /* Laws that are e^-deep as likely as the best change nothing. */
-static void drop_laws(scan *t, const double *likelihood)
+static void drop_laws(member *m)
 {
     for (size_t i = 0; i < SCATTER_LAWS; i++)
-        t->kept[i] = likelihood[i] > t->best - deep;
+        m->kept[i] = m->likelihood[i] > m->best - deep;
 }
 
+/* From the least that one of the series may show to the most. */
 static void limits_of(const scan *t, double limit[2])
 {
-    const double length = t->s->end[t->s->n - 1], mean = length / (double)t->s->n;
-    limit[0] = log(least_part * fewest_means * mean / t->settled);
-    limit[1] = log(most_lengths * length / t->settled);
+    limit[0] = (double)INFINITY;
+    limit[1] = -(double)INFINITY;
+    for (size_t i = 0; i < t->n_of; i++) {
+        const course_series *const s = t->of[i].s;
+        const double length = s->end[s->n - 1], mean = length / (double)s->n,
+                     settled = t->of[i].settled;
+        limit[0] = fmin(limit[0], log(least_part * fewest_means * mean / settled));
+        limit[1] = fmax(limit[1], log(most_lengths * length / settled));
+    }
 }
 
 static void scan_coarsely(scan *t, const double limit[2])
 {
-    double likelihood[SCATTER_LAWS];
-    for (size_t i = 0; i < SCATTER_LAWS; i++)
-        likelihood[i] = -(double)INFINITY;
     const size_t n = (size_t)fmin(fmax(ceil((limit[1] - limit[0]) / coarse), 2), COARSE_MOST);
-    try_factors(t, limit[0], limit[1], n, likelihood);
-    drop_laws(t, likelihood);
+    try_factors(t, limit[0], limit[1], n, true);
+    for (size_t i = 0; i < t->n_of; i++)
+        drop_laws(&t->of[i]);
 }
 
-/* ln of the odds of the course, by any factor, over a constant. */
+/* ln of the odds of the course, by any factor, over constants. */
 static double log_odds(const scan *t)
 {
-    double any = -(double)INFINITY, none = -(double)INFINITY;
+    double any = -(double)INFINITY, none = 0;
     for (size_t i = 0; i < t->n; i++)
         any = log_add(any, t->weight[i]);
-    for (size_t i = 0; i < SCATTER_LAWS; i++)
-        none = log_add(none, t->null[i]);
-    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * t->variance);
+    for (size_t i = 0; i < t->n_of; i++)
+        none += null_of(&t->of[i]);
+    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * possible_of(t));
 }
 
 /* Again where the likelihood is, until it lies on many factors: a precise series tells the factor
@@ -331,7 +401,7 @@ static size_t scan_finely(scan *t, const double limit[2])
             low = fmin(low, t->log_factor[i] - step);
             high = fmax(high, t->log_factor[i] + step);
         }
-    try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, NULL);
+    try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, false);
     for (size_t i = 0; i < t->n; i++)
         n += t->weight[i] > largest - deep;
     return n;
@@ -377,14 +447,29 @@ static double quantile(const scan *t, double share)
     return t->log_factor[t->n - 1];
 }
 
+/* No series lasts until it is settled; it is so within the first means of all. */
+static bool is_beyond(const scan *t, double log_factor)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        if (exp(log_factor) * t->of[i].settled <= t->of[i].s->end[t->of[i].s->n - 1])
+            return false;
+    return true;
+}
+
+static bool is_within(const scan *t, double log_factor)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s->end[0])
+            return false;
+    return true;
+}
+
 static void tell_factor(const scan *t, course_fit *fit)
 {
-    const double length = t->s->end[t->s->n - 1], first = t->s->end[0];
     double beyond = 0, within = 0, mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
-        const double settled = exp(t->log_factor[i]) * t->settled;
-        beyond += settled > length ? t->weight[i] : 0;
-        within += settled < fewest_means * first ? t->weight[i] : 0;
+        beyond += is_beyond(t, t->log_factor[i]) ? t->weight[i] : 0;
+        within += is_within(t, t->log_factor[i]) ? t->weight[i] : 0;
         mean += t->weight[i] * t->log_factor[i];
         square += t->weight[i] * t->log_factor[i] * t->log_factor[i];
     }
@@ -399,7 +484,8 @@ static void find(scan *t, double expected, course_fit *fit)
     double limit[2];
     limits_of(t, limit);
     scan_coarsely(t, limit);
-    fit->seen = log_odds(t) > log(least_odds);
+    fit->log_odds = log_odds(t);
+    fit->seen = fit->log_odds > log(COURSE_ODDS);
     if (fit->seen) {
         for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
             continue;
@@ -407,24 +493,13 @@ static void find(scan *t, double expected, course_fit *fit)
         tell_factor(t, fit);
     } else {
         const double wide = NORMAL_95 * expected;
-        try_factors(t, -wide, wide, FINE, NULL);
+        try_factors(t, -wide, wide, FINE, false);
         weigh(t, expected);
     }
     tell_ratio(t, fit);
-    fit->law = t->best_law;
-    fit->level = t->best_level;
-    fit->scatter = t->best_scatter;
-}
-
-static void find_null(scan *t)
-{
-    for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums s = scatter_begin(scatter_law_of(i, t->s->n));
-        for (size_t k = 0; k < t->s->n; k++)
-            scatter_add(&s, t->s->friction[k]);
-        t->null[i] = scatter_prior(i) + scatter_likelihood(&s, false, t->least);
-        t->kept[i] = true;
-    }
+    fit->law = t->of[0].best_law;
+    fit->level = t->of[0].best_level;
+    fit->scatter = t->of[0].best_scatter;
 }
 
 static double variance_of(const course_series *s)
@@ -437,32 +512,51 @@ static double variance_of(const course_series *s)
     return sum / (double)s->n;
 }
 
-wt_status course_fit_make(const course_series *s, const course *c, double settled_share,
-                          double expected, course_fit *fit, wt_error *err)
+static wt_status begin(const course_pair *of, double settled_share, pool *memory, member *m,
+                       wt_error *err)
+{
+    const course_series *const s = of->series;
+    *m = (member){.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
+    m->height = course_height(of->course);
+    m->settled = course_settled(of->course, settled_share);
+    m->least = SCATTER_DIGITS * SCATTER_DIGITS * m->variance;
+    if (s->n < COURSE_FEWEST || !(m->variance > 0))
+        return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
+    if (!(m->height > 0) || !(m->settled > 0))
+        return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
+    m->sums = course_sums_make(of->course, memory);
+    m->column = pool_numbers(memory, s->n);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        scatter_sums sums = scatter_begin(scatter_law_of(i, s->n));
+        for (size_t k = 0; k < s->n; k++)
+            scatter_add(&sums, s->friction[k]);
+        m->null[i] = scatter_prior(i) + scatter_likelihood(&sums, false, m->least);
+        m->likelihood[i] = -(double)INFINITY;
+        m->kept[i] = true;
+    }
+    return WT_OK;
+}
+
+wt_status course_fit_make(const course_pair *of, size_t n, double settled_share, double expected,
+                          course_fit *fit, wt_error *err)
 {
     const double none = (double)NAN;
     pool memory = {0};
-    scan t = {.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
+    scan t = {.of = pool_alloc(&memory, n, sizeof *t.of),
+              .n_of = n,
+              .each = pool_alloc(&memory, n, sizeof *t.each),
+              .log_factor = pool_numbers(&memory, COARSE_MOST),
+              .weight = pool_numbers(&memory, COARSE_MOST),
+              .ratio = pool_numbers(&memory, COARSE_MOST),
+              .square = pool_numbers(&memory, COARSE_MOST)};
     *fit = (course_fit){.log_factor = none, .error = none, .low = none, .high = none};
-    t.height = course_height(c);
-    t.settled = course_settled(c, settled_share);
-    t.least = SCATTER_DIGITS * SCATTER_DIGITS * t.variance;
-    if (s->n < COURSE_FEWEST || !(t.variance > 0))
-        return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
-    if (!(t.height > 0) || !(t.settled > 0))
-        return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
-    t.sums = course_sums_make(c, &memory);
-    t.column = pool_numbers(&memory, s->n);
-    t.log_factor = pool_numbers(&memory, COARSE_MOST);
-    t.weight = pool_numbers(&memory, COARSE_MOST);
-    t.ratio = pool_numbers(&memory, COARSE_MOST);
-    t.square = pool_numbers(&memory, COARSE_MOST);
-    if (memory.failed) {
-        pool_free(&memory);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
-    find_null(&t);
-    find(&t, expected, fit);
+    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = begin(&of[i], settled_share, &memory, &t.of[i], err);
+    if (status == WT_OK)
+        find(&t, expected, fit);
     pool_free(&memory);
-    return WT_OK;
+    return status;
 }

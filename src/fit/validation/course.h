@@ -31,15 +31,23 @@ typedef struct course_series {
 wt_status course_series_new(size_t n, course_series *s, wt_error *err) WT_NODISCARD;
 void course_series_clear(course_series *s);
 
+typedef struct course_pair {
+    const course_series *series;
+    const course *course; /* predicted for it */
+} course_pair;
+
 /* friction = level + ratio x course(time / factor), with slow and white scatter of one law from end
- * to end; likelihood averaged over laws and, but for the factor itself, over factors. */
+ * to end; likelihood averaged over laws and, but for the factor itself, over factors. Several
+ * series have factor and ratio in common, and a level and a law each. */
+#define COURSE_ODDS 20 /* as of the running-in: one false alarm in twenty at most */
 typedef struct course_fit {
-    bool seen;         /* odds above 20 to 1 over a constant */
+    bool seen;         /* odds above COURSE_ODDS to 1 over a constant */
+    double log_odds;   /* ln of them */
     double log_factor; /* mean; NaN unless seen */
     double error;      /* standard deviation */
     double low, high;  /* 95 %; NaN: the series does not tell that end */
     double ratio, ratio_error;
-    double level;    /* of the likeliest */
+    double level;    /* of the likeliest, in the first series */
     double scatter;  /* likewise, the variance of the means about it */
     scatter_law law; /* likewise */
 } course_fit;
@@ -47,8 +55,8 @@ typedef struct course_fit {
 /* `expected`: standard deviation of the logarithm of the factor about 1 before the series is seen,
  * which tells the ratio where no course is seen. WT_E_RANGE of fewer than COURSE_FEWEST means. */
 enum { COURSE_FEWEST = 16 };
-wt_status course_fit_make(const course_series *s, const course *c, double settled_share,
-                          double expected, course_fit *fit, wt_error *err) WT_NODISCARD;
+wt_status course_fit_make(const course_pair *of, size_t n, double settled_share, double expected,
+                          course_fit *fit, wt_error *err) WT_NODISCARD;
 /* The likeliest factor and ratio of another course by one law, the factor sought within `within`
  * about `around`, or held there if that is 0. */
 typedef struct course_place {

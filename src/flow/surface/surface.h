@@ -72,9 +72,6 @@ wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, sur
 double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin);
 /* Standard error of ln C of the law beyond what all of the spectrum has by its places. */
 double surface_law_error(const surface_whole *w, double wavenumber);
-/* What the places give all of the spectrum; with few of them it is hardly known itself: half an
- * interval of 95 %, over 1.96. NaN: not known. */
-double surface_place_error(const wt_surface_spectrum *s);
 /* Of scans of several sizes, what the places of one give a knot, and what those of all do,
  * likewise; the law beyond has that of the last bin. NaN: not known, or there is one size. */
 double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size);

@@ -146,7 +146,7 @@ static wt_status add_places(surface_whole *w, number_of *number, double value, d
     wt_status status = WT_OK;
     if (!(w->spectrum.place_error > 0))
         return WT_OK;
-    const double place = value * surface_place_error(&w->spectrum) / 2;
+    const double place = value * w->spectrum.place_error / 2;
     *square += n > 1 ? 0 : place * place;
     for (size_t size = 0; status == WT_OK && n > 1 && size < n; size++) {
         status = move_knots(w, 0, w->knots.n, size, number, &moved, err);

@@ -6,7 +6,6 @@
 #include "base/clocale.h"
 #include "base/ends.h"
 #include "base/normal.h"
-#include "fit/students_t.h"
 #include "fit/surface/surface.h"
 
 #include <math.h>
@@ -44,20 +43,11 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
     return NULL;
 }
 
-double surface_place_error(const wt_surface_spectrum *s)
-{
-    return s->place_error > 0 ? s->place_error * students_t_quantile(s->place_freedom) / NORMAL_95
-                              : s->place_error;
-}
-
 /* What places give ln C of scans of one kind; where those do not tell, what one place of the others
  * has; where neither do, NaN. That the kinds differ is what is asked, and no scatter. */
 static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
 {
-    if (!isnan(s->place_error))
-        return surface_place_error(s);
-    const double one = others->place_scatter;
-    return one > 0 ? one * students_t_quantile(others->place_freedom) / NORMAL_95 : one;
+    return isnan(s->place_error) ? others->place_reach : s->place_error;
 }
 
 /* C by the profiles over that by the maps, the mean over the bins of both; NaN without any. */

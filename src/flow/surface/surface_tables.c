@@ -5,7 +5,6 @@
 #include "base/normal.h"
 #include "base/param.h"
 #include "data/tables/rows.h"
-#include "fit/students_t.h"
 #include "fit/surface/surface.h"
 #include "weartrack/kernel.h"
 
@@ -56,9 +55,7 @@ static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
 /* Of a scan at one place; NaN: not known, or there is one size. */
 static double one_place(const wt_surface_spectrum *s)
 {
-    return s->place_error > 0 && s->n_sizes > 1
-               ? s->place_scatter * students_t_quantile(s->place_freedom) / NORMAL_95
-               : (double)NAN;
+    return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
 }
 
 double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size)
@@ -87,7 +84,7 @@ double surface_law_error(const surface_whole *w, double wavenumber)
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
                  last = surface_knot_places(&w->spectrum, w->spectrum.n),
-                 places = isnan(last) ? surface_place_error(&w->spectrum) : last,
+                 places = isnan(last) ? w->spectrum.place_error : last,
                  common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
 }
@@ -244,32 +241,31 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     surface_print_profiles(w, profiles, sizeof profiles);
     print_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
-    TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
-              .hurst = of_interval(w->law.hurst, w->law.found),
-              .c0 = of_interval(w->law.c0, w->law.found),
-              .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found),
-              .law = law, .reliable_from = number(s->bins[0].wavenumber, 0),
-              .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
-              .steep = number(w->steep, 0),
-              .steep_by = isnan(w->steep)   ? "not reached"
-                          : w->steep_by_law ? "law"
-                                            : "measured",
-              .extrapolated_share =
-                  number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
-              .place_scatter = number(s->place_scatter, 0),
-              .place_error = number(surface_place_error(s), 0),
-              .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
-              .anisotropy_direction =
-                  number(w->directions.direction, w->directions.direction_error),
-              .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
-              .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-              .directions = directions, .profiles = profiles, .includes = included(w, places),
-              .lacks = places ? "calibration of the scanner, noise of the instrument"
-                              : "places of the surface, calibration of the scanner, noise of the "
-                                "instrument",
-              .option = option, .anisotropy_option = anisotropy,
-              .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
-              .n_scans = n_scans);
+    TABLE_SET(
+        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+        .hurst = of_interval(w->law.hurst, w->law.found),
+        .c0 = of_interval(w->law.c0, w->law.found),
+        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
+        .reliable_from = number(s->bins[0].wavenumber, 0),
+        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+        .steep = number(w->steep, 0),
+        .steep_by = isnan(w->steep)   ? "not reached"
+                    : w->steep_by_law ? "law"
+                                      : "measured",
+        .extrapolated_share =
+            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+        .place_scatter = number(s->place_scatter, 0), .place_error = number(s->place_error, 0),
+        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
+        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
+        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
+        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
+        .directions = directions, .profiles = profiles, .includes = included(w, places),
+        .lacks = places ? "calibration of the scanner, noise of the instrument"
+                        : "places of the surface, calibration of the scanner, noise of the "
+                          "instrument",
+        .option = option, .anisotropy_option = anisotropy,
+        .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+        .n_scans = n_scans);
     return table_end(&t, table);
 }
 

@@ -348,10 +348,7 @@ static wt_status judge(const running_in_task *task, run_set *all, wt_error *err)
                      .seed = task->work->seed,
                      .has_shear = !isnan(task->job->sliding->shear_stress.value),
                      .without_errors = why_without_errors(task)};
-    wt_status status = WT_OK;
-    for (size_t k = 0; status == WT_OK && k < RUN_NUMBERS; k++)
-        status = run_level_make(task->run, task->n, (run_number)k, &all->level[k], err);
-    return status;
+    return run_set_levels(all, err);
 }
 
 static wt_status check_job(const wt_validation_job *job, const wt_job *work,
@@ -383,8 +380,7 @@ wt_status wt_validation_running_in_make(const wt_validation_job *job, const wt_j
             status = running_in_course_table(&all, said.verdict, &made.course, err);
     }
     cost_say(work, (cost_summary){.items = (double)task.n, .tolerance_asked = work->tolerance});
-    for (size_t k = 0; k < RUN_NUMBERS; k++)
-        run_level_clear(&all.level[k]);
+    run_set_clear(&all);
     task_clear(&task);
     if (status == WT_OK) {
         *tables = made;

@@ -67,6 +67,13 @@ typedef struct run_set {
     const char *without_errors; /* why the prediction has none; NULL */
     run_level level[RUN_NUMBERS];
 } run_set;
+/* The levels of all numbers. Where a record does not tell the time that others tell, those are the
+ * ones that chance lets tell one, and their mean is off: the level is then what all records say
+ * together of one time and one change over those predicted, or nothing, where they do not tell it
+ * or a time and a change of each are likelier by COURSE_ODDS. */
+wt_status run_set_levels(run_set *all, wt_error *err) WT_NODISCARD;
+void run_set_clear(run_set *all);
+
 typedef struct run_verdict {
     char verdict[600], settled_by[320];
 } run_verdict;

@@ -40,7 +40,8 @@ static wt_status fit_until(course_run *run, double until, double expected, wt_er
     const course c = growth_course(run->growth, 0);
     wt_status status = recorded_series(run->rec, until, &s, err);
     if (status == WT_OK)
-        status = course_fit_make(&s, &c, RUNNING_IN_LEFT, expected, &run->fit, err);
+        status =
+            course_fit_make(&(course_pair){&s, &c}, 1, RUNNING_IN_LEFT, expected, &run->fit, err);
     run->until = until;
     course_series_clear(&s);
     return status;
@@ -290,4 +291,134 @@ wt_interval run_level_interval(const run_level *level)
 void run_level_clear(run_level *level)
 {
     agreement_clear(&level->fit);
+}
+
+/* ---- all runs as one ------------------------------------------------------------------------- */
+
+typedef struct joint {
+    const course_run **of; /* [n] those that were compared */
+    course_series *series;
+    course *course;
+    course_pair *pair;
+    size_t n;
+    double log_odds; /* of a time and a change of each */
+} joint;
+
+static void joint_clear(joint *j)
+{
+    for (size_t i = 0; j->series != NULL && i < j->n; i++)
+        course_series_clear(&j->series[i]);
+    free((void *)j->of);
+    free(j->series);
+    free(j->course);
+    free(j->pair);
+}
+
+static wt_status joint_make(const course_run *runs, size_t n, joint *j, wt_error *err)
+{
+    *j = (joint){.of = calloc(n + 1, sizeof *j->of),
+                 .series = calloc(n + 1, sizeof *j->series),
+                 .course = calloc(n + 1, sizeof *j->course),
+                 .pair = calloc(n + 1, sizeof *j->pair)};
+    wt_status status = WT_OK;
+    if (j->of == NULL || j->series == NULL || j->course == NULL || j->pair == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        if (runs[i].value == NULL)
+            continue;
+        const size_t k = j->n++;
+        j->of[k] = &runs[i];
+        j->course[k] = growth_course(runs[i].growth, 0);
+        j->pair[k] = (course_pair){&j->series[k], &j->course[k]};
+        j->log_odds += runs[i].fit.log_odds;
+        status = recorded_series(runs[i].rec, runs[i].until, &j->series[k], err);
+    }
+    return status;
+}
+
+/* What draw k moves the time by: the mean of the runs that it moves, or, where none shows a course,
+ * as it moves the time predicted. */
+static double moved(const joint *j, size_t k)
+{
+    double sum = 0, n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const course_run *const run = j->of[i];
+        const double off = k <= run->growth->n_draws ? course_run_value(run, k, RUN_TIME_RATIO) -
+                                                           course_run_value(run, 0, RUN_TIME_RATIO)
+                                                     : (double)NAN;
+        sum += isfinite(off) ? off : 0;
+        n += isfinite(off);
+    }
+    return n > 0 ? sum / n
+                 : log(settled_of(j->of[0]->growth, 0)) - log(settled_of(j->of[0]->growth, k));
+}
+
+static wt_status joint_tell(const joint *j, double margin, course_run *joined, wt_error *err)
+{
+    const size_t draws = joined->growth->n_draws;
+    joined->value = calloc((1 + draws) * RUN_NUMBERS, sizeof *joined->value);
+    if (joined->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k <= draws; k++)
+        put_numbers(joined, k, margin, joined->fit.log_factor + (k > 0 ? moved(j, k) : 0),
+                    joined->fit.ratio, joined->value + k * RUN_NUMBERS);
+    return WT_OK;
+}
+
+/* One fit to all records that were compared; its value is NULL where they do not have one time. */
+static wt_status join_runs(const course_run *runs, size_t n, double margin, course_run *joined,
+                           wt_error *err)
+{
+    joint j;
+    *joined = (course_run){.value = NULL};
+    wt_status status = joint_make(runs, n, &j, err);
+    if (status == WT_OK && j.n > 1) {
+        *joined = *j.of[0];
+        joined->value = NULL;
+        status = course_fit_make(j.pair, j.n, RUNNING_IN_LEFT, expected_error(joined->growth),
+                                 &joined->fit, err);
+        if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(COURSE_ODDS))
+            status = joint_tell(&j, margin, joined, err);
+    }
+    joint_clear(&j);
+    return status;
+}
+
+/* Numbers of the time, which a record may leave untold. */
+static const run_number of_time[] = {RUN_TIME_RATIO, RUN_MEASURED, RUN_WEAR, RUN_ENERGY};
+
+static wt_status level_together(run_set *all, wt_error *err)
+{
+    course_run joined;
+    wt_status status = join_runs(all->runs, all->n, all->margin, &joined, err);
+    for (size_t k = 0; status == WT_OK && k < sizeof of_time / sizeof *of_time; k++) {
+        run_level *const level = &all->level[of_time[k]];
+        run_level_clear(level);
+        status = run_level_make(&joined, joined.value != NULL, of_time[k], level, err);
+    }
+    course_run_clear(&joined);
+    return status;
+}
+
+wt_status run_set_levels(run_set *all, wt_error *err)
+{
+    size_t compared = 0, closed = 0;
+    wt_status status = WT_OK;
+    for (size_t k = 0; status == WT_OK && k < RUN_NUMBERS; k++)
+        status = run_level_make(all->runs, all->n, (run_number)k, &all->level[k], err);
+    for (size_t i = 0; i < all->n; i++) {
+        compared += all->runs[i].value != NULL;
+        closed += course_run_is_closed(&all->runs[i]);
+    }
+    /* those that scatter by more than their errors have no time in common */
+    if (status == WT_OK && compared > 1 && closed < compared &&
+        !(all->level[RUN_TIME_RATIO].fit.scatter > 0))
+        status = level_together(all, err);
+    return status;
+}
+
+void run_set_clear(run_set *all)
+{
+    for (size_t k = 0; k < RUN_NUMBERS; k++)
+        run_level_clear(&all->level[k]);
 }

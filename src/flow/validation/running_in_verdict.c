@@ -40,6 +40,15 @@ static const course_run *first_open(const run_set *all)
     return NULL;
 }
 
+/* The first run that tells a number; NULL. */
+static const course_run *first_telling(const run_set *all, run_number number)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (course_run_tells(&all->runs[i], number))
+            return &all->runs[i];
+    return NULL;
+}
+
 /* What a run leaves open no other run tells: of it the time may be any. */
 static agreement_verdict judge_time(const run_set *all)
 {
@@ -103,7 +112,10 @@ static void tell_time(const run_set *all, char *text, size_t size)
     const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
     const course_run *const against = contradicting(all), *const open = first_open(all);
     if (against != NULL || isnan(i.value)) {
-        tell_open(against != NULL ? against : open, text, size);
+        if (against == NULL && first_telling(all, RUN_TIME_RATIO) != NULL)
+            snprintf(text, size, "a record tells a time of running-in that all together do not");
+        else
+            tell_open(against != NULL ? against : open, text, size);
         return;
     }
     clocale_print(text, size,
@@ -174,15 +186,6 @@ static const char *close_of(const course_fit *fit)
         return "a record that goes on until a change as the layer makes it is over";
     return fit->seen && isnan(fit->low) ? "shorter cycles at the start, or a slower record"
                                         : "a longer record, or more of them, of a fresh surface";
-}
-
-/* The first run that tells a number; NULL. */
-static const course_run *first_telling(const run_set *all, run_number number)
-{
-    for (size_t i = 0; i < all->n; i++)
-        if (course_run_tells(&all->runs[i], number))
-            return &all->runs[i];
-    return NULL;
 }
 
 static void advise(const run_set *all, run_number number, char *text, size_t size)
