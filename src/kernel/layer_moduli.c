@@ -27,6 +27,29 @@ bool layer_has_moduli(const wt_layer_state *layer)
     return layer->thickness > 0 && (layer->own != NULL || layer->slope.exponent != 0);
 }
 
+wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
+                            wt_error *err)
+{
+    const double same = 1; /* [K] by which temperatures without a law may differ */
+    const double from = slope->temperature;
+    if (isnan(from) || slope->exponent == 0 || from == to)
+        return WT_OK;
+    const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);
+    if (isnan(log_a) && fabs(from - to) <= same)
+        return WT_OK;
+    if (isnan(log_a)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
+        wt_error_found(err, "%.4g K and %.4g K", from, to);
+        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
+        return WT_E_MISSING;
+    }
+    const double a = exp(M_LN10 * log_a);
+    slope->reference *= a;
+    slope->low *= a;
+    slope->high *= a;
+    return WT_OK;
+}
+
 /* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1: it rises as e^t from the
  * beginning, which is that of many decades of frequency, and comes to the end as fast as it can. */
 static void make_rule(layer_moduli *m, double tolerance)

@@ -28,6 +28,9 @@ typedef struct layer_moduli {
 
 /* Whether a layer has moduli of its own. */
 bool layer_has_moduli(const wt_layer_state *layer);
+/* The frequencies of a slope from its temperature to another one, by the law of the bulk. */
+wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
+                            wt_error *err) WT_NODISCARD;
 layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance);
 /* |E_layer / E_bulk| at a frequency > 0. */
 double layer_moduli_ratio(const layer_moduli *moduli, double omega);

@@ -30,6 +30,8 @@ static const struct {
     {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
     {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
     {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one lever for bulk and track"},
+    {FLOW_DRAW_RATIO_SLOPE, "slope of the modulus ratio",
+     "bulk and track indented at rates further apart"},
     {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},
     {FLOW_DRAW_CRITICAL_ENERGY, "critical energy", "the layer measured at more places"},
     {FLOW_DRAW_OBSERVED, "observed thickness", "the layer measured at more places"},
@@ -76,14 +78,19 @@ static source *find_source(source_list *list, const char *words, const char *rem
 
 /* ---- the variance by sources ----------------------------------------------------------------- */
 
-static void add_rest(source_list *list, bool with_surface, const trial_parts *parts,
+static void add_rest(source_list *list, const wt_sliding *sliding, const trial_parts *parts,
                      const trial_parts *needed)
 {
+    const bool with_surface = sliding->surface->modes_error != NULL;
+    const bool two = sliding->layer_rubber != NULL && sliding->layer_rubber->n_draws > 0;
     const struct {
         const char *words, *remedy;
         double variance, needed;
-    } rest[] = {{with_surface ? VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum"
-                              : VALIDATION_OF_MATERIAL,
+    } rest[] = {{two && with_surface ? VALIDATION_OF_MATERIAL
+                     ", that of the layer, and scatter of the measured spectrum"
+                 : two          ? VALIDATION_OF_MATERIAL ", and that of the layer"
+                 : with_surface ? VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum"
+                                : VALIDATION_OF_MATERIAL,
                  with_surface ? "a second DMA run; more scans of the counter surface"
                               : "a second DMA run; temperatures known better",
                  parts->material, needed->material},
@@ -109,7 +116,7 @@ static void list_sources(const validation *v, const trial_parts *parts, const tr
         s->variance += parts->line[u];
         s->needed += needed->line[u];
     }
-    add_rest(list, v->used.surface.modes_error != NULL, parts, needed);
+    add_rest(list, v->job->sliding, parts, needed);
 }
 
 /* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope
