@@ -102,8 +102,12 @@ wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, ui
     const wt_rubber *rubber = sliding->layer_rubber;
     /* draws of two materials may come from the same numbers: not those at the same place */
     const bool drawn = replicate != WT_NO_REPLICATE;
-    return wt_rubber_at(rubber, temperature, seed,
-                        drawn ? replicate + rubber->n_draws / 2 : replicate, material, NULL, err);
+    const wt_status status =
+        wt_rubber_at(rubber, temperature, seed, drawn ? replicate + rubber->n_draws / 2 : replicate,
+                     material, NULL, err);
+    if (status != WT_OK)
+        wt_error_place(err, "material of the layer");
+    return status;
 }
 
 /* The slowest wave of a contact, across the sliding, is as slow as any: from what was measured on,
