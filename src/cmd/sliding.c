@@ -80,6 +80,35 @@ int cmd_sliding_free(cmd_sliding *s)
     return cmd_session_free(&s->session);
 }
 
+/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
+static bool is_given_of_layer(const cmd_sliding *s, const char *name)
+{
+    return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
+}
+
+/* Nothing that is said of the modulus of a layer is passed over. */
+static bool check_layer_modulus(cmd_sliding *s)
+{
+    const bool comparison = s->contact.layer_comparison != NULL,
+               material = s->contact.layer_material != NULL,
+               ratio = is_given_of_layer(s, "modulus-ratio"),
+               slope = is_given_of_layer(s, "ratio-slope"),
+               frequencies = is_given_of_layer(s, "ratio-frequency") ||
+                             is_given_of_layer(s, "ratio-lowest") ||
+                             is_given_of_layer(s, "ratio-highest"),
+               temperature = is_given_of_layer(s, "ratio-temperature");
+    if (comparison + material + ratio > 1)
+        return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
+                                            "--layer-material");
+    if (slope && !ratio)
+        return cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
+    if ((frequencies && !slope) || (temperature && !slope && !comparison))
+        return cmd_usage_error(&s->session,
+                               "--ratio-frequency, --ratio-lowest, --ratio-highest and "
+                               "--ratio-temperature go with --ratio-slope");
+    return true;
+}
+
 bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)
 {
     cmd_session *session = &s->session;
@@ -95,12 +124,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
-    const bool by_files = s->contact.layer_comparison != NULL || s->contact.layer_material != NULL;
-    if ((s->contact.layer_comparison != NULL && s->contact.layer_material != NULL) ||
-        (by_files && (cmd_given(&s->parts[CMD_OWN], "modulus-ratio") ||
-                      cmd_given(&s->parts[CMD_KNOWN], "modulus-ratio"))))
-        return cmd_usage_error(session, "give one of --modulus-ratio, --layer-comparison and "
-                                        "--layer-material");
+    if (!check_layer_modulus(s))
+        return false;
     if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
         return cmd_param_error(session);
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
@@ -190,7 +215,6 @@ bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
            s->contact.layer_material != NULL;
 }
 
-/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
 static wt_layer_known *known_of(cmd_sliding *s)
 {
     return s->parts[CMD_OWN].params == wt_layer_known_params()

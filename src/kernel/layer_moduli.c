@@ -5,7 +5,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/layer_moduli.h"
+
+#include "base/array.h"
 #include "kernel/contact.h"
+#include "model/root.h"
 
 #include <complex.h>
 #include <float.h>
@@ -19,7 +22,7 @@ static const double complex unit = (double complex)I;
  * Below the first node all is as at it. */
 static const struct {
     double tolerance, step, begin;
-} rules[] = {{1e-6, 0.45, -12}, {0, 0.2, -24}};
+} rules[] = {{1e-6, 0.3, -12}, {0, 0.2, -24}};
 static const double rule_end = 3.6; /* where what is left is e^(-e^3.6), below rounding */
 
 bool layer_has_moduli(const wt_layer_state *layer)
@@ -34,6 +37,13 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
     const double from = slope->temperature;
     if (isnan(from) || slope->exponent == 0 || from == to)
         return WT_OK;
+    if (isnan(to)) {
+        wt_fail(err, WT_E_MISSING,
+                "the modulus ratio is of a temperature, and that of the rubber "
+                "is not known");
+        wt_error_advice(err, "give --reference-temperature");
+        return WT_E_MISSING;
+    }
     const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);
     if (isnan(log_a) && fabs(from - to) <= same)
         return WT_OK;
@@ -77,12 +87,43 @@ static bool has_knots(const wt_material *material)
     return n > 0;
 }
 
+/* The angle of the layer's modulus before it is taken as 0 where it is below. */
+static double loss_angle(double log_omega, void *user)
+{
+    const layer_moduli *m = user;
+    const double omega = exp(log_omega);
+    double storage, loss, log_ratio, phase;
+    m->bulk->law->modulus(m->bulk, &omega, 1, &storage, &loss);
+    wt_ratio_slope_at(&m->layer.slope, omega, &log_ratio, &phase);
+    return atan2(loss, storage) + phase;
+}
+
+/* The phase of a ratio falls off with the frequency beyond what was measured, and the loss angle of
+ * a rubber hardly: six decades further it is behind that for good. */
+static void add_gain_edges(layer_moduli *m)
+{
+    const double beyond = 6 * M_LN10,
+                 step = M_LN10 / 8; /* the angle of a rubber goes with decades */
+    const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
+    double before = loss_angle(low, m), root;
+    for (double from = low; from < high && m->n_edges < LAYER_MOST_EDGES; from += step) {
+        const double now = loss_angle(from + step, m);
+        if ((before > 0) != (now > 0) &&
+            root_find(loss_angle, m, from, from + step, 0, &root, NULL) == WT_OK)
+            m->edges[m->n_edges++] = exp(root);
+        before = now;
+    }
+    numbers_sort(m->edges, m->n_edges);
+}
+
 layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance)
 {
     layer_moduli m = {.bulk = bulk, .layer = layer};
     if (layer.own == NULL) {
         m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
         m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
+        if (layer.slope.exponent < 0)
+            add_gain_edges(&m);
     } else {
         m.limit[0] = layer.own->frequency_min;
         m.limit[1] = layer.own->frequency_max;

@@ -12,12 +12,15 @@
 
 /* Of the quadrature over the angle. */
 enum { ANGLE_NODES = 144, ANGLE_LEVELS = 2 }; /* all nodes, every second */
+/* Ends of what was measured of a ratio, and of where its loss modulus is taken as 0: a series of
+ * many times has several such stretches. Those beyond are not looked for. */
+enum { LAYER_MOST_EDGES = 16 };
 
 typedef struct layer_moduli {
     const wt_material *bulk; /* borrowed, as the material of the layer */
     wt_layer_state layer;
-    const angular_weight *weight; /* of anisotropic roughness, borrowed; NULL: none */
-    double edges[2];              /* where the layer's moduli are not smooth [rad/s] */
+    const angular_weight *weight;   /* of anisotropic roughness, borrowed; NULL: none */
+    double edges[LAYER_MOST_EDGES]; /* where the layer's moduli are not smooth, rising [rad/s] */
     size_t n_edges;
     double limit[2]; /* of what the layer's moduli are known for [rad/s]; NaN: not limited */
     bool knots;      /* inside of its parts a material has some */

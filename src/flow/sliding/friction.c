@@ -115,8 +115,6 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* ---- tables ---------------------------------------------------------------------------------- */
-
 /* Not known where the measured range is not. */
 static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
 {
@@ -124,6 +122,8 @@ static double extrapolated_share(const wt_rubber *rubber, const wt_friction_poin
     return isnan(prony->frequency_min) || isnan(prony->frequency_max) ? (double)NAN
                                                                       : p->extrapolated_share;
 }
+
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
           wt_estimate total, hysteresis, area, with_layer;)
@@ -397,7 +397,9 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     if (status == WT_OK)
         status = sliding_layer_gain(task->sliding, task->layer, task->work, task->layer_gain, err);
     if (status == WT_OK) {
-        task->layer_outside = layered[last].extrapolated_share;
+        const wt_rubber *const own = task->sliding->layer_rubber;
+        task->layer_outside = own != NULL ? extrapolated_share(own, &layered[last])
+                                          : layered[last].extrapolated_share;
         task->numerical[1] = total_error(
             &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
                                                 layered[last].area_ratio.value) /
