@@ -208,6 +208,23 @@ static void test_slope(void **state)
     wt_validation_tables_clear(&t);
 }
 
+/* Of a few replicates no row says what it does not know. */
+static void test_few_replicates(void **state)
+{
+    (void)state;
+    set_up();
+    work.replicates = 8;
+    make_record(5e6, surface.q1, 0, 0.003, true);
+    const wt_validation_job job = job_of(true);
+    wt_validation_tables t = made(&job);
+    const size_t row = row_where(t.sources, "source", "material and all else that is drawn");
+    assert_true(number_cell(t.sources, row, "share") > 0.5);
+    for (size_t i = 0; i < wt_table_n_rows(t.sources); i++)
+        assert_true(number_cell(t.sources, i, "error") > 0);
+    check_begins(t.sources, "advice", "more replicates");
+    wt_validation_tables_clear(&t);
+}
+
 /* One ratio at all frequencies needs no words. Where a slope asks for a loss modulus below 0, that
  * is said once. */
 static void test_layer_said(void **state)
@@ -520,6 +537,7 @@ int main(void)
         cmocka_unit_test(test_layer_shear),
         cmocka_unit_test(test_slope),
         cmocka_unit_test(test_layer_said),
+        cmocka_unit_test(test_few_replicates),
         cmocka_unit_test(test_cutoff),
         cmocka_unit_test(test_cutoff_of_spectrum),
         cmocka_unit_test(test_verdicts),

@@ -176,15 +176,27 @@ static void describe_slope(const wt_layer_known *known, const double range[2], w
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
 }
 
+/* A flash temperature shifts both materials alike. */
+static void describe_material(const wt_sliding *sliding, wt_parselog *log, char *text, size_t size)
+{
+    static const char shifted[] = "warmed by the flash temperature with the shift law of the bulk";
+    const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;
+    snprintf(text, size, "those of a material of its own, bonded on the bulk%s%s%s",
+             sliding->flash.on ? ", " : "", sliding->flash.on ? shifted : "",
+             !sliding->flash.on ? ""
+             : has_law          ? " and not its own"
+                                : ", for it has none of its own");
+    if (sliding->flash.on && has_law)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: its material is %s and not its own",
+                        shifted);
+}
+
 void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
                             const double range[2], wt_parselog *log, char *text, size_t size)
 {
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
-        snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
-                 sliding->flash.on ? ", warmed by the flash temperature with the shift law of the "
-                                     "bulk and not its own"
-                                   : "");
+        describe_material(sliding, log, text, size);
     else if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
         describe_slope(known, range, log, text, size);
 }
