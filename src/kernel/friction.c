@@ -82,6 +82,8 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                  &scratch->rough_mu, &scratch->of_variance};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
         *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+    if (flash_has_layer(ws->flash))
+        scratch->further = pool_numbers(memory, (panels + 2) * RULE_MOST);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
     return memory->failed ? no_memory(err) : WT_OK;
@@ -182,6 +184,8 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     const double *edges = ws->own->edges;
     if (layer->own != NULL && layer->own->law->breaks != NULL)
         edges = layer->own->law->breaks(layer->own, &more);
+    if (layer->own != NULL)
+        ws->layer_law = layer->own_law;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     if (more == 0)
         return WT_OK;

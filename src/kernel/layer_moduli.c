@@ -135,16 +135,21 @@ layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, doub
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* Those of both at some frequencies; no rubber gives back more than it took. */
-static void find_moduli(const layer_moduli *m, const double *omega, size_t n, double complex *bulk,
-                        double complex *layer)
+/* Those of both at some frequencies, of a layer's own material at so many times as many; no rubber
+ * gives back more than it took. */
+static void find_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
+                        double complex *bulk, double complex *layer)
 {
     double storage[ANGLE_NODES], loss[ANGLE_NODES];
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
         bulk[i] = storage[i] + unit * loss[i];
-    if (m->layer.own != NULL)
-        m->layer.own->law->modulus(m->layer.own, omega, n, storage, loss);
+    if (m->layer.own != NULL) {
+        double at[ANGLE_NODES];
+        for (size_t i = 0; i < n; i++)
+            at[i] = times * omega[i];
+        m->layer.own->law->modulus(m->layer.own, at, n, storage, loss);
+    }
     for (size_t i = 0; i < n; i++) {
         if (m->layer.own != NULL) {
             layer[i] = storage[i] + unit * loss[i];
@@ -161,7 +166,7 @@ static void find_moduli(const layer_moduli *m, const double *omega, size_t n, do
 double layer_moduli_ratio(const layer_moduli *m, double omega)
 {
     double complex bulk, layer;
-    find_moduli(m, &omega, 1, &bulk, &layer);
+    find_moduli(m, &omega, 1, 1, &bulk, &layer);
     return cabs(layer) / cabs(bulk);
 }
 
@@ -172,7 +177,7 @@ bool layer_moduli_gain(const layer_moduli *m, double low, double high, double ra
     for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
         double complex bulk, layer;
-        find_moduli(m, &omega, 1, &bulk, &layer);
+        find_moduli(m, &omega, 1, 1, &bulk, &layer);
         if (cimag(layer) > 0 || !(cimag(bulk) > 0))
             continue;
         if (!any)
@@ -228,8 +233,8 @@ typedef struct angle_sums {
     double j1[ANGLE_LEVELS], j2[ANGLE_LEVELS], loss[ANGLE_LEVELS];
 } angle_sums;
 
-static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double from,
-                     double to, angle_sums *sums)
+static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double times,
+                     double from, double to, angle_sums *sums)
 {
     double sine[ANGLE_NODES], at[ANGLE_NODES] = {0};
     double complex bulk[ANGLE_NODES], layer[ANGLE_NODES];
@@ -237,7 +242,7 @@ static void add_part(const layer_moduli *m, const layered_wave *wave, double ome
         sine[i] = sin(from + (to - from) * m->fraction[i]);
         at[i] = omega * sine[i];
     }
-    find_moduli(m, at, m->n, bulk, layer);
+    find_moduli(m, at, times, m->n, bulk, layer);
     for (size_t i = 0; i < m->n; i++) {
         const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
         const double square = sine[i] * sine[i], width = 4 * (to - from);
@@ -263,7 +268,7 @@ static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
     return (m->knots ? fewer : fmin(fewer, room * fewer * fewer)) + 8 * DBL_EPSILON;
 }
 
-static angle_sums sum_turn(const layer_moduli *m, double q, double omega)
+static angle_sums sum_turn(const layer_moduli *m, double q, double omega, double times)
 {
     const layered_wave wave = layered_wave_of(q * m->layer.thickness);
     angle_sums sums = {{0}, {0}, {0}};
@@ -271,18 +276,19 @@ static angle_sums sum_turn(const layer_moduli *m, double q, double omega)
     for (size_t k = 0; k < m->n_edges; k++)
         if (m->edges[k] < omega) {
             const double to = asin(m->edges[k] / omega);
-            add_part(m, &wave, omega, from, to, &sums);
+            add_part(m, &wave, omega, times, from, to, &sums);
             from = to;
         }
-    add_part(m, &wave, omega, from, M_PI_2, &sums);
+    add_part(m, &wave, omega, times, from, M_PI_2, &sums);
     return sums;
 }
 
-void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega, size_t n,
-                       double *j1, double *j2, double *loss_j2, double *error)
+void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega,
+                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       double *error)
 {
     for (size_t i = 0; i < n; i++) {
-        const angle_sums sums = sum_turn(m, q[i], omega[i]);
+        const angle_sums sums = sum_turn(m, q[i], omega[i], further != NULL ? exp(further[i]) : 1);
         j1[i] = sums.j1[0];
         j2[i] = sums.j2[0];
         *error = fmax(*error, fmax(sum_error(m, sums.j1), sum_error(m, sums.j2)));

@@ -40,9 +40,11 @@ double layer_moduli_ratio(const layer_moduli *moduli, double omega);
 /* Between two frequencies, where a ratio that falls with the frequency would make a loss modulus
  * below 0, which is taken as 0: the first and the last of such; false: nowhere. */
 bool layer_moduli_gain(const layer_moduli *moduli, double low, double high, double range[2]);
-/* At n wavenumbers, each with the frequency q v of its own: J1 and J2, and with loss_j2 that of the
+/* At n wavenumbers, each with the frequency q v of its own, and its layer with one that is exp of
+ * `further` times that (NULL: the same): J1 and J2, and with loss_j2 that of the
  * loss modulus alone. `*error` is raised to the largest relative error. */
-void layer_moduli_eval(const layer_moduli *moduli, const double *q, const double *omega, size_t n,
-                       double *j1, double *j2, double *loss_j2, double *error);
+void layer_moduli_eval(const layer_moduli *moduli, const double *q, const double *omega,
+                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       double *error);
 
 #endif

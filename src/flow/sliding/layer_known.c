@@ -96,18 +96,27 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, s
     return slope;
 }
 
+/* Draws of two materials may come from the same numbers: not those at the same place. */
+static size_t own_replicate(const wt_rubber *rubber, size_t replicate)
+{
+    return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
+}
+
 wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
                                size_t replicate, wt_material **material, wt_error *err)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    /* draws of two materials may come from the same numbers: not those at the same place */
-    const bool drawn = replicate != WT_NO_REPLICATE;
-    const wt_status status =
-        wt_rubber_at(rubber, temperature, seed, drawn ? replicate + rubber->n_draws / 2 : replicate,
-                     material, NULL, err);
+    const wt_status status = wt_rubber_at(rubber, temperature, seed,
+                                          own_replicate(rubber, replicate), material, NULL, err);
     if (status != WT_OK)
         wt_error_place(err, "material of the layer");
     return status;
+}
+
+wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
+{
+    const wt_rubber *rubber = sliding->layer_rubber;
+    return flow_rubber_law(rubber, seed, own_replicate(rubber, replicate));
 }
 
 /* The slowest wave of a contact, across the sliding, is as slow as any: from what was measured on,
@@ -176,19 +185,15 @@ static void describe_slope(const wt_layer_known *known, const double range[2], w
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
 }
 
-/* A flash temperature shifts both materials alike. */
-static void describe_material(const wt_sliding *sliding, wt_parselog *log, char *text, size_t size)
+/* A material without a law is shifted by that of the bulk. */
+static void describe_material(const wt_sliding *sliding, char *text, size_t size)
 {
-    static const char shifted[] = "warmed by the flash temperature with the shift law of the bulk";
     const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;
-    snprintf(text, size, "those of a material of its own, bonded on the bulk%s%s%s",
-             sliding->flash.on ? ", " : "", sliding->flash.on ? shifted : "",
+    snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
              !sliding->flash.on ? ""
-             : has_law          ? " and not its own"
-                                : ", for it has none of its own");
-    if (sliding->flash.on && has_law)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: its material is %s and not its own",
-                        shifted);
+             : has_law          ? ", shifted by its own law where the flash temperature warms it"
+                       : ", shifted by the law of the bulk where the flash temperature warms it, "
+                         "for it has none of its own");
 }
 
 void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
@@ -196,7 +201,7 @@ void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *kno
 {
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
-        describe_material(sliding, log, text, size);
+        describe_material(sliding, text, size);
     else if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
         describe_slope(known, range, log, text, size);
 }

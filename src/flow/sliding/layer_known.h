@@ -24,6 +24,8 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, s
 wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
                                size_t replicate, wt_material **material,
                                wt_error *err) WT_NODISCARD;
+/* Its shift law, none where it has none of its own. */
+wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate);
 /* Widens `range` [rad/s], NaN at first, by where a ratio that falls with the frequency would make
  * the loss modulus of the layer below 0 in these contacts: it is taken as 0 there. */
 wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *known,

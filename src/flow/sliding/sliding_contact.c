@@ -192,6 +192,8 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     if (status == WT_OK && own)
         status = sliding_layer_rubber(sliding, c.temperature, seed, replicate, &c.layer, err);
     options.layer.own = c.layer;
+    if (own)
+        options.layer.own_law = sliding_layer_law(sliding, seed, replicate);
     if (status == WT_OK)
         status = make_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
