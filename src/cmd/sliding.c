@@ -86,27 +86,16 @@ static bool is_given_of_layer(const cmd_sliding *s, const char *name)
     return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
 }
 
-/* Nothing that is said of the modulus of a layer is passed over. */
+/* A slope is that of a ratio: no file of the layer takes one. */
 static bool check_layer_modulus(cmd_sliding *s)
 {
-    const bool comparison = s->contact.layer_comparison != NULL,
-               material = s->contact.layer_material != NULL,
-               ratio = is_given_of_layer(s, "modulus-ratio"),
-               slope = is_given_of_layer(s, "ratio-slope"),
-               frequencies = is_given_of_layer(s, "ratio-frequency") ||
-                             is_given_of_layer(s, "ratio-lowest") ||
-                             is_given_of_layer(s, "ratio-highest"),
-               temperature = is_given_of_layer(s, "ratio-temperature");
-    if (comparison + material + ratio > 1)
+    const bool ratio = is_given_of_layer(s, "modulus-ratio");
+    const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
+    if (files + ratio > 1)
         return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
                                             "--layer-material");
-    if (slope && !ratio)
-        return cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
-    if ((frequencies && !slope) || (temperature && !slope && !comparison))
-        return cmd_usage_error(&s->session,
-                               "--ratio-frequency, --ratio-lowest, --ratio-highest and "
-                               "--ratio-temperature go with --ratio-slope");
-    return true;
+    return ratio || !is_given_of_layer(s, "ratio-slope") ||
+           cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
 }
 
 bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)

@@ -285,23 +285,14 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
     return status;
 }
 
-/* Nothing that is said of how the modulus ratio goes with the frequency is passed over. */
 static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_error *err)
 {
-    static const char *const frequencies[] = {"ratio-frequency", "ratio-lowest", "ratio-highest"};
     const xmlNode *const slope = case_child(section, "ratio-slope");
-    if (slope != NULL && c->known.by_rate) {
-        wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
-        wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
-        return case_at(slope, WT_E_ARG, err);
-    }
-    for (size_t i = 0; slope == NULL && i < COUNT_OF(frequencies); i++)
-        if (case_child(section, frequencies[i]) != NULL) {
-            wt_fail(err, WT_E_ARG, "a frequency of a modulus ratio that has no slope");
-            wt_error_advice(err, "give <ratio-slope>, or delete <%s>", frequencies[i]);
-            return case_at(case_child(section, frequencies[i]), WT_E_ARG, err);
-        }
-    return WT_OK;
+    if (slope == NULL || !c->known.by_rate)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
+    wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
+    return case_at(slope, WT_E_ARG, err);
 }
 
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
