@@ -24,6 +24,7 @@ typedef struct wt_layer_state {
     double modulus_ratio;   /* E_layer / E_bulk, > 0 */
     wt_ratio_slope slope;   /* of that ratio; all 0: it is the same at every frequency */
     const wt_material *own; /* the layer's material, borrowed, instead of a ratio; NULL */
+    wt_shift_law own_law;   /* by which a flash temperature shifts that; none: that of the bulk */
 } wt_layer_state;
 
 /* How the moduli soften with strain (Payne effect; Lorenz, Oh, Nam, Jeon and Persson, J. Chem.

@@ -26,9 +26,8 @@ static const wt_param contact_rows[] = {
      .help = "output of weartrack compare, whose modulus ratios at several indentation rates are "
              "those of the layer, instead of --modulus-ratio"},
     {PARAM_TEXT_OF("layer-material", cmd_contact, layer_material), .value = "FILE", .unset = "",
-     .help =
-         "output of weartrack master, or as --material, of the layer's own rubber, instead of a "
-         "modulus ratio"},
+     .help = "the layer's own rubber, as --material gives that of the bulk, instead of a modulus "
+             "ratio"},
     {PARAM_TEXT_OF("wear-of", cmd_contact, wear_of), .value = "FILE", .unset = "",
      .help = "output of weartrack record, whose specific wear rate is that of the layer unless "
              "--specific-wear-rate gives one"},
@@ -81,6 +80,24 @@ int cmd_sliding_free(cmd_sliding *s)
     return cmd_session_free(&s->session);
 }
 
+/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
+static bool is_given_of_layer(const cmd_sliding *s, const char *name)
+{
+    return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
+}
+
+/* A slope is that of a ratio: no file of the layer takes one. */
+static bool check_layer_modulus(cmd_sliding *s)
+{
+    const bool ratio = is_given_of_layer(s, "modulus-ratio");
+    const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
+    if (files + ratio > 1)
+        return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
+                                            "--layer-material");
+    return ratio || !is_given_of_layer(s, "ratio-slope") ||
+           cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
+}
+
 bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)
 {
     cmd_session *session = &s->session;
@@ -96,12 +113,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
-    const bool by_files = s->contact.layer_comparison != NULL || s->contact.layer_material != NULL;
-    if ((s->contact.layer_comparison != NULL && s->contact.layer_material != NULL) ||
-        (by_files && (cmd_given(&s->parts[CMD_OWN], "modulus-ratio") ||
-                      cmd_given(&s->parts[CMD_KNOWN], "modulus-ratio"))))
-        return cmd_usage_error(session, "give one of --modulus-ratio, --layer-comparison and "
-                                        "--layer-material");
+    if (!check_layer_modulus(s))
+        return false;
     if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
         return cmd_param_error(session);
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
@@ -136,40 +149,47 @@ static bool is_law(const char *text)
            (strncmp(text, "self-affine:", 12) == 0 || strncmp(text, "fractional-zener:", 17) == 0);
 }
 
+/* What is given as a material. */
+typedef struct given_rubber {
+    const char *from, *sample;
+    wt_result **tables; /* those of a result */
+    wt_rubber *rubber;
+} given_rubber;
+
 /* A result: the series, the points of its master curve if they are asked for or all there is. A
  * file without either is taken for a table of moduli, and if it is none the first error holds. */
-static wt_status read_material(cmd_sliding *s, wt_error *err)
+static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_error *err)
 {
-    const char *material = s->contact.material;
-    const char *const sample = s->set.read.sample;
+    const char *const from = given.from, *const sample = given.sample;
     const double poisson = s->master.poisson_ratio;
     wt_error first = WT_ERROR_INIT;
     wt_read_options read = s->set.read;
+    read.sample = sample;
     read.temperature = s->master.fit.reference_temperature;
-    if (is_law(material)) {
-        wt_status law = wt_rubber_open(material, &read, &s->options, poisson, &s->session.work,
-                                       &s->rubber, err);
-        s->rubber.prony.reference_temperature = read.temperature;
+    if (is_law(from)) {
+        const wt_status law =
+            wt_rubber_open(from, &read, &s->options, poisson, &s->session.work, given.rubber, err);
+        given.rubber->prony.reference_temperature = read.temperature;
         return law;
     }
     wt_job work = s->session.work;
     wt_status status =
-        cmd_rubber_read(material, sample, poisson, &work, &s->material_tables, &s->rubber, &first);
-    const wt_table *curve = cmd_table_of_sample(s->material_tables, "master_curve", sample);
+        cmd_rubber_read(from, sample, poisson, &work, given.tables, given.rubber, &first);
+    const wt_table *curve = cmd_table_of_sample(*given.tables, "master_curve", sample);
     if (curve != NULL &&
         (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
-        s->rubber.poisson_ratio = poisson;
-        return wt_rubber_tabulate(&s->rubber, curve, &s->options, err);
+        given.rubber->poisson_ratio = poisson;
+        return wt_rubber_tabulate(given.rubber, curve, &s->options, err);
     }
     const bool of_samples =
-        status == WT_E_AMBIGUOUS || cmd_tables_have(s->material_tables, "shift_factors");
-    if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(material, "-") != 0) {
-        if (s->material_tables != NULL) { /* an input already */
+        status == WT_E_AMBIGUOUS || cmd_tables_have(*given.tables, "shift_factors");
+    if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(from, "-") != 0) {
+        if (*given.tables != NULL) { /* an input already */
             work.provenance = NULL;
             work.cost = NULL;
         }
         const wt_status table =
-            wt_rubber_open(material, &read, &s->options, poisson, &work, &s->rubber, err);
+            wt_rubber_open(from, &read, &s->options, poisson, &work, given.rubber, err);
         if (table != WT_E_FORMAT && table != WT_E_NOT_FOUND)
             return table;
     }
@@ -184,7 +204,6 @@ bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
            s->contact.layer_material != NULL;
 }
 
-/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
 static wt_layer_known *known_of(cmd_sliding *s)
 {
     return s->parts[CMD_OWN].params == wt_layer_known_params()
@@ -199,10 +218,9 @@ static wt_status read_layer(cmd_sliding *s, wt_error *err)
     const wt_table *comparison = NULL, *rates = NULL;
     wt_status status = WT_OK;
     if (c->layer_material != NULL) {
-        status = cmd_rubber_read(c->layer_material, NULL, s->master.poisson_ratio, &s->session.work,
-                                 &s->layer_tables, &s->layer_rubber, err);
         s->conditions.layer_rubber = &s->layer_rubber;
-        return status;
+        return read_material(
+            s, (given_rubber){c->layer_material, NULL, &s->layer_tables, &s->layer_rubber}, err);
     }
     status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
                             (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
@@ -261,7 +279,9 @@ bool cmd_sliding_open(cmd_sliding *s)
     wt_table_free(work->failures);
     work->failures = NULL;
     wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");
-    wt_status status = s->contact.material != NULL ? read_material(s, err) : fit_material(s, err);
+    const given_rubber bulk = {s->contact.material, s->set.read.sample, &s->material_tables,
+                               &s->rubber};
+    wt_status status = bulk.from != NULL ? read_material(s, bulk, err) : fit_material(s, err);
     if (status == WT_OK && s->contact.material != NULL)
         wt_rubber_cost(&s->rubber, work);
     bool wrong_words = status != WT_OK && is_law(s->contact.material);
@@ -283,8 +303,10 @@ bool cmd_sliding_open(cmd_sliding *s)
         s->conditions.softness = &s->softness;
     }
     if (status == WT_OK &&
-        (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL))
+        (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL)) {
         status = read_layer(s, err);
+        wrong_words = status != WT_OK && is_law(s->contact.layer_material);
+    }
     if (status == WT_OK && s->contact.wear_of != NULL)
         status = read_wear(s, err);
     s->conditions.rubber = &s->rubber;

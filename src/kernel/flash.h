@@ -29,6 +29,8 @@ typedef struct heat_profile {
 /* Above T0, at n wavenumbers, and ln(a_T / a_T0) there. */
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise);
 void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift);
+/* The same of flash_log_layer. */
+void heat_log_layer(const heat_profile *heat, const double *q, size_t n, double *log_further);
 
 /* Two grids: on the coarse one a solution is looked for, on the fine one it is found. */
 enum { FLASH_COARSE, FLASH_FINE, FLASH_GRIDS };
@@ -58,6 +60,8 @@ typedef struct flash_law {
     wt_flash options;
     wt_shift_law shift;
     double temperature, log_a; /* T0 and ln a_T there */
+    wt_shift_law layer_shift;  /* of a layer's own material; none: it is shifted as the bulk */
+    double layer_log_a;        /* ln a_T of that at T0 */
     double hottest;            /* above T0 [K] */
     double tolerance;
     double q0;
@@ -71,6 +75,10 @@ struct friction_load;
 
 /* ln(a_T / a_T0) at n rises; NaN where the law has none. */
 void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift);
+/* Whether a layer's own material is shifted by another law, and ln of how much further than the
+ * bulk at n rises. */
+bool flash_has_layer(const flash_law *law);
+void flash_log_layer(const flash_law *law, const double *rise, size_t n, double *log_further);
 /* Of the workspace, whose material, roughness and tolerance are known. */
 wt_status flash_new(struct wt_friction_workspace *ws, wt_error *err) WT_NODISCARD;
 

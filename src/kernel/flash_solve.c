@@ -39,6 +39,7 @@ struct flash_scratch {
     double *last_rise, *last_residual;      /* and those before */
     double *steps, *changes;                /* [DEPTH * nodes] of both */
     double *shift, *omega, *x, *j1, *j2;    /* [nodes] */
+    double *further;                        /* likewise, of a layer; NULL: as the bulk */
     double *loss_j1, *loss_j2;              /* likewise, with a softening */
     double *g, *running, *area, *mu, *heat; /* likewise */
     double *wave, *square, *sum;            /* [waves] */
@@ -67,6 +68,8 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, pool *memory)
         &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
         *by_node[i] = pool_numbers(memory, n);
+    if (flash_has_layer(ws->flash))
+        s->further = pool_numbers(memory, n);
     s->steps = pool_numbers(memory, DEPTH * n);
     s->changes = pool_numbers(memory, DEPTH * n);
     double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
@@ -180,9 +183,11 @@ static void find_moduli(const flash_map *map)
         s->omega[i] *= grid->q[i] * map->at.speed;
         s->x[i] = grid->log_q[i] + log_speed + s->shift[i];
     }
+    if (s->further != NULL)
+        flash_log_layer(map->law, s->rise, grid->n, s->further);
     double own_error = 0; /* that of the pass at these temperatures says so */
-    friction_moduli(ws, grid->q, s->omega, s->x, grid->n, s->j1, s->j2, s->loss_j1, s->loss_j2,
-                    &own_error);
+    friction_moduli(ws, grid->q, s->omega, s->x, s->further, grid->n, s->j1, s->j2, s->loss_j1,
+                    s->loss_j2, &own_error);
     s->nodes += grid->n;
     if (ws->loss == NULL)
         return;
@@ -394,9 +399,14 @@ static double sum_weighted(const flash_grid *grid, const double *value)
 static double steepest_shift(const flash_law *law, double rise)
 {
     const double step = 1e-3, at[] = {step, rise, rise + step}; /* [K] */
-    double shift[3];
+    double shift[3], further[3] = {0};
     flash_log_shift(law, at, 3, shift);
-    return fmax(fabs(shift[0]), fabs(shift[2] - shift[1])) / step;
+    if (flash_has_layer(law))
+        flash_log_layer(law, at, 3, further);
+    const double bulk = fmax(fabs(shift[0]), fabs(shift[2] - shift[1]));
+    for (size_t i = 0; i < 3; i++)
+        shift[i] += further[i];
+    return fmax(bulk, fmax(fabs(shift[0]), fabs(shift[2] - shift[1]))) / step;
 }
 
 static double goal_of(const flash_law *law)

@@ -82,6 +82,8 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                  &scratch->rough_mu, &scratch->of_variance};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
         *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+    if (flash_has_layer(ws->flash))
+        scratch->further = pool_numbers(memory, (panels + 2) * RULE_MOST);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
     return memory->failed ? no_memory(err) : WT_OK;
@@ -162,30 +164,6 @@ static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
     return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
 }
 
-/* From the temperature of its frequencies to that of the material. */
-static wt_status shift_slope(const wt_friction_workspace *ws, wt_ratio_slope *slope, wt_error *err)
-{
-    const double same = 1; /* [K] by which temperatures without a law may differ */
-    const double from = slope->temperature, to = ws->options.temperature;
-    if (isnan(from) || slope->exponent == 0 || from == to)
-        return WT_OK;
-    const double log_a =
-        wt_shift_law_log_a(&ws->options.shift, from) - wt_shift_law_log_a(&ws->options.shift, to);
-    if (isnan(log_a) && fabs(from - to) <= same)
-        return WT_OK;
-    if (isnan(log_a)) {
-        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
-        wt_error_found(err, "%.4g K and %.4g K", from, to);
-        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
-        return WT_E_MISSING;
-    }
-    const double a = exp(M_LN10 * log_a);
-    slope->reference *= a;
-    slope->low *= a;
-    slope->high *= a;
-    return WT_OK;
-}
-
 /* A layer with moduli of its own, which are in J1 and J2 then; panels end where either material is
  * not smooth. */
 static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
@@ -196,7 +174,8 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     ws->own = pool_alloc(&ws->memory, 1, sizeof *ws->own);
     if (ws->own == NULL)
         return no_memory(err);
-    const wt_status status = shift_slope(ws, &layer->slope, err);
+    const wt_status status =
+        layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
     if (status != WT_OK)
         return status;
     *ws->own = layer_moduli_of(ws->material, *layer, ws->options.tolerance);
@@ -205,6 +184,8 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     const double *edges = ws->own->edges;
     if (layer->own != NULL && layer->own->law->breaks != NULL)
         edges = layer->own->law->breaks(layer->own, &more);
+    if (layer->own != NULL)
+        ws->layer_law = layer->own_law;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     if (more == 0)
         return WT_OK;

@@ -26,6 +26,7 @@ typedef struct friction_scratch {
     /* [(room + 2) * max nodes]: all panels, then one made anew, then the core */
     double *omega, *log_omega, *j1, *j2;
     double *rise, *full;        /* of G, and of the hysteresis at full contact */
+    double *further;            /* ln of how much further a layer is shifted; NULL: as the bulk */
     double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rules in them */
@@ -50,6 +51,7 @@ struct wt_friction_workspace {
     bool anisotropic;
     struct friction_side *side; /* of its force to the side; NULL: none */
     layer_moduli *own;          /* of a layer that has some; NULL: none */
+    wt_shift_law layer_law;     /* of its own material; none: that of the bulk */
     const area_law *area;       /* NULL: that of Persson */
     flash_law *flash;           /* NULL: the rubber is as warm as its surroundings */
     double stiffness;           /* 1 / (1 - nu^2) */
@@ -110,12 +112,13 @@ void friction_record_add(friction_record *record, const double *q, const double 
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
                                 size_t n_cuts, pool *memory, wt_error *err) WT_NODISCARD;
 
-/* J1 and J2 at n wavenumbers and their frequencies, omega and x = ln omega, with a softening those
- * of the loss modulus, too; under a layer with moduli of its own those are in them, and its
+/* J1 and J2 at n wavenumbers and their frequencies, omega and x = ln omega, where a layer is
+ * shifted `further` (ln, NULL: as the bulk), with a softening those of the loss modulus, too; under
+ * a layer with moduli of its own those are in them, and its
  * `*error` is raised. */
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
-                     const double *x, size_t n, double *j1, double *j2, double *loss_j1,
-                     double *loss_j2, double *error);
+                     const double *x, const double *further, size_t n, double *j1, double *j2,
+                     double *loss_j1, double *loss_j2, double *error);
 /* Of all threads and calls so far. */
 size_t friction_nodes(const wt_friction_workspace *ws);
 
@@ -144,9 +147,10 @@ wt_status friction_heated_point(
     wt_friction_point *point);
 /* What the temperatures are wrong by [K], from a pass at them. */
 double friction_heat_off(const flash_solution *solution, const friction_pass *pass);
-/* Frequencies at n <= RULE_MOST wavenumbers, by the temperatures there. */
+/* Frequencies at n <= RULE_MOST wavenumbers, by the temperatures there, and ln of how much further
+ * those of the layer go (NULL: not asked for). */
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega);
+                          double *log_omega, double *further);
 /* Knots t of the material go to where the temperatures shift them. */
 void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots);
 

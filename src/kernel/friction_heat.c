@@ -24,7 +24,7 @@ double friction_heat_off(const flash_solution *solution, const friction_pass *pa
 }
 
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega)
+                          double *log_omega, double *further)
 {
     double shift[RULE_MOST], factor[RULE_MOST];
     heat_log_shift(&solution->heat, q, n, shift);
@@ -33,6 +33,8 @@ void friction_shift_nodes(const flash_solution *solution, const double *q, size_
         omega[i] *= factor[i];
         log_omega[i] += shift[i];
     }
+    if (further != NULL)
+        heat_log_layer(&solution->heat, q, n, further);
 }
 
 /* No number of a load without a solution is known. */

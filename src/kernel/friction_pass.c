@@ -70,6 +70,7 @@ typedef struct node_view {
     const double *f, *g; /* NULL without a softening */
     double half;
     double *omega, *log_omega, *j1, *j2;
+    double *further;     /* of a layer's frequencies; NULL: those of the bulk */
     double *rise, *full; /* of G, and of the hysteresis at full contact: without weights */
 } node_view;
 
@@ -78,6 +79,7 @@ static node_view place_view(friction_scratch *scratch, const scale_grid *grid, s
     return (node_view){.rule = grid->rule,
                        .omega = scratch->omega + from,
                        .log_omega = scratch->log_omega + from,
+                       .further = scratch->further != NULL ? scratch->further + from : NULL,
                        .j1 = scratch->j1 + from,
                        .j2 = scratch->j2 + from,
                        .rise = scratch->rise + from,
@@ -127,7 +129,8 @@ static void place_omega(const node_view *view, friction_load at)
 {
     place_nodes(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
     if (at.heat != NULL)
-        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega);
+        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega,
+                             view->further);
 }
 
 /* J1 and J2 at n nodes whose omega has been placed. */
@@ -138,8 +141,9 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
     double *loss_j1 = ws->loss != NULL ? scratch->loss_j1 + from : NULL;
     double *loss_j2 = ws->loss != NULL ? scratch->loss_j2 + from : NULL;
     scratch->nodes += n;
-    friction_moduli(ws, q, omega, scratch->log_omega + from, n, scratch->j1 + from,
-                    scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
+    friction_moduli(ws, q, omega, scratch->log_omega + from,
+                    scratch->further != NULL ? scratch->further + from : NULL, n,
+                    scratch->j1 + from, scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
 }
 
 /* Of G at a node from J2, and of the hysteresis at full contact from J1. */
@@ -388,9 +392,12 @@ static double outside_of(const wt_friction_workspace *ws, const node_view *view,
 {
     const size_t n = view->rule->n;
     double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
-    for (size_t j = 0; ws->own != NULL && j < n; j++)
-        if (view->omega[j] < ws->own->limit[0] || view->omega[j] > ws->own->limit[1])
+    for (size_t j = 0; ws->own != NULL && j < n; j++) {
+        const double times = view->further != NULL ? exp(view->further[j]) : 1;
+        const double at = times * view->omega[j];
+        if (at < ws->own->limit[0] || at > ws->own->limit[1])
             sum += part->share[j];
+    }
     if (ws->own != NULL)
         return sum;
     for (size_t j = 0; j < n; j++)

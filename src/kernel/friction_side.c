@@ -57,24 +57,33 @@ wt_status friction_side_cover(friction_side *side, double lowest, double highest
 /* At the nodes of a record. */
 typedef struct side_nodes {
     double *omega, *log_omega, *j1, *j2, *shifted, *plain;
+    double *further; /* of a layer's frequencies; NULL: those of the bulk */
     double *numbers; /* all of them */
 } side_nodes;
 
-static bool place_nodes(const friction_record *record, friction_load at, side_nodes *nodes)
+static bool place_nodes(const friction_record *record, friction_load at, bool further,
+                        side_nodes *nodes)
 {
     const size_t n = record->n;
-    double *numbers = malloc(6 * n * sizeof *numbers);
+    double *numbers = malloc(7 * n * sizeof *numbers);
     if (numbers == NULL)
         return false;
-    *nodes = (side_nodes){numbers,         numbers + n,     numbers + 2 * n, numbers + 3 * n,
-                          numbers + 4 * n, numbers + 5 * n, numbers};
+    *nodes = (side_nodes){numbers,
+                          numbers + n,
+                          numbers + 2 * n,
+                          numbers + 3 * n,
+                          numbers + 4 * n,
+                          numbers + 5 * n,
+                          further ? numbers + 6 * n : NULL,
+                          numbers};
     for (size_t i = 0; i < n; i++) {
         nodes->omega[i] = record->q[i] * at.speed;
         nodes->log_omega[i] = log(record->q[i]) + log(at.speed);
     }
     for (size_t i = 0; at.heat != NULL && i < n; i += RULE_MOST)
         friction_shift_nodes(at.heat, record->q + i, n - i < RULE_MOST ? n - i : RULE_MOST,
-                             nodes->omega + i, nodes->log_omega + i);
+                             nodes->omega + i, nodes->log_omega + i,
+                             further ? nodes->further + i : NULL);
     return true;
 }
 
@@ -92,16 +101,19 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
     const size_t n = record->n;
     side_nodes k;
     *side = (wt_estimate){.unit = "1"};
-    if (record->failed || (n > 0 && !place_nodes(record, at, &k)))
+    if (record->failed ||
+        (n > 0 && !place_nodes(record, at, at.heat != NULL && flash_has_layer(ws->flash), &k)))
         return WT_E_MEMORY;
     if (n == 0)
         return WT_OK;
     size_t piece[2] = {0, 0};
     double own_error = 0;
     if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, record->q, k.omega, n, k.j1, k.j2, NULL, &own_error);
-        layer_moduli_eval(&s->own[0], record->q, k.omega, n, k.shifted, k.j2, NULL, &own_error);
-        layer_moduli_eval(&s->own[1], record->q, k.omega, n, k.plain, k.j2, NULL, &own_error);
+        layer_moduli_eval(ws->own, record->q, k.omega, k.further, n, k.j1, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[0], record->q, k.omega, k.further, n, k.shifted, k.j2, NULL,
+                          &own_error);
+        layer_moduli_eval(&s->own[1], record->q, k.omega, k.further, n, k.plain, k.j2, NULL,
+                          &own_error);
     } else {
         angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
         angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);

@@ -5,7 +5,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/layer_moduli.h"
+
+#include "base/array.h"
 #include "kernel/contact.h"
+#include "model/root.h"
 
 #include <complex.h>
 #include <float.h>
@@ -19,12 +22,42 @@ static const double complex unit = (double complex)I;
  * Below the first node all is as at it. */
 static const struct {
     double tolerance, step, begin;
-} rules[] = {{1e-6, 0.45, -12}, {0, 0.2, -24}};
+} rules[] = {{1e-6, 0.3, -12}, {0, 0.2, -24}};
 static const double rule_end = 3.6; /* where what is left is e^(-e^3.6), below rounding */
 
 bool layer_has_moduli(const wt_layer_state *layer)
 {
     return layer->thickness > 0 && (layer->own != NULL || layer->slope.exponent != 0);
+}
+
+wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
+                            wt_error *err)
+{
+    const double same = 1; /* [K] by which temperatures without a law may differ */
+    const double from = slope->temperature;
+    if (isnan(from) || slope->exponent == 0 || from == to)
+        return WT_OK;
+    if (isnan(to)) {
+        wt_fail(err, WT_E_MISSING,
+                "the modulus ratio is of a temperature, and that of the rubber "
+                "is not known");
+        wt_error_advice(err, "give --reference-temperature");
+        return WT_E_MISSING;
+    }
+    const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);
+    if (isnan(log_a) && fabs(from - to) <= same)
+        return WT_OK;
+    if (isnan(log_a)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
+        wt_error_found(err, "%.4g K and %.4g K", from, to);
+        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
+        return WT_E_MISSING;
+    }
+    const double a = exp(M_LN10 * log_a);
+    slope->reference *= a;
+    slope->low *= a;
+    slope->high *= a;
+    return WT_OK;
 }
 
 /* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1: it rises as e^t from the
@@ -54,12 +87,43 @@ static bool has_knots(const wt_material *material)
     return n > 0;
 }
 
+/* The angle of the layer's modulus before it is taken as 0 where it is below. */
+static double loss_angle(double log_omega, void *user)
+{
+    const layer_moduli *m = user;
+    const double omega = exp(log_omega);
+    double storage, loss, log_ratio, phase;
+    m->bulk->law->modulus(m->bulk, &omega, 1, &storage, &loss);
+    wt_ratio_slope_at(&m->layer.slope, omega, &log_ratio, &phase);
+    return atan2(loss, storage) + phase;
+}
+
+/* The phase of a ratio falls off with the frequency beyond what was measured, and the loss angle of
+ * a rubber hardly: six decades further it is behind that for good. */
+static void add_gain_edges(layer_moduli *m)
+{
+    const double beyond = 6 * M_LN10,
+                 step = M_LN10 / 8; /* the angle of a rubber goes with decades */
+    const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
+    double before = loss_angle(low, m), root;
+    for (double from = low; from < high && m->n_edges < LAYER_MOST_EDGES; from += step) {
+        const double now = loss_angle(from + step, m);
+        if ((before > 0) != (now > 0) &&
+            root_find(loss_angle, m, from, from + step, 0, &root, NULL) == WT_OK)
+            m->edges[m->n_edges++] = exp(root);
+        before = now;
+    }
+    numbers_sort(m->edges, m->n_edges);
+}
+
 layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance)
 {
     layer_moduli m = {.bulk = bulk, .layer = layer};
     if (layer.own == NULL) {
         m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
         m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
+        if (layer.slope.exponent < 0)
+            add_gain_edges(&m);
     } else {
         m.limit[0] = layer.own->frequency_min;
         m.limit[1] = layer.own->frequency_max;
@@ -71,16 +135,21 @@ layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, doub
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* Those of both at some frequencies; no rubber gives back more than it took. */
-static void find_moduli(const layer_moduli *m, const double *omega, size_t n, double complex *bulk,
-                        double complex *layer)
+/* Those of both at some frequencies, of a layer's own material at so many times as many; no rubber
+ * gives back more than it took. */
+static void find_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
+                        double complex *bulk, double complex *layer)
 {
     double storage[ANGLE_NODES], loss[ANGLE_NODES];
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
         bulk[i] = storage[i] + unit * loss[i];
-    if (m->layer.own != NULL)
-        m->layer.own->law->modulus(m->layer.own, omega, n, storage, loss);
+    if (m->layer.own != NULL) {
+        double at[ANGLE_NODES];
+        for (size_t i = 0; i < n; i++)
+            at[i] = times * omega[i];
+        m->layer.own->law->modulus(m->layer.own, at, n, storage, loss);
+    }
     for (size_t i = 0; i < n; i++) {
         if (m->layer.own != NULL) {
             layer[i] = storage[i] + unit * loss[i];
@@ -97,7 +166,7 @@ static void find_moduli(const layer_moduli *m, const double *omega, size_t n, do
 double layer_moduli_ratio(const layer_moduli *m, double omega)
 {
     double complex bulk, layer;
-    find_moduli(m, &omega, 1, &bulk, &layer);
+    find_moduli(m, &omega, 1, 1, &bulk, &layer);
     return cabs(layer) / cabs(bulk);
 }
 
@@ -108,7 +177,7 @@ bool layer_moduli_gain(const layer_moduli *m, double low, double high, double ra
     for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
         double complex bulk, layer;
-        find_moduli(m, &omega, 1, &bulk, &layer);
+        find_moduli(m, &omega, 1, 1, &bulk, &layer);
         if (cimag(layer) > 0 || !(cimag(bulk) > 0))
             continue;
         if (!any)
@@ -164,8 +233,8 @@ typedef struct angle_sums {
     double j1[ANGLE_LEVELS], j2[ANGLE_LEVELS], loss[ANGLE_LEVELS];
 } angle_sums;
 
-static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double from,
-                     double to, angle_sums *sums)
+static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double times,
+                     double from, double to, angle_sums *sums)
 {
     double sine[ANGLE_NODES], at[ANGLE_NODES] = {0};
     double complex bulk[ANGLE_NODES], layer[ANGLE_NODES];
@@ -173,7 +242,7 @@ static void add_part(const layer_moduli *m, const layered_wave *wave, double ome
         sine[i] = sin(from + (to - from) * m->fraction[i]);
         at[i] = omega * sine[i];
     }
-    find_moduli(m, at, m->n, bulk, layer);
+    find_moduli(m, at, times, m->n, bulk, layer);
     for (size_t i = 0; i < m->n; i++) {
         const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
         const double square = sine[i] * sine[i], width = 4 * (to - from);
@@ -199,7 +268,7 @@ static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
     return (m->knots ? fewer : fmin(fewer, room * fewer * fewer)) + 8 * DBL_EPSILON;
 }
 
-static angle_sums sum_turn(const layer_moduli *m, double q, double omega)
+static angle_sums sum_turn(const layer_moduli *m, double q, double omega, double times)
 {
     const layered_wave wave = layered_wave_of(q * m->layer.thickness);
     angle_sums sums = {{0}, {0}, {0}};
@@ -207,18 +276,19 @@ static angle_sums sum_turn(const layer_moduli *m, double q, double omega)
     for (size_t k = 0; k < m->n_edges; k++)
         if (m->edges[k] < omega) {
             const double to = asin(m->edges[k] / omega);
-            add_part(m, &wave, omega, from, to, &sums);
+            add_part(m, &wave, omega, times, from, to, &sums);
             from = to;
         }
-    add_part(m, &wave, omega, from, M_PI_2, &sums);
+    add_part(m, &wave, omega, times, from, M_PI_2, &sums);
     return sums;
 }
 
-void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega, size_t n,
-                       double *j1, double *j2, double *loss_j2, double *error)
+void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega,
+                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       double *error)
 {
     for (size_t i = 0; i < n; i++) {
-        const angle_sums sums = sum_turn(m, q[i], omega[i]);
+        const angle_sums sums = sum_turn(m, q[i], omega[i], further != NULL ? exp(further[i]) : 1);
         j1[i] = sums.j1[0];
         j2[i] = sums.j2[0];
         *error = fmax(*error, fmax(sum_error(m, sums.j1), sum_error(m, sums.j2)));

@@ -191,6 +191,88 @@ static void test_layer_shear(void **state)
     }
 }
 
+static void take_slope(double slope, double error)
+{
+    known.ratio_slope = (wt_estimate){slope, error, 0, "1"};
+    known.ratio_frequency = 1e3;
+    known.ratio_lowest = 10;
+    known.ratio_highest = 1e6;
+    known.ratio_temperature = (double)NAN;
+}
+
+/* A layer whose modulus goes with the frequency is that of friction, its slope stands by itself
+ * among the sources, and the answer says what it was. */
+static void test_slope(void **state)
+{
+    (void)state;
+    static const char source[] = "slope of the modulus ratio";
+    set_up();
+    take_slope(0.1, 0.03);
+    make_record(5e6, surface.q1, 0, 0.003, true);
+    const wt_validation_job job = job_of(true);
+    wt_validation_tables t = made(&job);
+    for (size_t i = 0; i < STEPS; i++)
+        assert_near(number_cell(t.validation, i, "ratio_with_layer"), 1, 1e-9);
+    assert_near(key_of(t.validation, "layer_ratio_slope"), 0.1, 1e-12);
+    assert_near(key_of(t.validation, "layer_modulus_ratio"), 0.6, 1e-12);
+    assert_near(key_of(t.validation, "layer_thickness"), 1e-6, 1e-12);
+    check_begins(t.validation, "layer_moduli", "0.6 times those of the bulk at 1e+03 rad/s");
+    assert_null(strstr(wt_table_key(t.validation, "layer_moduli"), "taken as 0"));
+    const size_t row = row_where(t.sources, "source", source);
+    assert_true(number_cell(t.sources, row, "error") > 0.001);
+    for (size_t i = 0; i < wt_table_n_rows(t.sources); i++)
+        assert_string_not_equal(text_cell(t.sources, i, "source"), "observed thickness");
+    wt_validation_tables_clear(&t);
+}
+
+/* Of a few replicates no row says what it does not know. */
+static void test_few_replicates(void **state)
+{
+    (void)state;
+    set_up();
+    work.replicates = 8;
+    make_record(5e6, surface.q1, 0, 0.003, true);
+    const wt_validation_job job = job_of(true);
+    wt_validation_tables t = made(&job);
+    const size_t row = row_where(t.sources, "source", "material and all else that is drawn");
+    assert_true(number_cell(t.sources, row, "share") > 0.5);
+    for (size_t i = 0; i < wt_table_n_rows(t.sources); i++)
+        assert_true(number_cell(t.sources, i, "error") > 0);
+    check_begins(t.sources, "advice", "more replicates");
+    wt_validation_tables_clear(&t);
+}
+
+/* One ratio at all frequencies needs no words. Where a slope asks for a loss modulus below 0, that
+ * is said once. */
+static void test_layer_said(void **state)
+{
+    (void)state;
+    set_up();
+    work.replicates = 0;
+    work.tolerance = 1e-4;
+    make_record(5e6, surface.q1, 0, 0.003, true);
+    wt_validation_job job = job_of(true);
+    wt_validation_tables plain = made(&job);
+    assert_null(wt_table_key(plain.validation, "layer_moduli"));
+    assert_near(key_of(plain.validation, "layer_modulus_ratio"), 0.6, 1e-12);
+    take_slope(-0.3, 0);
+    make_record(5e6, surface.q1, 0, 0.003, true);
+    job = job_of(true);
+    wt_parselog *const log = work.log = wt_parselog_new();
+    assert_non_null(log);
+    wt_validation_tables steep = made(&job);
+    work.log = NULL;
+    assert_non_null(strstr(wt_table_key(steep.validation, "layer_moduli"),
+                           "its loss modulus would be below 0 by such a slope, and is taken as 0"));
+    size_t n = 0;
+    for (size_t i = 0; i < wt_parselog_count(log); i++)
+        n += strstr(wt_parselog_get(log, i).text, "is taken as 0") != NULL;
+    assert_int_equal(n, 1);
+    wt_parselog_free(log);
+    wt_validation_tables_clear(&plain);
+    wt_validation_tables_clear(&steep);
+}
+
 /* A cut-off that is moved is found where it was moved to. */
 static void test_cutoff(void **state)
 {
@@ -477,6 +559,9 @@ int main(void)
         cmocka_unit_test(test_needed),
         cmocka_unit_test(test_endless_layer),
         cmocka_unit_test(test_layer_shear),
+        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_layer_said),
+        cmocka_unit_test(test_few_replicates),
         cmocka_unit_test(test_cutoff),
         cmocka_unit_test(test_cutoff_of_spectrum),
         cmocka_unit_test(test_verdicts),

@@ -141,7 +141,7 @@ static void integrals_are_sums(void **state)
         for (size_t i = 0; i < 4; i++) {
             const double omega = 0.05 * waves[i];
             double j1, j2, loss, error = 0, sum1 = 0, sum2 = 0, sum3 = 0;
-            layer_moduli_eval(&m, &waves[i], &omega, 1, &j1, &j2, &loss, &error);
+            layer_moduli_eval(&m, &waves[i], &omega, NULL, 1, &j1, &j2, &loss, &error);
             assert_true(error < 1e-9);
             enum { PARTS = 200000 };
             for (size_t k = 0; k < PARTS; k++) {
@@ -298,6 +298,39 @@ static void with_all_else(void **state)
     wt_material_free(bulk);
 }
 
+/* All layer, warmed: friction of its material alone by its own law, of which that of the bulk knows
+ * nothing. */
+static void layer_has_its_law(void **state)
+{
+    (void)state;
+    wt_material *bulk = rubber(modulus), *layer = rubber(softer);
+    wt_friction_point alone[N], own[N], other[N];
+    const wt_shift_law bulk_law = {.kind = WT_LAW_WLF, .wlf = {293, 8, 100}},
+                       layer_law = {.kind = WT_LAW_WLF, .wlf = {293, 15, 60}};
+    wt_friction_options bare = wt_friction_defaults(), o = under(1, 1);
+    bare.tolerance = o.tolerance = 1e-7;
+    bare.flash.on = o.flash.on = true;
+    bare.temperature = o.temperature = 293;
+    bare.anisotropy.amplitude[0] = o.anisotropy.amplitude[0] = 0.3;
+    bare.anisotropy.angle[0] = o.anisotropy.angle[0] = 0.4;
+    bare.shift = layer_law;
+    o.shift = bulk_law;
+    o.layer.own = layer;
+    o.layer.own_law = layer_law;
+    find(layer, &bare, alone);
+    find(bulk, &o, own);
+    assert_alike(own, alone, 1e-5);
+    for (size_t i = 0; i < N; i++)
+        assert_near_abs(own[i].side.value, alone[i].side.value,
+                        own[i].side.numerical_error + alone[i].side.numerical_error);
+    o.layer.own_law.kind = WT_LAW_NONE;
+    find(bulk, &o, other);
+    assert_true(own[1].temperature.value > 300);
+    assert_true(fabs(other[1].hysteresis.value / own[1].hysteresis.value - 1) > 1e-2);
+    wt_material_free(layer);
+    wt_material_free(bulk);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -309,6 +342,7 @@ int main(void)
         cmocka_unit_test(frequencies_are_shifted),
         cmocka_unit_test(errors_hold),
         cmocka_unit_test(with_all_else),
+        cmocka_unit_test(layer_has_its_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

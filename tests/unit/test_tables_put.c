@@ -1292,7 +1292,12 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     const char *const patterns[] = {path};
     const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
     const wt_layer_known known = {.thickness = {1e-6, 1e-7, 0, "m"},
-                                  .modulus_ratio = {0.6, 0.05, 0, "1"}};
+                                  .modulus_ratio = {0.6, 0.05, 0, "1"},
+                                  .ratio_slope = {0.05, 0.01, 0, "1"},
+                                  .ratio_frequency = 1e3,
+                                  .ratio_lowest = 10,
+                                  .ratio_highest = 1e5,
+                                  .ratio_temperature = (double)NAN};
     wt_layer_job layer = wt_layer_job_defaults();
     wt_job common = wt_job_defaults();
     wt_record_job records = wt_record_job_defaults();

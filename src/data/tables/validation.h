@@ -86,6 +86,12 @@
       LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
     KEY_ENDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")                \
     X(VALIDATION_KEY_WEAR, "verdict_wear", TEXT, LABEL("Wear, measured against used"), OPTIONAL)   \
+    X(VALIDATION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), LABEL("Layer thickness"),     \
+      OPTIONAL)                                                                                    \
+    X(VALIDATION_KEY_LAYER_RATIO, "layer_modulus_ratio", NUMBER, LABEL("Modulus ratio"), OPTIONAL) \
+    X(VALIDATION_KEY_LAYER_MODULI, "layer_moduli", TEXT, LABEL("Moduli of the layer"), OPTIONAL)   \
+    X(VALIDATION_KEY_LAYER_SLOPE, "layer_ratio_slope", NUMBER,                                     \
+      LABEL("Slope of the modulus ratio with the frequency"), OPTIONAL)                            \
     X(VALIDATION_KEY_STEPS, "n_steps", PLAIN, LABEL("Steps that were compared"))                   \
     X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
     X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("What was taken for granted"), OPTIONAL)

@@ -62,7 +62,8 @@ static void say_why_not(const answer_story *story, flow_stage_id stage, flow_out
         answer_say(story, question, kind, "Not answered: a stage that %s needs failed (%s): %s.",
                    flow_stages[stage].id, flow_stages[root].id,
                    why_failed(story, flow_stages[root].id));
-    }
+    } else if (outcome == FLOW_UNMEASURED)
+        answer_say(story, question, kind, "Not measured: %s.", plan->why_unmeasured);
 }
 
 static void say_missing(const answer_story *story, flow_stage_id stage, const char *question,
@@ -112,6 +113,9 @@ static void short_of_missing(const answer_story *story, const char *what, flow_s
                    why_failed(story, flow_stages[stage].id));
     else if (outcome == FLOW_BLOCKED)
         answer_say(story, in_short, "short", "%s: not answered, for what it needs failed.", what);
+    else if (outcome == FLOW_UNMEASURED)
+        answer_say(story, in_short, "short", "%s: not measured: %s.", what,
+                   story->plan->why_unmeasured);
 }
 
 static void short_of_friction(const answer_story *story, telling *t)

@@ -277,7 +277,9 @@ static void tell_moduli_of_layer(telling *t, const table_view *friction)
     }
     tell(t, " The moduli of the layer are %s; its shear stress is %s.", moduli,
          shear != NULL ? shear : "scaled by their ratio");
-    if (outside >= 0)
+    if (isnan(outside))
+        tell(t, " Which frequencies they were measured at is not known.");
+    else
         tell(t,
              " %.3g %% of the hysteresis on it are of frequencies at which they were not measured.",
              100 * outside);

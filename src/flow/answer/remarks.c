@@ -25,6 +25,12 @@ static void of_friction(const table_view *v, wt_parselog *log)
     if (numerical != NULL)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
     of_material(largest_share(v), friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
+    const double outside = friction_value(v, FRICTION_KEY_LAYER_OUTSIDE).value;
+    if (outside >= ANSWER_ODD_SHARE)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "layer: %s of the hysteresis on it comes from frequencies at which its "
+                        "moduli were not measured",
+                        words_of_share(outside).text);
 }
 
 static void of_softening(const table_view *v, wt_parselog *log)

@@ -285,6 +285,16 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
     return status;
 }
 
+static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *const slope = case_child(section, "ratio-slope");
+    if (slope == NULL || !c->known.by_rate)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
+    wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
+    return case_at(slope, WT_E_ARG, err);
+}
+
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
 {
     const xmlNode *ratio = case_child(section, "modulus-ratio"),
@@ -294,6 +304,8 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_layer_known_params(), &c->known, err);
+    if (status == WT_OK)
+        status = check_ratio_slope(c, section, err);
     wt_layer_job checked = c->layer;
     if (c->record.n > 0 && isnan(checked.specific_wear_rate.value)) {
         c->has_wear = true;                   /* or a result of weartrack record has it */

@@ -54,7 +54,8 @@ typedef struct coverage {
     wt_job work; /* of one trial */
     setting setting;
     wt_estimate truth[SETTING_NUMBERS];
-    wt_master fit; /* n_shifts 0: the material is held */
+    wt_master fit;       /* n_shifts 0: the material is held */
+    wt_master layer_fit; /* likewise, of the layer's own */
     wt_group_data data[2];
     scattered_group group[2];
     bool has_groups, has_curves;
@@ -124,26 +125,32 @@ static hit judge_shifts(const wt_master *m, const double *truth)
     return mean_hit(sum);
 }
 
-/* Isotherms drawn anew and fitted as the case fits its own. */
-static wt_status try_material(const coverage *c, uint64_t seed, wt_rubber *rubber, hit *hits,
-                              wt_error *err)
+/* What a trial finds of the shifts and the law. */
+static void judge_law(const wt_master *fit, const wt_master *truth, const double *shift, hit *hits)
 {
-    const wt_rubber *own = &c->setting.rubber;
+    if (fit->n_shifts == truth->n_shifts)
+        hits[OF_SHIFTS] = judge_shifts(fit, shift);
+    if (fit->law.kind == WT_LAW_WLF && truth->law.kind == WT_LAW_WLF) {
+        hits[OF_C1] = judge_interval(fit->c1, truth->c1.value);
+        hits[OF_C2] = judge_interval(fit->c2, truth->c2.value);
+    }
+}
+
+/* Isotherms drawn anew and fitted as the case fits its own; hits NULL: of the layer. */
+static wt_status try_material(const coverage *c, const wt_rubber *own, const wt_master *truth,
+                              uint64_t seed, wt_rubber *rubber, hit *hits, wt_error *err)
+{
     wt_sweep sweep = {0};
     wt_master fit = {0};
-    double *shift = malloc((c->fit.n_shifts + 1) * sizeof *shift);
+    double *shift = malloc((truth->n_shifts + 1) * sizeof *shift);
     wt_status status = shift == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : regenerate_sweep(&own->sweep, &c->fit, seed, &sweep, shift, err);
+                           : regenerate_sweep(&own->sweep, truth, seed, &sweep, shift, err);
     if (status == WT_OK)
         status = flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, FLOW_STORED_DRAWS, &c->work,
                                  &fit, rubber, err);
-    if (status == WT_OK && fit.n_shifts == c->fit.n_shifts)
-        hits[OF_SHIFTS] = judge_shifts(&fit, shift);
-    if (status == WT_OK && fit.law.kind == WT_LAW_WLF && c->fit.law.kind == WT_LAW_WLF) {
-        hits[OF_C1] = judge_interval(fit.c1, c->fit.c1.value);
-        hits[OF_C2] = judge_interval(fit.c2, c->fit.c2.value);
-    }
+    if (status == WT_OK && hits != NULL)
+        judge_law(&fit, truth, shift, hits);
     if (status == WT_OK) {
         rubber->is_transverse = own->is_transverse;
         rubber->transverse = own->transverse;
@@ -151,6 +158,24 @@ static wt_status try_material(const coverage *c, uint64_t seed, wt_rubber *rubbe
     wt_sweep_clear(&sweep);
     wt_master_clear(&fit);
     free(shift);
+    return status;
+}
+
+/* The materials of a trial; those without isotherms are as given. */
+static wt_status try_materials(const coverage *c, uint64_t seed, setting *s, wt_rubber *bulk,
+                               wt_rubber *layer, hit *hits, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (c->fit.n_shifts > 0) {
+        status = try_material(c, &c->setting.rubber, &c->fit, seed, bulk, hits, err);
+        s->rubber = *bulk;
+        s->given = NULL;
+    }
+    if (status == WT_OK && c->layer_fit.n_shifts > 0) {
+        status =
+            try_material(c, &c->setting.layer_rubber, &c->layer_fit, mix64(seed), layer, NULL, err);
+        s->layer_rubber = *layer;
+    }
     return status;
 }
 
@@ -245,18 +270,13 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
     wt_comparison found = {.df = (double)NAN}; /* no ratio is taken without groups */
-    wt_rubber rubber = {0};
+    wt_rubber rubber = {0}, layer = {0};
     wt_job work = c->work;
     setting s = c->setting;
-    wt_status status = WT_OK;
     work.seed += 1 + trial;
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
-    if (c->fit.n_shifts > 0) {
-        status = try_material(c, seed, &rubber, hits, err);
-        s.rubber = rubber;
-        s.given = NULL;
-    }
+    wt_status status = try_materials(c, seed, &s, &rubber, &layer, hits, err);
     regenerate_inputs(&s, seed);
     if (status == WT_OK && c->has_groups)
         status =
@@ -271,6 +291,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
                          number[k].value + half, c->truth[k].value);
     }
     wt_rubber_clear(&rubber);
+    wt_rubber_clear(&layer);
     return status;
 }
 
@@ -369,11 +390,14 @@ static void put_verdicts(const coverage *c, table_writer *t)
         narrow[0] == '\0' && wide[0] == '\0' && unsettled[0] == '\0' && all[0] != '\0'
             ? "; as far as so many tell, as often as stated"
             : "");
-    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s",
+    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s%s",
                        c->fit.n_shifts == 0 ? "material as given"
                        : c->setting.rubber.sweep.n_ramps > 0
                            ? "isotherms that the temperature sweeps were fitted as"
                            : "isotherms of the DMA",
+                       !drawn.has_known || !drawn.has_layer_rubber ? ""
+                       : c->layer_fit.n_shifts > 0 ? ", isotherms of the layer's DMA"
+                                                   : ", material of the layer as given",
                        inputs[0] != '\0' ? ", " : "", inputs,
                        !c->has_groups  ? ""
                        : c->has_curves ? ", force curves of bulk and track"
@@ -464,6 +488,28 @@ static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
                                                  : status;
 }
 
+/* The isotherms that a material is drawn anew from; none: its fit stays empty. */
+static wt_status fit_isotherms(const wt_rubber *rubber, wt_master *fit, wt_error *err)
+{
+    return rubber->kind == WT_RUBBER_SERIES && rubber->sweep.n_isotherms > 0
+               ? wt_master_fit(&rubber->sweep, &rubber->fit, NULL, fit, err)
+               : WT_OK;
+}
+
+/* A material of the layer without isotherms is taken as known. */
+static wt_status prepare_layer_rubber(coverage *c, wt_error *err)
+{
+    wt_rubber *const rubber = &c->setting.layer_rubber;
+    const wt_status status = c->setting.has_layer_rubber && c->setting.has_known
+                                 ? fit_isotherms(rubber, &c->layer_fit, err)
+                                 : WT_OK;
+    if (status == WT_OK && c->layer_fit.n_shifts == 0) {
+        rubber->n_draws = 0;
+        rubber->c1_error = rubber->c2_error = 0;
+    }
+    return status;
+}
+
 /* What the case says as it is: the truth from now on. */
 static wt_status take_truth(coverage *c, const wt_job *work, wt_error *err)
 {
@@ -479,9 +525,9 @@ static wt_status take_truth(coverage *c, const wt_job *work, wt_error *err)
     c->work.drawn = NULL; /* of another material */
     c->work.log = NULL;
     c->work.progress = (wt_progress){0};
-    const wt_rubber *rubber = &c->setting.rubber;
-    if (rubber->kind == WT_RUBBER_SERIES && rubber->sweep.n_isotherms > 0)
-        status = wt_master_fit(&rubber->sweep, &rubber->fit, NULL, &c->fit, err);
+    status = fit_isotherms(&c->setting.rubber, &c->fit, err);
+    if (status == WT_OK)
+        status = prepare_layer_rubber(c, err);
     if (status == WT_OK)
         status = find_groups(c, err);
     if (status == WT_OK)
@@ -522,6 +568,7 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
         wt_prony_clear(&c.spectrum[g]);
     }
     wt_master_clear(&c.fit);
+    wt_master_clear(&c.layer_fit);
     free(c.hits);
     return status;
 }

@@ -52,8 +52,13 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
     if (status != WT_OK)
         return status;
     d->stated = *job;
-    if (known != NULL)
-        sliding_layer_describe(sliding, known, d->moduli, sizeof d->moduli);
+    if (known != NULL) {
+        double gain[2] = {(double)NAN, (double)NAN};
+        status = sliding_layer_gain(sliding, known, work, gain, err);
+        if (status != WT_OK)
+            return status;
+        sliding_layer_describe(sliding, known, gain, work->log, d->moduli, sizeof d->moduli);
+    }
     if (known != NULL && known->bulk_shear)
         d->stated.shear.exponent = 0;
     d->values =

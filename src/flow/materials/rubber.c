@@ -71,8 +71,11 @@ static wt_status horizontal_shift(const wt_shift_law *law, double reference, dou
 {
     const double from = temperature - reference;
     *log_a = 0;
-    if (isnan(from))
-        return wt_fail(err, WT_E_MISSING, "the reference temperature of the material is not known");
+    if (isnan(from)) {
+        wt_fail(err, WT_E_MISSING, "the reference temperature of the material is not known");
+        wt_error_advice(err, "give --reference-temperature");
+        return WT_E_MISSING;
+    }
     if (law->kind == WT_LAW_NONE) {
         if (fabs(from) <= SAME_TEMPERATURE)
             return WT_OK;

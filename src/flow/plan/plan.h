@@ -7,7 +7,13 @@
 #include "flow/plan/stages.h"
 
 /* What became of a stage; of one that did not run yet: left out. */
-typedef enum flow_outcome { FLOW_LEFT_OUT, FLOW_DONE, FLOW_FAILED, FLOW_BLOCKED } flow_outcome;
+typedef enum flow_outcome {
+    FLOW_LEFT_OUT,
+    FLOW_DONE,
+    FLOW_FAILED,
+    FLOW_BLOCKED,   /* a stage before failed */
+    FLOW_UNMEASURED /* the files do not hold what it needs */
+} flow_outcome;
 
 typedef struct flow_plan {
     flow_things sources;  /* what the case holds */
@@ -21,6 +27,9 @@ typedef struct flow_plan {
     /* of a stage that was done, at a lower level than that of the plan if the fuller one was not */
     unsigned done[FLOW_N_STAGES];
     flow_outcome fuller[FLOW_N_STAGES];
+    flow_things
+        unmeasured; /* what a stage that was done did not find in its files, and what rests */
+    char why_unmeasured[256]; /* on that; "the records tell nothing of ...; give ..." */
 } flow_plan;
 
 /* What a stage needs in this plan: of a case whose rubber softens with strain, all that slides

@@ -103,7 +103,7 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
     cost_end(d->cost);
     if (status == WT_OK) {
         plan->outcome[i] = FLOW_DONE;
-        d->have |= flow_stages[i].gives;
+        d->have |= flow_stages[i].gives & ~plan->unmeasured;
         return WT_OK;
     }
     if (!flow_goes_on(&d->run.job, status)) {
@@ -122,6 +122,13 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
     return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
 }
 
+/* Whether what a stage lacks is not in the files. */
+static bool is_unmeasured(const conduct *d, size_t i, unsigned level)
+{
+    const flow_plan *plan = &d->run.plan;
+    return (flow_needs(plan, i, level) & ~d->have & plan->unmeasured) != 0;
+}
+
 /* A stage as full as it can be; what fails so is tried with less. */
 static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error *err)
 {
@@ -131,9 +138,12 @@ static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error
     while (level > 0 && !flow_can(plan, i, level, d->have))
         level--;
     if (level < plan->level[i]) {
-        plan->fuller[i] = FLOW_BLOCKED;
-        snprintf(text, sizeof text, "%s; without %s, which a stage before did not give", because,
-                 flow_stages[i].more[level].words);
+        const bool unmeasured = is_unmeasured(d, i, level + 1);
+        plan->fuller[i] = unmeasured ? FLOW_UNMEASURED : FLOW_BLOCKED;
+        snprintf(text, sizeof text, "%s; without %s, %s%s", because,
+                 flow_stages[i].more[level].words,
+                 unmeasured ? "for " : "which a stage before did not give",
+                 unmeasured ? plan->why_unmeasured : "");
     } else
         snprintf(text, sizeof text, "%s", because);
     wt_status status = run_stage(d, i, level, text, err);
@@ -150,7 +160,7 @@ static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error
 static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
-    char missing[160], because[256];
+    char missing[160], because[320];
     if (stands_in(d, i))
         return run_fullest(d, i, "runs because the stage that gives more did not succeed", err);
     if (!plan->chosen[i]) {
@@ -159,11 +169,17 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
     }
     if (flow_can(plan, i, 0, d->have))
         return run_fullest(d, i, plan->because[i], err);
-    plan->outcome[i] = FLOW_BLOCKED;
-    const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
-    flow_things_list(needs & ~d->have, missing, sizeof missing);
-    snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
-             missing);
+    if (is_unmeasured(d, i, 0)) {
+        plan->outcome[i] = FLOW_UNMEASURED;
+        plan->unmeasured |= flow_stages[i].gives & ~d->have;
+        snprintf(because, sizeof because, "left out because %s", plan->why_unmeasured);
+    } else {
+        plan->outcome[i] = FLOW_BLOCKED;
+        const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
+        flow_things_list(needs & ~d->have, missing, sizeof missing);
+        snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
+                 missing);
+    }
     cost_leave_out(d->cost, flow_stages[i].id, because);
     return WT_OK;
 }

@@ -270,19 +270,48 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
     return status;
 }
 
+/* Whether the case lists a result that there is not without wear. */
+static bool wear_must_be(const flow_run *run)
+{
+    flow_things resting = FLOW_BIT(FLOW_WEAR);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (run->plan.chosen[i] && (flow_needs(&run->plan, i, 0) & FLOW_BIT(FLOW_WEAR)) != 0)
+            resting |= flow_stages[i].gives;
+    return run->c->has_asked && !run->c->called && (run->c->asked & resting) != 0;
+}
+
+/* Records without wear tell friction all the same: what rests on the wear is left out. */
+static wt_status leave_wear_out(flow_run *run, const char *lacks, wt_error *err)
+{
+    static const char advice[] = "give <profile>, <track-area> or <mass-loss> in <record>, or "
+                                 "<specific-wear-rate> in <layer>";
+    if (wear_must_be(run)) {
+        wt_fail(err, WT_E_MISSING, "%s", lacks);
+        wt_error_advice(err, "%s", advice);
+        return WT_E_MISSING;
+    }
+    run->plan.unmeasured |= FLOW_BIT(FLOW_WEAR);
+    snprintf(run->plan.why_unmeasured, sizeof run->plan.why_unmeasured, "%s; %s", lacks, advice);
+    wt_parselog_add(run->job.log, WT_WARNING, NULL, NULL, "the layer is left out, for %s",
+                    run->plan.why_unmeasured);
+    return WT_OK;
+}
+
 wt_status flow_step_wear(flow_run *run, wt_error *err)
 {
-    wt_status status = make_record(run, run->c->records, err);
+    const wt_status status = make_record(run, run->c->records, err);
     wt_estimate measured;
-    if (status == WT_OK && run->table[FLOW_WEAR] == NULL) {
-        status = wt_fail(err, WT_E_MISSING, "the records tell nothing of the wear");
-        wt_error_advice(err, "give <profile>, <track-area> or <mass-loss> in <record>, or "
-                             "<specific-wear-rate> in <layer>");
-    }
-    if (status == WT_OK && isnan(run->layer.specific_wear_rate.value) &&
-        wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured))
-        run->layer.specific_wear_rate = measured;
-    return status;
+    if (status != WT_OK)
+        return status;
+    if (run->table[FLOW_WEAR] == NULL)
+        return leave_wear_out(run, "the records tell nothing of the wear", err);
+    if (!isnan(run->layer.specific_wear_rate.value) || !run->c->has_layer)
+        return WT_OK;
+    if (!wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured) ||
+        isnan(measured.value))
+        return leave_wear_out(run, "the records tell no wear rate, as the table wear says", err);
+    run->layer.specific_wear_rate = measured;
+    return WT_OK;
 }
 
 wt_status flow_step_record(flow_run *run, wt_error *err)

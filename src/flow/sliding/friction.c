@@ -38,7 +38,7 @@ typedef struct friction_task {
     size_t drawn; /* velocities of all replicates */
     double
         layer_outside; /* of the hysteresis on a layer with moduli of its own, at the reference */
-    char layer_says[160]; /* what must be said of those */
+    double layer_gain[2]; /* where their loss modulus is taken as 0 [rad/s]; NaN: nowhere */
 } friction_task;
 
 static double *numbers_of_kind(double *values, size_t n, int kind)
@@ -76,10 +76,8 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
     return status;
 }
 
-/* What must be said of the contact, or NULL. */
 static wt_status compute_layered(const friction_task *task, size_t replicate,
-                                 wt_friction_point *points, double *out, char says[160],
-                                 wt_error *err)
+                                 wt_friction_point *points, double *out, wt_error *err)
 {
     wt_layer_state layer = layer_of(task, replicate);
     sliding_contact c = {0};
@@ -98,8 +96,6 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
         numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
         numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
     }
-    if (status == WT_OK && says != NULL)
-        sliding_layer_says(&c, task->sliding, says);
     sliding_contact_clear(&c);
     return status;
 }
@@ -113,13 +109,11 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
         return WT_E_MEMORY;
     wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
-        status = compute_layered(task, i, points, out, NULL, err);
+        status = compute_layered(task, i, points, out, err);
     sliding_contact_clear(&c);
     free(points);
     return status;
 }
-
-/* ---- tables ---------------------------------------------------------------------------------- */
 
 /* Not known where the measured range is not. */
 static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
@@ -128,6 +122,8 @@ static double extrapolated_share(const wt_rubber *rubber, const wt_friction_poin
     return isnan(prony->frequency_min) || isnan(prony->frequency_max) ? (double)NAN
                                                                       : p->extrapolated_share;
 }
+
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
           wt_estimate total, hysteresis, area, with_layer;)
@@ -188,14 +184,11 @@ static void find_layer_keys(friction_task *task, friction_keys *keys)
         keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
     }
     keys->layer_thickness = flow_as_stated(task->layer->thickness);
-    sliding_layer_describe(task->sliding, task->layer, keys->layer_moduli,
-                           sizeof keys->layer_moduli);
+    sliding_layer_describe(task->sliding, task->layer, task->layer_gain, task->work->log,
+                           keys->layer_moduli, sizeof keys->layer_moduli);
     if (task->sliding->layer_rubber == NULL)
         keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
     if (keys->layer_moduli[0] != '\0') {
-        const size_t used = strlen(keys->layer_moduli);
-        snprintf(keys->layer_moduli + used, sizeof keys->layer_moduli - used, "%s%s",
-                 task->layer_says[0] != '\0' ? "; " : "", task->layer_says);
         keys->layer_outside.value = task->layer_outside;
         if (keys->layer_modulus_ratio.value > 0)
             keys->layer_slope = flow_as_stated(task->layer->ratio_slope);
@@ -400,9 +393,13 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     wt_friction_point *layered = malloc(task->n * sizeof *layered);
     if (layered == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, task->layer_says, err);
+    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
+    if (status == WT_OK)
+        status = sliding_layer_gain(task->sliding, task->layer, task->work, task->layer_gain, err);
     if (status == WT_OK) {
-        task->layer_outside = layered[last].extrapolated_share;
+        const wt_rubber *const own = task->sliding->layer_rubber;
+        task->layer_outside = own != NULL ? extrapolated_share(own, &layered[last])
+                                          : layered[last].extrapolated_share;
         task->numerical[1] = total_error(
             &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
                                                 layered[last].area_ratio.value) /
@@ -481,6 +478,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                           .work = work,
                           .n = sliding->n_velocity + !is_reference_alone(sliding),
                           .by = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                          .layer_gain = {(double)NAN, (double)NAN},
                           .replicates = replicates_of(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};

@@ -1,6 +1,8 @@
 /* What is known of a layer. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/sliding/layer_known.h"
+#include "flow/materials/rubber.h"
 #include "flow/work/draws.h"
+#include "kernel/layer_moduli.h"
 #include "kernel/params.h"
 
 #include "base/clocale.h"
@@ -95,34 +97,115 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, s
     return slope;
 }
 
+/* Draws of two materials may come from the same numbers: not those at the same place. */
+static size_t own_replicate(const wt_rubber *rubber, size_t replicate)
+{
+    return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
+}
+
 wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
                                size_t replicate, wt_material **material, wt_error *err)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    /* draws of two materials may come from the same numbers: not those at the same place */
-    const bool drawn = replicate != WT_NO_REPLICATE;
-    return wt_rubber_at(rubber, temperature, seed,
-                        drawn ? replicate + rubber->n_draws / 2 : replicate, material, NULL, err);
+    const wt_status status = wt_rubber_at(rubber, temperature, seed,
+                                          own_replicate(rubber, replicate), material, NULL, err);
+    if (status != WT_OK)
+        wt_error_place(err, "material of the layer");
+    return status;
 }
 
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,
-                            size_t size)
+wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
 {
-    const wt_estimate slope = known->ratio_slope;
+    const wt_rubber *rubber = sliding->layer_rubber;
+    return flow_rubber_law(rubber, seed, own_replicate(rubber, replicate));
+}
+
+/* The slowest wave of a contact, across the sliding, is as slow as any: from what was measured on,
+ * or from the longest wave along it. */
+static void widen_by_gain(const wt_sliding *sliding, const wt_roughness *roughness,
+                          const layer_moduli *moduli, double range[2])
+{
+    double slowest = HUGE_VAL, fastest = 0, found[2];
+    for (size_t i = 0; i < sliding->n_velocity; i++) {
+        slowest = fmin(slowest, sliding->velocity[i]);
+        fastest = fmax(fastest, sliding->velocity[i]);
+    }
+    if (!layer_moduli_gain(moduli, fmin(moduli->limit[0], roughness->q0 * slowest),
+                           roughness->q1 * fastest, found))
+        return;
+    range[0] = fmin(range[0], found[0]);
+    range[1] = fmax(range[1], found[1]);
+}
+
+wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *known,
+                             const wt_job *work, double range[2], wt_error *err)
+{
+    const double reference = sliding->rubber->prony.reference_temperature,
+                 temperature = sliding->temperature.value;
+    const wt_shift_law law = flow_rubber_law(sliding->rubber, work->seed, WT_NO_REPLICATE);
+    wt_layer_state layer = {.thickness = 1,
+                            .modulus_ratio = 1,
+                            .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
+    wt_material *bulk = NULL;
+    wt_roughness *roughness = NULL;
+    if (sliding->layer_rubber != NULL || layer.slope.exponent == 0)
+        return WT_OK;
+    wt_status status =
+        wt_rubber_at(sliding->rubber, temperature, work->seed, WT_NO_REPLICATE, &bulk, NULL, err);
+    if (status == WT_OK)
+        status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
+    if (status == WT_OK)
+        status = layer_slope_shift(&law, isnan(temperature) ? reference : temperature, &layer.slope,
+                                   err);
+    if (status == WT_OK) {
+        const layer_moduli moduli = layer_moduli_of(bulk, layer, work->tolerance);
+        widen_by_gain(sliding, roughness, &moduli, range);
+    }
+    wt_roughness_free(roughness);
+    wt_material_free(bulk);
+    return status;
+}
+
+/* How its ratio goes with the frequency, and what is to be said of that. */
+static void describe_slope(const wt_layer_known *known, const double range[2], wt_parselog *log,
+                           char *text, size_t size)
+{
+    char says[128] = "";
+    if (range[0] > 0)
+        clocale_print(says, sizeof says,
+                      "from %s rad/s its loss modulus would be below 0 by such a slope, and is "
+                      "taken as 0",
+                      ends_of(range[0], range[1], 2).text);
+    clocale_print(text, size,
+                  "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
+                  "causal ratio (reconstructed) from %s rad/s, constant outside; "
+                  "sheared at the frequency velocity over thickness%s%s",
+                  known->modulus_ratio.value, known->ratio_frequency, known->ratio_slope.value,
+                  ends_of(known->ratio_lowest, known->ratio_highest, 3).text,
+                  says[0] != '\0' ? "; " : "", says);
+    if (says[0] != '\0')
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
+}
+
+/* A material without a law is shifted by that of the bulk. */
+static void describe_material(const wt_sliding *sliding, char *text, size_t size)
+{
+    const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;
+    snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
+             !sliding->flash.on ? ""
+             : has_law          ? ", shifted by its own law where the flash temperature warms it"
+                       : ", shifted by the law of the bulk where the flash temperature warms it, "
+                         "for it has none of its own");
+}
+
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
+                            const double range[2], wt_parselog *log, char *text, size_t size)
+{
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
-        snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
-                 sliding->flash.on ? ", warmed by the flash temperature with the shift law of the "
-                                     "bulk and not its own"
-                                   : "");
-    else if (slope.value != 0 || slope.standard_error > 0)
-        clocale_print(
-            text, size,
-            "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
-            "causal ratio (reconstructed) from %s rad/s, constant outside; "
-            "sheared at the frequency velocity over thickness",
-            known->modulus_ratio.value, known->ratio_frequency, slope.value,
-            ends_of(known->ratio_lowest, known->ratio_highest, 3).text);
+        describe_material(sliding, text, size);
+    else if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
+        describe_slope(known, range, log, text, size);
 }
 
 wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)

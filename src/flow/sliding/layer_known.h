@@ -24,8 +24,15 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, s
 wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
                                size_t replicate, wt_material **material,
                                wt_error *err) WT_NODISCARD;
-/* Its moduli in words, "" where they are one ratio. */
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known, char *text,
-                            size_t size);
+/* Its shift law, none where it has none of its own. */
+wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate);
+/* Widens `range` [rad/s], NaN at first, by where a ratio that falls with the frequency would make
+ * the loss modulus of the layer below 0 in these contacts: it is taken as 0 there. */
+wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *known,
+                             const wt_job *work, double range[2], wt_error *err) WT_NODISCARD;
+/* Its moduli in words, "" where they are one ratio, with what is to be said of that range, which is
+ * a warning, too. */
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
+                            const double range[2], wt_parselog *log, char *text, size_t size);
 
 #endif

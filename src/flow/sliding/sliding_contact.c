@@ -9,8 +9,6 @@
 #include "kernel/friction.h"
 #include "kernel/params.h"
 
-#include "base/clocale.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -194,6 +192,8 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     if (status == WT_OK && own)
         status = sliding_layer_rubber(sliding, c.temperature, seed, replicate, &c.layer, err);
     options.layer.own = c.layer;
+    if (own)
+        options.layer.own_law = sliding_layer_law(sliding, seed, replicate);
     if (status == WT_OK)
         status = make_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
@@ -219,22 +219,6 @@ wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_st
     if (contact->workspace->own != NULL && rate > 0)
         layer.modulus_ratio = wt_friction_layer_ratio(contact->workspace, rate);
     return layer;
-}
-
-void sliding_layer_says(const sliding_contact *contact, const wt_sliding *sliding, char says[160])
-{
-    const layer_moduli *own = contact->workspace->own;
-    double range[2];
-    says[0] = '\0';
-    if (own != NULL &&
-        /* a wave across the sliding is as slow as any */
-        layer_moduli_gain(own, fmin(own->limit[0], contact->roughness->q0 * sliding->velocity[0]),
-                          contact->roughness->q1 * sliding->velocity[sliding->n_velocity - 1],
-                          range))
-        clocale_print(says, 160,
-                      "from %.2g to %.2g rad/s its loss modulus would be below 0 by such a slope, "
-                      "and is taken as 0",
-                      range[0], range[1]);
 }
 
 void sliding_contact_clear(sliding_contact *contact)

@@ -41,8 +41,6 @@ double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
  */
 wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
                                      double velocity);
-/* What must be said of its moduli, "" if nothing. */
-void sliding_layer_says(const sliding_contact *contact, const wt_sliding *sliding, char says[160]);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif

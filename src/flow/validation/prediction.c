@@ -152,6 +152,8 @@ static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_known 
         n = measured_alike(steps, first);
         const group g = group_of(sliding, known, &steps->step[first], velocity + first, n, work);
         status = predict_group(&g, sliding, work, draws, first, p, err);
+        if (status == WT_OK && known != NULL)
+            status = sliding_layer_gain(&g.sliding, known, work, p->layer_gain, err);
     }
     free(velocity);
     return status;
@@ -164,7 +166,8 @@ wt_status prediction_make(const wt_sliding *sliding, const wt_layer_known *known
     wt_job own = *work;
     own.drawn = NULL; /* of another temperature */
     own.left_out |= WT_EXTRA_SHARE;
-    *p = (prediction){.n = steps->n, .layered = known != NULL};
+    *p = (prediction){
+        .n = steps->n, .layered = known != NULL, .layer_gain = {(double)NAN, (double)NAN}};
     const group any = group_of(sliding, known, &steps->step[0], &steps->step[0].velocity, 1, &own);
     p->n_draws = draws ? begin_replicates(&any, sliding, &own).n : 0;
     p->part = calloc((1 + p->n_draws) * PARTS * p->n, sizeof *p->part);

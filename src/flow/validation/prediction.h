@@ -22,6 +22,7 @@ typedef struct prediction {
     double *shear; /* [1 + n_draws] tau_f [Pa]; NaN: not given */
     flow_draw line[REPLICATES_MOST];
     size_t n_lines;
+    double layer_gain[2]; /* where the loss modulus of the layer is taken as 0; NaN: nowhere */
 } prediction;
 
 /* `known` NULL: without a layer. Without `draws` only the values themselves. */

@@ -30,6 +30,8 @@ static const struct {
     {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
     {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
     {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one lever for bulk and track"},
+    {FLOW_DRAW_RATIO_SLOPE, "slope of the modulus ratio",
+     "bulk and track indented at rates further apart"},
     {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},
     {FLOW_DRAW_CRITICAL_ENERGY, "critical energy", "the layer measured at more places"},
     {FLOW_DRAW_OBSERVED, "observed thickness", "the layer measured at more places"},
@@ -76,16 +78,30 @@ static source *find_source(source_list *list, const char *words, const char *rem
 
 /* ---- the variance by sources ----------------------------------------------------------------- */
 
-static void add_rest(source_list *list, bool with_surface, const trial_parts *parts,
-                     const trial_parts *needed)
+/* What the draws leave beside the numbers that are told apart. */
+static const char *words_of_rest(const wt_sliding *sliding, bool split)
+{
+    const bool with_surface = sliding->surface->modes_error != NULL;
+    const bool two = sliding->layer_rubber != NULL && sliding->layer_rubber->n_draws > 0;
+    if (!split)
+        return VALIDATION_OF_MATERIAL " and all else that is drawn";
+    if (with_surface)
+        return two ? VALIDATION_OF_MATERIAL ", that of the layer, scatter of the measured spectrum"
+                   : VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum";
+    return two ? VALIDATION_OF_MATERIAL ", and that of the layer" : VALIDATION_OF_MATERIAL;
+}
+
+static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
+                     const trial_parts *parts, const trial_parts *needed)
 {
     const struct {
         const char *words, *remedy;
         double variance, needed;
-    } rest[] = {{with_surface ? VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum"
-                              : VALIDATION_OF_MATERIAL,
-                 with_surface ? "a second DMA run; more scans of the counter surface"
-                              : "a second DMA run; temperatures known better",
+    } rest[] = {{words_of_rest(sliding, split),
+                 !split ? "more replicates, which tell the errors apart"
+                 : sliding->surface->modes_error != NULL
+                     ? "a second DMA run; more scans of the counter surface"
+                     : "a second DMA run; temperatures known better",
                  parts->material, needed->material},
                 {"record", "longer records, or more of them", parts->record, needed->record},
                 {"scatter between the steps",
@@ -99,17 +115,17 @@ static void add_rest(source_list *list, bool with_surface, const trial_parts *pa
         }
 }
 
-static void list_sources(const validation *v, const trial_parts *parts, const trial_parts *needed,
-                         source_list *list)
+static void list_sources(const validation *v, bool split, const trial_parts *parts,
+                         const trial_parts *needed, source_list *list)
 {
     *list = (source_list){.all = parts->all, .all_needed = needed->all};
-    for (size_t u = 0; u < v->p.n_lines; u++) {
+    for (size_t u = 0; split && u < v->p.n_lines; u++) {
         const size_t k = find_drawn(v->p.line[u]);
         source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
         s->variance += parts->line[u];
         s->needed += needed->line[u];
     }
-    add_rest(list, v->used.surface.modes_error != NULL, parts, needed);
+    add_rest(list, v->job->sliding, split, parts, needed);
 }
 
 /* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope
@@ -217,8 +233,9 @@ wt_status sources_make(const validation *v, source_advice *advice, wt_table **ta
     agreement_row(&v->shear.fit, 0, row);
     const trial_parts needed = trial_variance(&v->shear, row);
     free(row);
-    list_sources(v, &parts, &needed, &list);
-    const wt_status status = v->has_shear ? find_pulls(v, t, &list, err) : WT_OK;
+    const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to split */
+    list_sources(v, split, &parts, &needed, &list);
+    const wt_status status = v->has_shear && split ? find_pulls(v, t, &list, err) : WT_OK;
     if (status != WT_OK)
         return status;
     qsort(list.of, list.n, sizeof *list.of, by_variance);

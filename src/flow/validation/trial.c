@@ -83,6 +83,7 @@ static wt_status find_covariance(splitting *s, wt_error *err)
 {
     trial *const t = s->t;
     const bool lines = s->n_good >= FOR_EACH * s->columns && take_lines(s);
+    t->split = lines;
     if (!lines) {
         s->columns = 1;
         take_mean(s);

@@ -17,6 +17,7 @@ typedef struct trial {
     double *common;              /* [n * n] the covariance by all draws */
     double *slope;               /* [n_lines * n] what one standard error of a drawn number does */
     double *rest;                /* [n * n] the covariance beside: the material */
+    bool split;                  /* whether there are draws enough for the slopes; else 0 */
     agreement fit;
 } trial;
 

@@ -2,6 +2,7 @@
  * and what the record says of the choices of the model.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/validation/validation.h"
+#include "flow/sliding/layer_known.h"
 #include "flow/work/cost.h"
 #include "flow/work/draws.h"
 
@@ -229,6 +230,26 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 }
 
 /* ranges: NULL where no choices were held against the record. */
+/* The layer that friction was predicted with. */
+static void set_layer(const validation *v, table_writer *t)
+{
+    const wt_sliding *const sliding = v->job->sliding;
+    char moduli[512];
+    if (!v->layered)
+        return;
+    const wt_estimate thickness = flow_as_stated(v->known->thickness),
+                      ratio = flow_as_stated(v->known->modulus_ratio);
+    validation_set(t, VALIDATION_KEY_LAYER_THICKNESS, thickness);
+    if (sliding->layer_rubber == NULL)
+        validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
+    sliding_layer_describe(sliding, v->known, v->p.layer_gain, v->work->log, moduli, sizeof moduli);
+    if (moduli[0] == '\0')
+        return;
+    validation_set_text(t, VALIDATION_KEY_LAYER_MODULI, moduli);
+    if (sliding->layer_rubber == NULL)
+        validation_set(t, VALIDATION_KEY_LAYER_SLOPE, flow_as_stated(v->known->ratio_slope));
+}
+
 static wt_status set_keys(const validation *v, const choice_ranges *ranges,
                           const source_advice *advice, table_writer *t, wt_error *err)
 {
@@ -238,6 +259,7 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
     if (!v->has_shear)
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, "a shear stress of the real contact");
     set_ratio(v, t);
+    set_layer(v, t);
     if (v->has_shear)
         validation_set(t, VALIDATION_KEY_SHEAR, flow_as_stated(v->used.sliding.shear_stress));
     needed_set_keys(v, t);
