@@ -11,22 +11,38 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double shortest = 0.5, longest = 0.25; /* steps; of the series */
+static const double shortest = 0.5; /* steps */
+/* closer at the ends, where a little white or slow scatter changes much */
+static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
 
-scatter_law scatter_law_of(size_t i, size_t n)
+/* How likely what is before a series is seen. */
+static const struct {
+    double longest; /* of the series */
+    double white;   /* that all scatter is white */
+    double power;   /* of the share, by which laws of slow scatter weigh */
+} expected[] = {
+    [SCATTER_UNDER_CHANGE] = {0.25, 0.5, 0},
+    [SCATTER_OF_MEAN] = {1, 0.6, 2},
+};
+
+scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
 {
-    /* closer at the ends, where a little white or slow scatter changes much */
-    static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
-    const double most = fmax(longest * (double)n, 2 * shortest),
+    const double most = fmax(expected[use].longest * (double)n, 2 * shortest),
                  part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);
     const double length = shortest * pow(most / shortest, part);
     return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
 }
 
-double scatter_prior(size_t i)
+double scatter_prior(scatter_use use, size_t i)
 {
-    return i % SCATTER_SHARES == 0 ? log(0.5 / SCATTER_LENGTHS)
-                                   : log(0.5 / (SCATTER_LAWS - SCATTER_LENGTHS));
+    const double white = expected[use].white, power = expected[use].power,
+                 share = shares[i % SCATTER_SHARES];
+    if (!(share > 0))
+        return log(white / SCATTER_LENGTHS);
+    double all = 0;
+    for (size_t k = 1; k < SCATTER_SHARES; k++)
+        all += pow(shares[k], power);
+    return log((1 - white) * pow(share, power) / all / SCATTER_LENGTHS);
 }
 
 scatter_sums scatter_begin(scatter_law law)
@@ -158,14 +174,14 @@ static double mixture_below(const t_mixture *m, double x)
 
 double mixture_quantile(const t_mixture *m, double p)
 {
-    enum { HALVINGS = 60 }; /* to the digits of a double */
+    enum { DOUBLINGS = 60, HALVINGS = 34 }; /* to 1e-10 of the deviation */
     const double centre = mixture_mean(m);
     double step = mixture_deviation(m);
     step = step > 0 ? step : fabs(centre) + 1;
     double low = centre - step, high = centre + step;
-    for (int i = 0; i < HALVINGS && mixture_below(m, low) > p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, low) > p; i++)
         low = centre - (step *= 2);
-    for (int i = 0; i < HALVINGS && mixture_below(m, high) < p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, high) < p; i++)
         high = centre + (step *= 2);
     for (int i = 0; i < HALVINGS && low < high; i++) {
         const double middle = 0.5 * (low + high);

@@ -18,18 +18,25 @@ typedef struct scatter_law {
     double share;  /* of the variance that is slow */
 } scatter_law;
 
+/* What the laws are for. Under a change that is sought they reach to a quarter of the series,
+ * beyond which they are the change itself. In the error of a mean all counts that the series does
+ * not tell from it: they reach to its whole length. */
+typedef enum scatter_use { SCATTER_UNDER_CHANGE, SCATTER_OF_MEAN } scatter_use;
+
 /* The laws of a series of n points. Lengths go from half a step, below which slow scatter is white,
- * to a quarter of the series, beyond which it cannot be told from drift, in equal ratios; shares
- * stand closer at the ends, where a little white or slow scatter changes much. */
+ * to the longest in equal ratios; shares stand closer at the ends, where a little white or slow
+ * scatter changes much. */
 enum { SCATTER_LENGTHS = 16, SCATTER_SHARES = 10 };
 enum { SCATTER_LAWS = SCATTER_LENGTHS * SCATTER_SHARES };
-scatter_law scatter_law_of(size_t i, size_t n);
-/* ln of how likely it is taken to be before a series is seen: half of it that the scatter is white,
- * which is one law whatever the length, and the other half that some of it is slow, by any length
- * and share. Where each place of the grid weighs the same, white scatter has a tenth, and shares of
- * a few hundredths over a quarter of the series, which no series can refute, make the error of the
- * mean of white scatter a third too large. */
-double scatter_prior(size_t i);
+scatter_law scatter_law_of(scatter_use use, size_t i, size_t n);
+/* ln of how likely it is taken to be before a series is seen: about half of it that the scatter is
+ * white, which is one law whatever the length, and the rest that some of it is slow, each length
+ * as likely. Where each place of the grid weighs the same, white scatter has a tenth, and shares of
+ * a few hundredths over much of the series, which no series can refute, make the error of the
+ * mean of white scatter a third too large. In the error of a mean a law weighs by the square of the
+ * share: what widens white scatter most and tells least weighs least, so that long scatter can
+ * weigh more. */
+double scatter_prior(scatter_use use, size_t i);
 
 /* Sums of generalised least squares over points taken one after the other, from either end: V is
  * the covariance of unit variance, the columns of X are 1 and the number of the point. */

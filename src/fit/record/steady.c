@@ -18,11 +18,17 @@ static const double tail = 0.025; /* on each side of an interval of 95 % */
 /* Fewer independent points than these do not tell how far they scatter. */
 static const double least_independent = 8;
 
-static wt_interval interval_of(t_mixture *m, double value)
+static wt_interval interval_of(const t_mixture *m)
 {
-    mixture_normalise(m);
     const double low = mixture_quantile(m, tail), high = mixture_quantile(m, 1 - tail);
-    return (wt_interval){value, (high - low) / (2 * NORMAL_95), low, high};
+    return (wt_interval){mixture_mean(m), (high - low) / (2 * NORMAL_95), low, high};
+}
+
+/* Of laws that have one centre: as far above it as below. */
+static wt_interval interval_about(const t_mixture *m, double centre)
+{
+    const double high = mixture_quantile(m, 1 - tail);
+    return (wt_interval){centre, (high - centre) / NORMAL_95, 2 * centre - high, high};
 }
 
 /* Mean, drift and correlation by all laws, each as heavy as it is likely. */
@@ -35,22 +41,25 @@ static void average_laws(const scatter_parts *parts, moments m, wt_steady *stead
               drift = {.n = SCATTER_LAWS, .df = (double)n - 2};
     double of_mean[SCATTER_LAWS];
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums s = scatter_begin(scatter_law_of(i, n));
+        scatter_sums s = scatter_begin(scatter_law_of(SCATTER_OF_MEAN, i, n));
         for (size_t k = 0; k < n; k++)
             scatter_add(&s, parts->y[k] - m.mean);
         const scatter_fit constant = scatter_solve(&s, false), line = scatter_solve(&s, true);
         const double variance = fmax(constant.squares / mean.df, least);
         of_mean[i] = variance * scatter_of_mean(s.law, n);
-        mean.log_weight[i] = scatter_prior(i) + scatter_likelihood(&s, false, least);
+        mean.log_weight[i] =
+            scatter_prior(SCATTER_OF_MEAN, i) + scatter_likelihood(&s, false, least);
         mean.centre[i] = m.mean;
         mean.scale[i] = sqrt(of_mean[i]);
-        drift.log_weight[i] = scatter_prior(i) + scatter_likelihood(&s, true, least);
+        drift.log_weight[i] =
+            scatter_prior(SCATTER_OF_MEAN, i) + scatter_likelihood(&s, true, least);
         drift.centre[i] = line.coefficient / length;
         drift.scale[i] = sqrt(fmax(line.squares / drift.df, least) * line.variance) / length;
     }
-    steady->mean = interval_of(&mean, m.mean);
-    steady->drift = interval_of(&drift, 0);
-    steady->drift.value = mixture_mean(&drift);
+    mixture_normalise(&mean);
+    mixture_normalise(&drift);
+    steady->mean = interval_about(&mean, m.mean);
+    steady->drift = interval_of(&drift);
     steady->correlation = 0;
     for (size_t i = 0; i < SCATTER_LAWS; i++)
         steady->correlation += exp(mean.log_weight[i]) * of_mean[i] * m.n / m.variance;

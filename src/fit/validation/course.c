@@ -239,12 +239,14 @@ static law_sum try_factor(scan *t, double log_factor, double *likelihood)
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         if (!t->kept[i])
             continue;
-        const scatter_sums s = sum_up(t->s, t->column, scatter_law_of(i, t->s->n));
+        const scatter_sums s =
+            sum_up(t->s, t->column, scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
         /* changes about as large as the scatter of the whole are taken for possible, or else a
          * course that lies beyond the series would be as likely as it is free */
-        const double l = scatter_prior(i) + scatter_likelihood_beside(&s, t->least) -
+        const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
+                         scatter_likelihood_beside(&s, t->least) -
                          0.5 * log1p(f.variance * scatter / t->variance);
         if (!isfinite(l)) /* no course within the series */
             continue;
@@ -419,10 +421,11 @@ static void find(scan *t, double expected, course_fit *fit)
 static void find_null(scan *t)
 {
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums s = scatter_begin(scatter_law_of(i, t->s->n));
+        scatter_sums s = scatter_begin(scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
         for (size_t k = 0; k < t->s->n; k++)
             scatter_add(&s, t->s->friction[k]);
-        t->null[i] = scatter_prior(i) + scatter_likelihood(&s, false, t->least);
+        t->null[i] =
+            scatter_prior(SCATTER_UNDER_CHANGE, i) + scatter_likelihood(&s, false, t->least);
         t->kept[i] = true;
     }
 }
