@@ -15,14 +15,14 @@ static const double shortest = 0.5; /* steps */
 /* closer at the ends, where a little white or slow scatter changes much */
 static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
 
-/* How likely what is before a series is seen. */
+/* Before a series is seen: how long slow scatter may be, of the series, and how likely each share
+ * is, in parts of all. Under a change: white, or any other. Of a mean: four white to one all slow
+ * and one partly slow, by share (1 - share) over the steps of the shares. */
 static const struct {
-    double longest; /* of the series */
-    double white;   /* that all scatter is white */
-    double power;   /* of the share, by which laws of slow scatter weigh */
+    double longest, likely[SCATTER_SHARES];
 } expected[] = {
-    [SCATTER_UNDER_CHANGE] = {0.25, 0.5, 0},
-    [SCATTER_OF_MEAN] = {1, 0.6, 2},
+    [SCATTER_UNDER_CHANGE] = {0.25, {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+    [SCATTER_OF_MEAN] = {1, {4000, 3, 12, 42, 148, 296, 297, 173, 29, 1000}},
 };
 
 scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
@@ -35,14 +35,11 @@ scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
 
 double scatter_prior(scatter_use use, size_t i)
 {
-    const double white = expected[use].white, power = expected[use].power,
-                 share = shares[i % SCATTER_SHARES];
-    if (!(share > 0))
-        return log(white / SCATTER_LENGTHS);
+    const double *const likely = expected[use].likely;
     double all = 0;
-    for (size_t k = 1; k < SCATTER_SHARES; k++)
-        all += pow(shares[k], power);
-    return log((1 - white) * pow(share, power) / all / SCATTER_LENGTHS);
+    for (size_t k = 0; k < SCATTER_SHARES; k++)
+        all += likely[k];
+    return log(likely[i % SCATTER_SHARES] / all / SCATTER_LENGTHS);
 }
 
 scatter_sums scatter_begin(scatter_law law)

@@ -29,13 +29,13 @@ typedef enum scatter_use { SCATTER_UNDER_CHANGE, SCATTER_OF_MEAN } scatter_use;
 enum { SCATTER_LENGTHS = 16, SCATTER_SHARES = 10 };
 enum { SCATTER_LAWS = SCATTER_LENGTHS * SCATTER_SHARES };
 scatter_law scatter_law_of(scatter_use use, size_t i, size_t n);
-/* ln of how likely it is taken to be before a series is seen: about half of it that the scatter is
- * white, which is one law whatever the length, and the rest that some of it is slow, each length
- * as likely. Where each place of the grid weighs the same, white scatter has a tenth, and shares of
- * a few hundredths over much of the series, which no series can refute, make the error of the
- * mean of white scatter a third too large. In the error of a mean a law weighs by the square of the
- * share: what widens white scatter most and tells least weighs least, so that long scatter can
- * weigh more. */
+/* ln of how likely it is taken to be before a series is seen, each length as likely. White scatter,
+ * which is one law whatever the length, has half or more: where each place of the grid weighs the
+ * same it has a tenth, and shares of a few hundredths over much of the series, which no series can
+ * refute, make the error of the mean of white scatter a third too large. So small shares have
+ * little in the error of a mean. Nearly all slow has little, too: a part as long as the series
+ * beside a little white scatter fits as well as half and half with a shorter one, and its error is
+ * twice as large. */
 double scatter_prior(scatter_use use, size_t i);
 
 /* Sums of generalised least squares over points taken one after the other, from either end: V is
