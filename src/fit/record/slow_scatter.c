@@ -132,6 +132,14 @@ double log_add(double a, double b)
     return isinf(large) ? large : large + log1p(exp(fmin(a, b) - large));
 }
 
+void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale)
+{
+    m->log_weight[m->n] = log_weight;
+    m->df[m->n] = df;
+    m->centre[m->n] = centre;
+    m->scale[m->n++] = scale;
+}
+
 void mixture_normalise(t_mixture *m)
 {
     double all = -(double)INFINITY;
@@ -149,15 +157,16 @@ double mixture_mean(const t_mixture *m)
     return sum;
 }
 
-static double mixture_deviation(const t_mixture *m)
+/* About where the tails are, of laws of any degrees of freedom. */
+static double mixture_width(const t_mixture *m)
 {
-    const double mean = mixture_mean(m), wide = m->df > 2 ? m->df / (m->df - 2) : (double)NAN;
+    const double mean = mixture_mean(m);
     double sum = 0;
     for (size_t i = 0; i < m->n; i++) {
         const double off = m->centre[i] - mean;
-        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] * wide + off * off);
+        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] + off * off);
     }
-    return sqrt(sum);
+    return 2 * sqrt(sum);
 }
 
 static double mixture_below(const t_mixture *m, double x)
@@ -165,15 +174,16 @@ static double mixture_below(const t_mixture *m, double x)
     double sum = 0;
     for (size_t i = 0; i < m->n; i++)
         if (m->log_weight[i] > -40) /* what is lighter is below the digits of the sum */
-            sum += exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df);
+            sum +=
+                exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df[i]);
     return sum;
 }
 
 double mixture_quantile(const t_mixture *m, double p)
 {
-    enum { DOUBLINGS = 60, HALVINGS = 34 }; /* to 1e-10 of the deviation */
+    enum { DOUBLINGS = 60, HALVINGS = 34 }; /* to 1e-10 of the width */
     const double centre = mixture_mean(m);
-    double step = mixture_deviation(m);
+    double step = mixture_width(m);
     step = step > 0 ? step : fabs(centre) + 1;
     double low = centre - step, high = centre + step;
     for (int i = 0; i < DOUBLINGS && mixture_below(m, low) > p; i++)

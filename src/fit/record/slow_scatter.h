@@ -81,12 +81,14 @@ bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **
 /* ln (exp a + exp b), of which either may be of nothing, -INFINITY. */
 double log_add(double a, double b);
 
-/* Laws of Student's t, weighed: of what several laws of the scatter say. */
+/* Laws of Student's t, weighed: of what several laws of the scatter say, each about a constant and
+ * about a line. */
+enum { MIXTURE_MOST = 2 * SCATTER_LAWS };
 typedef struct t_mixture {
     size_t n;
-    double df;
-    double log_weight[SCATTER_LAWS], centre[SCATTER_LAWS], scale[SCATTER_LAWS];
+    double df[MIXTURE_MOST], log_weight[MIXTURE_MOST], centre[MIXTURE_MOST], scale[MIXTURE_MOST];
 } t_mixture;
+void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale);
 /* Weights become those of a sum of 1. */
 void mixture_normalise(t_mixture *m);
 double mixture_mean(const t_mixture *m);
