@@ -273,6 +273,25 @@ static void test_of_scatter_as_long_as_the_record(void **state)
     assert_true(held >= 54 && noted >= 54);
 }
 
+/* White scatter beside a drift of three deviations from end to end, which is no slow scatter: taken
+ * for it the error is six times that. */
+static void test_of_the_error_beside_a_drift(void **state)
+{
+    (void)state;
+    enum { N = 150, DRAWS = 20 };
+    double y[N], wide = 0;
+    uint64_t seed = 23;
+    for (int d = 0; d < DRAWS; d++) {
+        wt_steady s;
+        for (int i = 0; i < N; i++)
+            y[i] = normal(&seed) + 3.0 * i / N;
+        assert_int_equal(wt_steady_mean(y, N, &s, NULL), WT_OK);
+        wide += s.mean.standard_error / (1 / sqrt(N)) / DRAWS;
+    }
+    print_message("error over that of white scatter, beside a drift %.2f\n", wide);
+    assert_true(wide > 0.95 && wide < 3);
+}
+
 static void test_of_few_points(void **state)
 {
     (void)state;
@@ -750,6 +769,7 @@ int main(void)
         cmocka_unit_test(test_of_the_mean_of_a_law),
         cmocka_unit_test(test_of_the_error_of_a_mean),
         cmocka_unit_test(test_of_scatter_as_long_as_the_record),
+        cmocka_unit_test(test_of_the_error_beside_a_drift),
         cmocka_unit_test(test_of_few_points),
         cmocka_unit_test(test_of_the_end_of_a_running_in),
         cmocka_unit_test(test_of_stick_slip),

@@ -17,10 +17,10 @@ static const double rounding = 1e-12;
 static const double tail = 0.025; /* on each side of an interval of 95 % */
 /* Fewer independent points than these do not tell how far they scatter. */
 static const double least_independent = 8;
-/* Of a drift over none before the series is seen. Where they are even, the mean of slow scatter is
- * held in up to 4 % less; without a drift, one of white scatter makes the error three times as
- * large. Drifts up to one that is all of the variance are taken for possible: the square of its
- * change from end to end, of that variance. */
+/* Of a drift over none before the series is seen: with even odds slow scatter passes for a drift
+ * and its means are held in up to 4 % less; with none a drift passes for slow scatter and makes the
+ * error of white scatter three times as large. Drifts up to one that is all of the variance are
+ * taken for possible: the square of its change from end to end, of that variance. */
 static const double drift_odds = 0.1, whole_change = 12;
 
 static wt_interval interval_of(const t_mixture *m)
