@@ -692,7 +692,7 @@ WT_API size_t wt_change_of_mean(const double *y, size_t n);
 WT_API size_t wt_mser_5(const double *y, size_t n);
 
 /* Mean and drift of a steady series whose scatter is correlated. Intervals are of 95 %, averaged
- * over what the series does not tell of the correlation. */
+ * over what the series does not tell of the correlation, the mean over a drift and none. */
 typedef struct wt_steady {
     size_t n;
     wt_interval mean;

@@ -44,8 +44,8 @@ static double total_variance(const double *y, size_t n)
 /* All places at once: the scatter is the same from either end. */
 static void add_law(likelihoods *l, const double *y, size_t i)
 {
-    const scatter_law law = scatter_law_of(i, l->n);
-    const double prior = scatter_prior(i);
+    const scatter_law law = scatter_law_of(SCATTER_UNDER_CHANGE, i, l->n);
+    const double prior = scatter_prior(SCATTER_UNDER_CHANGE, i);
     scatter_sums s = scatter_begin(law);
     for (size_t k = 1; k <= l->n; k++) {
         scatter_add(&s, y[k - 1]);

@@ -11,22 +11,35 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double shortest = 0.5, longest = 0.25; /* steps; of the series */
+static const double shortest = 0.5; /* steps */
+/* closer at the ends, where a little white or slow scatter changes much */
+static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
 
-scatter_law scatter_law_of(size_t i, size_t n)
+/* Before a series is seen: how long slow scatter may be, of the series, and how likely each share
+ * is, in parts of all. Under a change: white, or any other. Of a mean: four white to one all slow
+ * and one partly slow, by share (1 - share) over the steps of the shares. */
+static const struct {
+    double longest, likely[SCATTER_SHARES];
+} expected[] = {
+    [SCATTER_UNDER_CHANGE] = {0.25, {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+    [SCATTER_OF_MEAN] = {1, {4000, 3, 12, 42, 148, 296, 297, 173, 29, 1000}},
+};
+
+scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
 {
-    /* closer at the ends, where a little white or slow scatter changes much */
-    static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
-    const double most = fmax(longest * (double)n, 2 * shortest),
+    const double most = fmax(expected[use].longest * (double)n, 2 * shortest),
                  part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);
     const double length = shortest * pow(most / shortest, part);
     return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
 }
 
-double scatter_prior(size_t i)
+double scatter_prior(scatter_use use, size_t i)
 {
-    return i % SCATTER_SHARES == 0 ? log(0.5 / SCATTER_LENGTHS)
-                                   : log(0.5 / (SCATTER_LAWS - SCATTER_LENGTHS));
+    const double *const likely = expected[use].likely;
+    double all = 0;
+    for (size_t k = 0; k < SCATTER_SHARES; k++)
+        all += likely[k];
+    return log(likely[i % SCATTER_SHARES] / all / SCATTER_LENGTHS);
 }
 
 scatter_sums scatter_begin(scatter_law law)
@@ -119,6 +132,14 @@ double log_add(double a, double b)
     return isinf(large) ? large : large + log1p(exp(fmin(a, b) - large));
 }
 
+void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale)
+{
+    m->log_weight[m->n] = log_weight;
+    m->df[m->n] = df;
+    m->centre[m->n] = centre;
+    m->scale[m->n++] = scale;
+}
+
 void mixture_normalise(t_mixture *m)
 {
     double all = -(double)INFINITY;
@@ -136,15 +157,16 @@ double mixture_mean(const t_mixture *m)
     return sum;
 }
 
-static double mixture_deviation(const t_mixture *m)
+/* About where the tails are, of laws of any degrees of freedom. */
+static double mixture_width(const t_mixture *m)
 {
-    const double mean = mixture_mean(m), wide = m->df > 2 ? m->df / (m->df - 2) : (double)NAN;
+    const double mean = mixture_mean(m);
     double sum = 0;
     for (size_t i = 0; i < m->n; i++) {
         const double off = m->centre[i] - mean;
-        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] * wide + off * off);
+        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] + off * off);
     }
-    return sqrt(sum);
+    return 2 * sqrt(sum);
 }
 
 static double mixture_below(const t_mixture *m, double x)
@@ -152,20 +174,21 @@ static double mixture_below(const t_mixture *m, double x)
     double sum = 0;
     for (size_t i = 0; i < m->n; i++)
         if (m->log_weight[i] > -40) /* what is lighter is below the digits of the sum */
-            sum += exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df);
+            sum +=
+                exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df[i]);
     return sum;
 }
 
 double mixture_quantile(const t_mixture *m, double p)
 {
-    enum { HALVINGS = 60 }; /* to the digits of a double */
+    enum { DOUBLINGS = 60, HALVINGS = 34 }; /* to 1e-10 of the width */
     const double centre = mixture_mean(m);
-    double step = mixture_deviation(m);
+    double step = mixture_width(m);
     step = step > 0 ? step : fabs(centre) + 1;
     double low = centre - step, high = centre + step;
-    for (int i = 0; i < HALVINGS && mixture_below(m, low) > p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, low) > p; i++)
         low = centre - (step *= 2);
-    for (int i = 0; i < HALVINGS && mixture_below(m, high) < p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, high) < p; i++)
         high = centre + (step *= 2);
     for (int i = 0; i < HALVINGS && low < high; i++) {
         const double middle = 0.5 * (low + high);

@@ -18,18 +18,25 @@ typedef struct scatter_law {
     double share;  /* of the variance that is slow */
 } scatter_law;
 
+/* What the laws are for. Under a change that is sought they reach to a quarter of the series,
+ * beyond which they are the change itself. In the error of a mean all counts that the series does
+ * not tell from it: they reach to its whole length. */
+typedef enum scatter_use { SCATTER_UNDER_CHANGE, SCATTER_OF_MEAN } scatter_use;
+
 /* The laws of a series of n points. Lengths go from half a step, below which slow scatter is white,
- * to a quarter of the series, beyond which it cannot be told from drift, in equal ratios; shares
- * stand closer at the ends, where a little white or slow scatter changes much. */
+ * to the longest in equal ratios; shares stand closer at the ends, where a little white or slow
+ * scatter changes much. */
 enum { SCATTER_LENGTHS = 16, SCATTER_SHARES = 10 };
 enum { SCATTER_LAWS = SCATTER_LENGTHS * SCATTER_SHARES };
-scatter_law scatter_law_of(size_t i, size_t n);
-/* ln of how likely it is taken to be before a series is seen: half of it that the scatter is white,
- * which is one law whatever the length, and the other half that some of it is slow, by any length
- * and share. Where each place of the grid weighs the same, white scatter has a tenth, and shares of
- * a few hundredths over a quarter of the series, which no series can refute, make the error of the
- * mean of white scatter a third too large. */
-double scatter_prior(size_t i);
+scatter_law scatter_law_of(scatter_use use, size_t i, size_t n);
+/* ln of how likely it is taken to be before a series is seen, each length as likely. White scatter,
+ * which is one law whatever the length, has half or more: where each place of the grid weighs the
+ * same it has a tenth, and shares of a few hundredths over much of the series, which no series can
+ * refute, make the error of the mean of white scatter a third too large. So small shares have
+ * little in the error of a mean. Nearly all slow has little, too: a part as long as the series
+ * beside a little white scatter fits as well as half and half with a shorter one, and its error is
+ * twice as large. */
+double scatter_prior(scatter_use use, size_t i);
 
 /* Sums of generalised least squares over points taken one after the other, from either end: V is
  * the covariance of unit variance, the columns of X are 1 and the number of the point. */
@@ -74,12 +81,14 @@ bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **
 /* ln (exp a + exp b), of which either may be of nothing, -INFINITY. */
 double log_add(double a, double b);
 
-/* Laws of Student's t, weighed: of what several laws of the scatter say. */
+/* Laws of Student's t, weighed: of what several laws of the scatter say, each about a constant and
+ * about a line. */
+enum { MIXTURE_MOST = 2 * SCATTER_LAWS };
 typedef struct t_mixture {
     size_t n;
-    double df;
-    double log_weight[SCATTER_LAWS], centre[SCATTER_LAWS], scale[SCATTER_LAWS];
+    double df[MIXTURE_MOST], log_weight[MIXTURE_MOST], centre[MIXTURE_MOST], scale[MIXTURE_MOST];
 } t_mixture;
+void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale);
 /* Weights become those of a sum of 1. */
 void mixture_normalise(t_mixture *m);
 double mixture_mean(const t_mixture *m);

@@ -245,12 +245,14 @@ static law_sum try_member(member *t, double log_factor, bool first)
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         if (!t->kept[i])
             continue;
-        const scatter_sums s = sum_up(t->s, t->column, scatter_law_of(i, t->s->n));
+        const scatter_sums s =
+            sum_up(t->s, t->column, scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
         /* changes about as large as the scatter of the whole are taken for possible, or else a
          * course that lies beyond the series would be as likely as it is free */
-        const double l = scatter_prior(i) + scatter_likelihood_beside(&s, t->least) -
+        const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
+                         scatter_likelihood_beside(&s, t->least) -
                          0.5 * log1p(f.variance * scatter / t->variance);
         if (!isfinite(l)) /* no course within the series */
             continue;
@@ -529,10 +531,11 @@ static wt_status begin(const course_pair *of, double settled_share, pool *memory
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums sums = scatter_begin(scatter_law_of(i, s->n));
+        scatter_sums sums = scatter_begin(scatter_law_of(SCATTER_UNDER_CHANGE, i, s->n));
         for (size_t k = 0; k < s->n; k++)
             scatter_add(&sums, s->friction[k]);
-        m->null[i] = scatter_prior(i) + scatter_likelihood(&sums, false, m->least);
+        m->null[i] =
+            scatter_prior(SCATTER_UNDER_CHANGE, i) + scatter_likelihood(&sums, false, m->least);
         m->likelihood[i] = -(double)INFINITY;
         m->kept[i] = true;
     }
