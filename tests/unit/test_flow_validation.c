@@ -150,8 +150,14 @@ static void test_needed(void **state)
         check_begins(t.validation, "verdict", "does not");
         check_begins(t.validation, "judged", layered ? "friction with" : "friction without");
         assert_int_equal(wt_table_n_rows(t.validation), STEPS);
-        for (size_t i = 0; i < STEPS; i++)
-            assert_true(fabs(number_cell(t.validation, i, "shear_stress_needed") / 8e6 - 1) < 1e-6);
+        for (size_t i = 0; i < STEPS; i++) {
+            const double needed = number_cell(t.validation, i, "shear_stress_needed"),
+                         low = number_cell(t.validation, i, "shear_stress_needed_low"),
+                         high = number_cell(t.validation, i, "shear_stress_needed_high");
+            assert_true(fabs(needed / 8e6 - 1) < 1e-6);
+            /* in the logarithm, as that of all steps */
+            assert_true(low < needed && fabs(low * high / (needed * needed) - 1) < 1e-9);
+        }
         wt_validation_tables_clear(&t);
     }
 }

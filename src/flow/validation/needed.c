@@ -10,7 +10,7 @@
  * (pressure, area, modulus ratio) are factors; what is nearer, one that may reach below 0. */
 static const double well_above = 3; /* standard errors */
 
-static wt_interval interval_of(double value, double error, double df)
+wt_interval needed_interval(double value, double error, double df)
 {
     const double half = agreement_quantile(df) * error, factor = exp(half / value);
     if (value > well_above * error)
@@ -22,7 +22,7 @@ static wt_interval interval_of(double value, double error, double df)
 static wt_status find_needed(validation *v, wt_error *err)
 {
     const trial *const t = &v->shear;
-    v->needed = interval_of(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
+    v->needed = needed_interval(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
     v->needed_shear = calloc(1 + v->p.n_draws, sizeof *v->needed_shear);
     if (v->needed_shear == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

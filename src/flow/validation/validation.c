@@ -114,11 +114,10 @@ static void add_step(const validation *v, size_t i, table_writer *t)
     if (i < v->steps.n) {
         fill_ratio(v, false, i, &row.predicted, &row.ratio);
         fill_ratio(v, true, i, &row.with_layer, &row.ratio_with_layer);
-        const double error = step_error(&v->shear, i), value = v->shear.value[i],
-                     df =
-                         agreement_df(error * error, v->shear.fit.scatter, v->shear.fit.scatter_df),
-                     half = agreement_quantile(df) * error;
-        row.needed = (wt_interval){value, error, value - half, value + half};
+        const agreement *const fit = &v->shear.fit;
+        const double error = step_error(&v->shear, i),
+                     df = agreement_df(error * error, fit->scatter, fit->scatter_df);
+        row.needed = needed_interval(v->shear.value[i], error, df);
     }
     validation_add_row(t, &row);
 }

@@ -47,6 +47,8 @@ wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err) WT_NO
 /* Interval of 95 % of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 
+/* That of 95 % of a shear stress that is asked for, with the error of its value. */
+wt_interval needed_interval(double value, double error, double df);
 /* The shear stress that the record asks for, and what is left with it. */
 wt_status needed_make(validation *v, wt_error *err) WT_NODISCARD;
 void needed_set_keys(const validation *v, table_writer *t);
