@@ -324,9 +324,8 @@ int cmd_new_case(int argc, char **argv)
         .what =
             "Writes a commented case file (weartrack-case(5)) for the files (folders, with the "
             "folders in them, and patterns): force curves as bulk or track, by the names of their "
-            "folders; DMA sweeps; a power spectrum or height maps of the counter surface; records "
-            "of "
-            "friction, with profiles across the track. What no file says stands there as " FILL_IN
+            "folders; DMA sweeps; a power spectrum or height maps of the counter surface; a record "
+            "of friction and profiles across the track. What no file says stands there as " FILL_IN
             ".",
         .common = "output formats files-from",
         .notes =

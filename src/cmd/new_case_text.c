@@ -62,8 +62,7 @@ size_t new_case_count(const new_case *c, place where)
     return n;
 }
 
-/* ---- sections ---------------------------------------------------------------------------------
- */
+/* ---- sections ------------------------------------------------------------------------------ */
 
 /* Why a file of force curves stands where it stands. */
 static void put_reason(FILE *out, const entry *e)
@@ -92,6 +91,18 @@ static void put_units(FILE *out, const char *names)
     }
 }
 
+static void put_file(FILE *out, const entry *e, const char *indent, const char *element)
+{
+    fprintf(out, "%s<%s", indent, element);
+    for (size_t k = 0; k < FOUND_N_MISSING; k++)
+        if (found_asks(&e->found, k))
+            fprintf(out, " %s=\"" FILL_IN "\"", found_missing_rows[k].name);
+    put_units(out, e->found.unitless);
+    putc('>', out);
+    put_text(out, e->in_case);
+    fprintf(out, "</%s>\n", element);
+}
+
 static void put_files(FILE *out, const new_case *c, place where, const char *element)
 {
     const char *indent = where == BULK || where == TRACK ? "      " : "    ";
@@ -108,14 +119,26 @@ static void put_files(FILE *out, const new_case *c, place where, const char *ele
             fputs(" -->\n", out);
         }
         last = e;
-        fprintf(out, "%s<%s", indent, element);
-        for (size_t k = 0; k < FOUND_N_MISSING; k++)
-            if (found_asks(&e->found, k))
-                fprintf(out, " %s=\"" FILL_IN "\"", found_missing_rows[k].name);
-        put_units(out, e->found.unitless);
-        putc('>', out);
-        put_text(out, e->in_case);
-        fprintf(out, "</%s>\n", element);
+        put_file(out, e, indent, element);
+    }
+}
+
+/* Of an element that stands once: what else it could be is a comment. */
+static void put_one(FILE *out, const new_case *c, place where, const char *element)
+{
+    const entry *first = NULL;
+    for (size_t i = 0; i < c->n; i++) {
+        const entry *e = &c->entries[i];
+        if (e->place != where)
+            continue;
+        fputs(first == NULL ? "    <!-- "
+                            : "    <!-- to have this one, too, name a folder of all: ",
+              out);
+        put_comment(out, first == NULL ? e->found.words : e->path);
+        fputs(" -->\n", out);
+        if (first == NULL)
+            put_file(out, e, "    ", element);
+        first = first != NULL ? first : e;
     }
 }
 
@@ -189,7 +212,7 @@ static void put_record(FILE *out, const new_case *c)
     if (new_case_count(c, RECORD) == 0)
         return;
     fputs("\n  <record>\n", out);
-    put_files(out, c, RECORD, "files");
+    put_one(out, c, RECORD, "files");
     bool lacks_load = false;
     for (size_t i = 0; i < c->n; i++) {
         const entry *e = &c->entries[i];
@@ -197,9 +220,9 @@ static void put_record(FILE *out, const new_case *c)
     }
     if (lacks_load)
         fputs("    <load>" FILL_IN "</load>\n", out);
-    put_section(out, c, PROFILE,
-                "    <!-- across the track, by the name of the file or folder -->\n", "profile",
-                "");
+    if (new_case_count(c, PROFILE) > 0)
+        fputs("    <!-- across the track, by the name of the file or folder -->\n", out);
+    put_one(out, c, PROFILE, "profile");
     fprintf(out,
             "    <!-- Where the files do not say it, and for wear and the pressure of a ball:\n%s"
             "    <track-radius>" FILL_IN ", such as 5mm</track-radius>\n"

@@ -290,11 +290,10 @@ static void no_answer(void **state)
         assert_true(isfinite(c.ratio) && isnan(c.ratio_low) && isnan(c.ratio_high) && isnan(c.p));
     }
     /* Unless it is told how much spots scatter: a normal interval of one spot and of two. */
-    wt_group lone = single;
-    lone.spot_scatter = 0.2;
+    wt_group lone = single, other[] = {single, pair};
+    lone.spot_scatter = other[0].spot_scatter = other[1].spot_scatter = 0.2;
     for (int i = 0; i < 2; i++) {
-        const wt_group *const other = i == 0 ? &single : &pair;
-        assert_int_equal(wt_compare(other, &lone, NULL, &c, NULL), WT_OK);
+        assert_int_equal(wt_compare(&other[i], &lone, NULL, &c, NULL), WT_OK);
         assert_int_equal(c.unsettled, WT_SETTLED);
         assert_true(c.scatter_given);
         assert_near(c.log_ratio.standard_error, 0.2 * sqrt(1 + (i == 0 ? 1 : 0.5)), 1e-12);
@@ -304,13 +303,18 @@ static void no_answer(void **state)
     }
     assert_int_equal(wt_group_summarise(&lone, &s, NULL), WT_OK);
     assert_near(log(s.high / s.low), 2 * 1.959963984540054 * 0.2, 1e-9);
-    /* beside which the curves of a spot scatter */
-    const double mean_3 = log(6) / 3,
-                 of_mean =
-                     (mean_3 * mean_3 + pow(log(2) - mean_3, 2) + pow(log(3) - mean_3, 2)) / 2 / 3;
+    /* of both groups, */
+    assert_int_equal(wt_compare(&single, &lone, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.unsettled, WT_ONE_SPOT);
+    /* beside which the curves of a spot scatter, */
+    const double mean_3 = log(6) / 3;
+    const double of_mean =
+        (mean_3 * mean_3 + pow(log(2) - mean_3, 2) + pow(log(3) - mean_3, 2)) / 2 / 3;
     lone = (wt_group){.modulus = good, .spot = one_spot, .n = 1, .spot_scatter = 0.2};
-    assert_int_equal(wt_compare(&spot, &lone, NULL, &c, NULL), WT_OK);
-    assert_near(c.log_ratio.standard_error, sqrt(0.04 + 0.04 + of_mean), 1e-12);
+    wt_group curves = spot;
+    curves.spot_scatter = 0.1;
+    assert_int_equal(wt_compare(&curves, &lone, NULL, &c, NULL), WT_OK);
+    assert_near(c.log_ratio.standard_error, sqrt(0.01 + 0.04 + of_mean), 1e-12);
     /* which three spots tell themselves. */
     lone = a;
     lone.spot_scatter = 0.2;

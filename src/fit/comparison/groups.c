@@ -98,12 +98,12 @@ static int by_cell(const void *a, const void *b)
  * and rate; 0 where no two of them share both. */
 static double curve_variance(const wt_group *group, pool *memory)
 {
-    cell *cells = pool_alloc(memory, group->n, sizeof *cells);
-    double sum = 0, freedom = 0;
     if (group->spot == NULL)
         return 0; /* each is a spot */
+    cell *cells = pool_alloc(memory, group->n, sizeof *cells);
+    double sum = 0, freedom = 0;
     if (cells == NULL)
-        return (double)NAN;
+        return (double)NAN; /* memory->failed says why */
     for (size_t i = 0; i < group->n; i++)
         cells[i] = (cell){group->spot[i], group->rate_class != NULL ? group->rate_class[i] : 0,
                           log(group->modulus[i])};
@@ -149,6 +149,8 @@ static wt_status summarise_group(const wt_group *group, const units *u, pool *me
         summary->log_standard_error =
             sqrt(group->spot_scatter * group->spot_scatter + curve_variance(group, memory));
         summary->df = (double)INFINITY;
+        if (memory->failed)
+            return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     }
     if (!isnan(summary->log_standard_error)) {
         const double reach = students_t_quantile(summary->df) * summary->log_standard_error;
@@ -195,10 +197,11 @@ static bool few_spots(const compare_units *u)
     return fewer < 2 && more < COMPARE_MANY_SPOTS;
 }
 
-static wt_unsettled why_unsettled(const compare_units *u, double spot_scatter)
+/* given: how much the spots of both groups scatter. */
+static wt_unsettled why_unsettled(const compare_units *u, bool given)
 {
     const bool lone = u->n[0] < 2 || u->n[1] < 2;
-    if ((few_spots(u) && !(spot_scatter > 0)) || (lone && u->rates_by == WT_RATES_BETWEEN))
+    if ((few_spots(u) && !given) || (lone && u->rates_by == WT_RATES_BETWEEN))
         return WT_ONE_SPOT;
     if (!u->known)
         return WT_RATES_APART;
@@ -246,8 +249,7 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
     const moments a = moments_of(u->value[0], u->n[0]);
     const moments b = moments_of(u->value[1], u->n[1]);
     const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
-    const double spot_scatter = fmax(groups[0]->spot_scatter, groups[1]->spot_scatter);
-    c->unsettled = why_unsettled(u, spot_scatter);
+    c->unsettled = why_unsettled(u, groups[0]->spot_scatter > 0 && groups[1]->spot_scatter > 0);
     if (c->unsettled == WT_SETTLED && !few_spots(u) && !(a.variance > 0.0) && !(b.variance > 0.0)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
@@ -263,9 +265,12 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
         return WT_OK;
     double given = 0;
     if (few_spots(u))
-        for (int g = 0; g < 2; g++)
-            given += spot_scatter * spot_scatter / (double)u->n[g] +
-                     (c->by_spot ? curve_variance(groups[g], memory) : 0);
+        for (int g = 0; g < 2; g++) {
+            const double spot = groups[g]->spot_scatter, all = (double)groups[g]->n;
+            given += spot * spot / (double)u->n[g];
+            if (c->by_spot) /* of the curves that are compared */
+                given += curve_variance(groups[g], memory) * all / (double)u->curves[g];
+        }
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the scatter of curves");
     put_interval(u, a, b, known, given, c);

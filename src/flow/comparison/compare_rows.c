@@ -170,10 +170,11 @@ static void warn_one_spot(const comparison_task *task)
     if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
         return;
     if (c->scatter_given) {
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "that the track differs rests on spots that scatter by %.3g %%, as given: "
-                        "one spot does not tell it; three spots in each group would",
-                        100 * task->job->spot_scatter);
+        wt_parselog_add(
+            task->work->log, WT_WARNING, NULL, NULL,
+            "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
+            "one spot does not tell it; three spots in each group would",
+            100 * task->job->spot_scatter);
         return;
     }
     const int g = c->n_track == 1;

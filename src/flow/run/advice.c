@@ -24,14 +24,15 @@ void flow_case_advice(wt_error *failure)
     const char *const option = strstr(failure->advice, "--");
     const char *const name = option != NULL ? option + 2 : "";
     const size_t length = strspn(name, letters), end = strlen(failure->advice);
-    char *const behind = failure->advice + end;
+    char how[96] = "";
     if (strstr(failure->advice, "(in a case: ") != NULL)
         return; /* of a file, which is why a stage failed */
     if (is_of(wt_read_params(), name, length))
-        snprintf(behind, sizeof failure->advice - end,
+        snprintf(how, sizeof how,
                  " (in a case: the attribute %.*s=\"...\" where the file is named)", (int)length,
                  name);
     else if (is_of(wt_master_job_params(), name, length))
-        snprintf(behind, sizeof failure->advice - end, " (in a case: <%.*s> in <dma>)", (int)length,
-                 name);
+        snprintf(how, sizeof how, " (in a case: <%.*s> in <dma>)", (int)length, name);
+    if (strlen(how) < sizeof failure->advice - end) /* half of it would mislead */
+        memcpy(failure->advice + end, how, strlen(how) + 1);
 }
